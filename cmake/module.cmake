@@ -1,0 +1,40 @@
+# One static library a folder of src/. Sources are globbed, so a new file needs no list to be edited.
+
+add_library(sumogamma_options INTERFACE)
+# -ffp-contract=off: the same bits with and without FMA hardware (house rule: determinism)
+target_compile_options(sumogamma_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic
+  -Wconversion -Wshadow -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion)
+if(SUMOGAMMA_WARNINGS_AS_ERRORS)
+  target_compile_options(sumogamma_options INTERFACE -Werror)
+endif()
+if(SUMOGAMMA_SANITIZE)
+  target_compile_options(sumogamma_options INTERFACE -fsanitize=${SUMOGAMMA_SANITIZE}
+    -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+  target_link_options(sumogamma_options INTERFACE -fsanitize=${SUMOGAMMA_SANITIZE})
+endif()
+target_include_directories(sumogamma_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
+target_link_libraries(sumogamma_options INTERFACE Eigen3::Eigen Threads::Threads)
+
+# sumogamma_module(NAME [DEPENDS MODULE...]): src/NAME/*.cpp becomes sumogamma_NAME. External libraries of a
+# module stand in cmake/dependencies.cmake as SUMOGAMMA_LIBS_<NAME>.
+function(sumogamma_module name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  list(TRANSFORM ARG_DEPENDS PREPEND sumogamma_)
+  if(sources)
+    add_library(sumogamma_${name} STATIC ${sources})
+    target_link_libraries(sumogamma_${name} PUBLIC sumogamma_options ${ARG_DEPENDS} ${SUMOGAMMA_LIBS_${name}})
+  else()
+    add_library(sumogamma_${name} INTERFACE)
+    target_link_libraries(sumogamma_${name} INTERFACE sumogamma_options ${ARG_DEPENDS} ${SUMOGAMMA_LIBS_${name}})
+  endif()
+endfunction()
+
+function(sumogamma_program target folder)
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${folder}/*.cpp)
+  list(TRANSFORM ARG_DEPENDS PREPEND sumogamma_)
+  add_executable(${target} ${sources})
+  target_link_libraries(${target} PRIVATE sumogamma_options ${ARG_DEPENDS} ${SUMOGAMMA_LIBS_${folder}})
+  target_compile_definitions(${target} PRIVATE SUMOGAMMA_VERSION="${PROJECT_VERSION}")
+endfunction()

@@ -1,0 +1,39 @@
+#include "model/preferred_velocity.h"
+
+#include <algorithm>
+
+namespace sumogamma {
+
+namespace {
+Vec2 towards(const Vec2& from, const Vec2& to, double speed) {
+  const Vec2 delta = to - from;
+  const double distance = delta.norm();
+  return distance > 1e-9 ? Vec2(delta * (speed / distance)) : Vec2(Vec2::Zero());
+}
+}  // namespace
+
+Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row, const Intention& intention) {
+  const AgentType& type = type_of(model.types, scene.type[row]);
+  switch (intention.kind) {
+    case IntentionKind::Goal:
+      return towards(scene.position[row], intention.goal, scene.preferred_speed[row]);
+    case IntentionKind::Path: {
+      const RoadContext& context = scene.context[row];
+      if (!context.active) return towards(scene.position[row], intention.goal, scene.preferred_speed[row]);
+      return towards(scene.position[row], context.sub_goal, std::min(context.speed_limit, scene.preferred_speed[row]));
+    }
+    case IntentionKind::KeepVelocity:
+      return scene.velocity[row];
+    case IntentionKind::KeepAcceleration: {
+      const Vec2 later = scene.velocity[row] + 0.5 * type.horizon * scene.acceleration[row];
+      const double speed = later.norm();
+      return speed > type.max_speed ? Vec2(later * (type.max_speed / speed)) : later;
+    }
+    case IntentionKind::ConstantTurnRate:
+    case IntentionKind::Stop:
+      break;
+  }
+  return Vec2::Zero();
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,139 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "geometry/polyline.h"
+#include "geometry/vec2.h"
+
+namespace sumogamma {
+
+enum class LaneId : std::int32_t {};
+enum class EdgeId : std::int32_t {};
+enum class JunctionId : std::int32_t {};
+enum class SignalId : std::int32_t {};
+enum class ConnectionId : std::int32_t {};
+inline constexpr LaneId kNoLane{-1};
+inline constexpr EdgeId kNoEdge{-1};
+inline constexpr JunctionId kNoJunction{-1};
+inline constexpr SignalId kNoSignal{-1};
+inline constexpr ConnectionId kNoConnection{-1};
+
+/// Position of an id in its array.
+template <typename Id>
+constexpr std::size_t index_of(Id id) {
+  return static_cast<std::size_t>(id);
+}
+
+/// SUMO's abstract vehicle classes that matter here, as bits of a mask (page Simulation/VehiclePermissions).
+using VehicleClassMask = std::uint32_t;
+namespace vehicle_class {
+inline constexpr VehicleClassMask kPedestrian = 1u << 0, kBicycle = 1u << 1, kMotorcycle = 1u << 2, kMoped = 1u << 3,
+                                  kPassenger = 1u << 4, kDelivery = 1u << 5, kTruck = 1u << 6, kTrailer = 1u << 7,
+                                  kBus = 1u << 8, kTaxi = 1u << 9, kEmergency = 1u << 10, kTram = 1u << 11,
+                                  kRail = 1u << 12, kOther = 1u << 13, kAll = ~0u;
+}
+/// Mask of a SUMO class name; kOther for one not listed above ("rail_urban" and its kin are kRail, "ship" is kOther).
+VehicleClassMask vehicle_class_from_name(const std::string& name);
+
+enum class LaneKind : std::uint8_t { Normal, Internal, Crossing, WalkingArea };
+
+/// A lane of any kind; immutable after reading.
+struct Lane {
+  std::string name;
+  EdgeId edge = kNoEdge;
+  int index = 0;  ///< within the edge, 0 = rightmost (leftmost with left-hand traffic)
+  LaneKind kind = LaneKind::Normal;
+  VehicleClassMask allowed = vehicle_class::kAll;
+  double speed_limit = 0;     ///< [m/s]
+  double width = 0;           ///< [m]
+  Polyline centerline;        ///< [m]; of a walking area: its outline ring (not a path)
+  std::vector<Vec2> outline;  ///< polygon of a walking area or crossing as in the file, else empty
+  LaneId inner = kNoLane;     ///< neighbour with the next higher index on the same edge (towards the road's middle)
+  LaneId outer = kNoLane;     ///< neighbour with the next lower index on the same edge (towards the kerb)
+  LaneId opposite = kNoLane;  ///< nearest lane of the opposite direction, where the network says so
+  JunctionId junction = kNoJunction;       ///< of internal lanes, crossings and walking areas
+  std::vector<ConnectionId> outgoing;      ///< connections that start here
+  std::vector<ConnectionId> incoming;      ///< connections that end here
+};
+
+struct Edge {
+  std::string name;
+  LaneKind kind = LaneKind::Normal;
+  JunctionId from = kNoJunction, to = kNoJunction;
+  int priority = 0;
+  std::string type;           ///< OSM type such as "highway.primary"; may be empty
+  std::vector<LaneId> lanes;  ///< by index
+  std::vector<EdgeId> crossing_edges;  ///< of a crossing: the edges that it crosses
+};
+
+/// A link from lane to lane over a junction.
+struct Connection {
+  LaneId from = kNoLane, to = kNoLane;
+  LaneId via = kNoLane;  ///< first internal lane, kNoLane where the lanes meet directly
+  JunctionId junction = kNoJunction;
+  int junction_link = -1;  ///< index into Junction::requests; -1 where the link has none
+  SignalId signal = kNoSignal;
+  int signal_link = -1;    ///< index into the signal's state string
+  char direction = 's';    ///< SUMO's dir: s straight, l left, r right, t turn-around, L partially left, R partially right
+  char state = 'M';        ///< SUMO's static state: M major, m minor, = equal, s stop, w all-way stop, o/O off, Z zipper
+};
+
+/// One row of a junction's right-of-way matrix (SUMO page Networks/SUMO_Road_Networks#requests).
+struct RightOfWay {
+  std::vector<bool> yields_to;  ///< by link: this link must let that one pass
+  std::vector<bool> conflicts;  ///< by link: the two paths cross or merge
+  bool may_stop_inside = false; ///< SUMO's cont: may wait on the junction
+};
+
+struct Junction {
+  std::string name;
+  std::string type;  ///< priority, traffic_light, right_before_left, allway_stop, dead_end, ...
+  Vec2 position = Vec2::Zero();
+  std::vector<Vec2> outline;
+  std::vector<RightOfWay> requests;
+  std::vector<ConnectionId> links;  ///< by request index; kNoConnection for an index without a connection
+  bool in_roundabout = false;
+};
+
+/// A signal program as the network file gives it; the live state comes from SUMO.
+struct Signal {
+  std::string name;
+  std::size_t size = 0;  ///< number of links = length of its state string
+};
+
+enum class ObstacleKind : std::uint8_t { Building, Barrier, Furniture };
+
+/// A solid thing off the road network that nobody walks or drives through.
+struct Obstacle {
+  ObstacleKind kind = ObstacleKind::Building;
+  std::vector<Vec2> outline;  ///< closed ring without a repeated point (Building) or open chain (Barrier)
+};
+
+/// Everything immutable about the place: built once by the reader, valid by construction.
+struct RoadNetwork {
+  bool left_hand = false;
+  std::vector<Lane> lanes;
+  std::vector<Edge> edges;
+  std::vector<Connection> connections;
+  std::vector<Junction> junctions;
+  std::vector<Signal> signals;
+  std::vector<Obstacle> obstacles;
+  Vec2 lower_corner = Vec2::Zero(), upper_corner = Vec2::Zero();  ///< bounding box of the network [m]
+  std::string projection;               ///< PROJ string of the file, "!" where there is none
+  Vec2 projection_offset = Vec2::Zero();///< added to projected coordinates [m]
+
+  std::unordered_map<std::string, LaneId> lane_by_name;
+  std::unordered_map<std::string, EdgeId> edge_by_name;
+  std::unordered_map<std::string, JunctionId> junction_by_name;
+  std::unordered_map<std::string, SignalId> signal_by_name;
+
+  const Lane& lane(LaneId id) const { return lanes[index_of(id)]; }
+  const Edge& edge(EdgeId id) const { return edges[index_of(id)]; }
+  const Connection& connection(ConnectionId id) const { return connections[index_of(id)]; }
+  const Junction& junction(JunctionId id) const { return junctions[index_of(id)]; }
+};
+
+}  // namespace sumogamma

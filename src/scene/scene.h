@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/vec2.h"
+#include "scene/agent_type.h"
+#include "scene/behavior.h"
+#include "scene/footprint.h"
+#include "scene/road_context.h"
+
+namespace sumogamma {
+
+/// Stable for a run; SUMO's strings stay in src/sumo.
+struct AgentId {
+  std::uint32_t value = 0;
+  friend auto operator<=>(const AgentId&, const AgentId&) = default;
+};
+
+/// Where an agent is on the lane network.
+struct LanePosition {
+  LaneId lane = kNoLane;
+  double along = 0;   ///< of the footprint's centre [m] from the lane's start
+  double offset = 0;  ///< [m], positive to the left
+};
+
+/// Who moves an agent. Others see every agent, whoever drives it.
+enum class Control : std::uint8_t {
+  Gamma,     ///< by this model
+  External,  ///< by the world (SUMO): observed, never commanded
+};
+
+/// The state of everybody at one instant: parallel arrays of equal length, one entry an agent, in order of id.
+/// A copyable value, so that a planner can fork it.
+struct Scene {
+  double time = 0;          ///< [s]
+  std::int64_t tick = 0;
+  std::vector<AgentId> id;
+  std::vector<AgentTypeId> type;
+  std::vector<Footprint> footprint;      ///< body axes about the centre [m]
+  std::vector<Vec2> position;            ///< footprint centre [m]
+  std::vector<double> heading;           ///< counter-clockwise from +x [rad]
+  std::vector<Vec2> velocity;            ///< of the footprint centre [m/s]
+  std::vector<double> speed;             ///< along the heading, of the rear axle; >= 0 [m/s]
+  std::vector<double> steering;          ///< front wheel angle, positive left [rad]
+  std::vector<Vec2> acceleration;        ///< observed, for KeepAcceleration [m/s^2]
+  std::vector<double> preferred_speed;   ///< [m/s]
+  std::vector<BehaviorState> behavior;
+  std::vector<Control> control;
+  std::vector<PathId> path;              ///< kNoPath off any network
+  std::vector<double> path_along;        ///< of the centre along the path [m]
+  std::vector<LanePosition> lane;
+  std::vector<RoadContext> context;      ///< filled every tick from the frozen scene
+
+  std::size_t size() const { return id.size(); }
+};
+
+/// One agent as a row to append. Everything that has a natural default has it.
+struct AgentState {
+  AgentId id;
+  AgentTypeId type{};
+  Footprint footprint;
+  Vec2 position = Vec2::Zero();
+  double heading = 0;
+  double speed = 0;
+  double preferred_speed = 0;
+  BehaviorState behavior;
+  Control control = Control::Gamma;
+  PathId path = kNoPath;
+};
+
+/// Appends a row. Precondition: its id is larger than every id present (rows stay in order of id).
+void append_agent(Scene& scene, const AgentState& agent);
+
+/// Removes the rows marked true, keeping the order of the rest. `removed` has one entry a row.
+void remove_agents(Scene& scene, const std::vector<bool>& removed);
+
+/// Row of an id, or size() where it is not present. O(log n).
+std::size_t find_row(const Scene& scene, AgentId id);
+
+/// 64-bit FNV-1a hash continued from `hash` over every agent's id and exact state bits.
+std::uint64_t hash_state(const Scene& scene, std::uint64_t hash = 0xcbf29ce484222325ULL);
+
+}  // namespace sumogamma
