@@ -1,0 +1,247 @@
+#include <algorithm>
+#include <limits>
+
+#include "road/path.h"
+#include "road/path_profile.h"
+
+namespace sumogamma {
+
+namespace {
+
+constexpr double kUnreachable = std::numeric_limits<double>::infinity();
+
+/// One lane of one edge of the route and the cheapest way on from it.
+struct LaneChoice {
+  double cost = kUnreachable;           ///< lane changes from entering here to the route's end
+  int exit_index = -1;                  ///< lane index on which the edge is left
+  ConnectionId next = kNoConnection;    ///< connection taken from there
+};
+
+bool allows(const Lane& lane, VehicleClassMask vehicle_class) { return (lane.allowed & vehicle_class) != 0; }
+
+/// Cost of changing n lanes on an edge: a change needs some 25 m, so short edges cost more.
+double change_cost(int changes, double length) {
+  if (changes == 0) return 0.0;
+  return changes * (1.0 + 50.0 / std::max(length, 5.0));
+}
+
+/// Backward dynamic program over the route: cheapest lane choice for every lane of every edge.
+std::vector<std::vector<LaneChoice>> plan_lanes(const RoadNetwork& network, const PathRequest& request) {
+  const std::size_t edges = request.route.size();
+  std::vector<std::vector<LaneChoice>> plan(edges);
+  for (std::size_t i = edges; i-- > 0;) {
+    const Edge& edge = network.edge(request.route[i]);
+    const auto count = static_cast<int>(edge.lanes.size());
+    plan[i].resize(edge.lanes.size());
+    // cheapest continuation from leaving each lane
+    std::vector<double> exit_cost(edge.lanes.size(), kUnreachable);
+    std::vector<ConnectionId> exit_link(edge.lanes.size(), kNoConnection);
+    for (int k = 0; k < count; ++k) {
+      const Lane& lane = network.lane(edge.lanes[static_cast<std::size_t>(k)]);
+      if (!allows(lane, request.vehicle_class)) continue;
+      if (i + 1 == edges) {
+        exit_cost[static_cast<std::size_t>(k)] = 0.0;
+        continue;
+      }
+      for (const ConnectionId id : lane.outgoing) {
+        const Lane& target = network.lane(network.connection(id).to);
+        if (target.edge != request.route[i + 1] || !allows(target, request.vehicle_class)) continue;
+        const double cost = plan[i + 1][static_cast<std::size_t>(target.index)].cost;
+        if (cost < exit_cost[static_cast<std::size_t>(k)]) {
+          exit_cost[static_cast<std::size_t>(k)] = cost;
+          exit_link[static_cast<std::size_t>(k)] = id;
+        }
+      }
+    }
+    for (int entry = 0; entry < count; ++entry) {
+      const Lane& lane = network.lane(edge.lanes[static_cast<std::size_t>(entry)]);
+      if (!allows(lane, request.vehicle_class)) continue;
+      LaneChoice& choice = plan[i][static_cast<std::size_t>(entry)];
+      for (int exit = 0; exit < count; ++exit) {
+        const double cost = exit_cost[static_cast<std::size_t>(exit)] +
+                            change_cost(std::abs(exit - entry), lane.centerline.length());
+        if (cost < choice.cost) choice = {cost, exit, exit_link[static_cast<std::size_t>(exit)]};
+      }
+    }
+  }
+  return plan;
+}
+
+/// Width of the lanes beside `lane` that the class may use, on the inner or outer side [m].
+double side_width(const RoadNetwork& network, const Lane& lane, VehicleClassMask vehicle_class, bool inner) {
+  double width = 0.0;
+  const Lane* here = &lane;
+  for (;;) {
+    const LaneId next = inner ? here->inner : here->outer;
+    if (next == kNoLane || !allows(network.lane(next), vehicle_class)) return width;
+    here = &network.lane(next);
+    width += here->width;
+  }
+}
+
+class Builder {
+ public:
+  Builder(const RoadNetwork& network, const PathRequest& request) : network_(network), request_(request) {}
+
+  /// Runs along one lane between two places on it.
+  void follow(LaneId id, double from, double to) {
+    const Lane& lane = network_.lane(id);
+    begin_stretch(id, from);
+    append_span(lane.centerline, from, std::max(to, from), points_);
+    end_stretch();
+  }
+
+  /// Moves over from one lane to its neighbour on the same edge while covering [from, to] of both.
+  void change(LaneId old_lane, LaneId new_lane, double from, double to) {
+    const Polyline& start = network_.lane(old_lane).centerline;
+    const Polyline& end = network_.lane(new_lane).centerline;
+    const double scale = start.length() > 0 ? end.length() / start.length() : 1.0;
+    begin_stretch(new_lane, from * scale);
+    const int steps = std::max(4, static_cast<int>((to - from) / 3.0));
+    for (int k = 0; k <= steps; ++k) {
+      const double t = static_cast<double>(k) / steps;
+      const double blend = t * t * (3.0 - 2.0 * t);
+      const double along = from + t * (to - from);
+      points_.push_back((1.0 - blend) * start.point_at(along) + blend * end.point_at(along * scale));
+    }
+    end_stretch();
+  }
+
+  /// Crosses a junction by a connection; nullopt-like false where its internal lanes don't lead to the target.
+  bool cross(ConnectionId id) {
+    const Connection& connection = network_.connection(id);
+    PathLink link{id, length(), 0.0};
+    LaneId lane = connection.via;
+    for (int hops = 0; lane != kNoLane; ++hops) {
+      if (hops > 8) return false;
+      follow(lane, 0.0, network_.lane(lane).centerline.length());
+      LaneId next = kNoLane;
+      bool arrived = false;
+      for (const ConnectionId onward : network_.lane(lane).outgoing) {
+        if (network_.connection(onward).to != connection.to) continue;
+        next = network_.connection(onward).via;
+        arrived = true;
+        break;
+      }
+      if (!arrived && !network_.lane(lane).outgoing.empty()) return false;
+      lane = next;
+    }
+    link.end = length();
+    path_.links.push_back(link);
+    return true;
+  }
+
+  double length() {
+    while (measured_ < points_.size()) {
+      if (measured_ > 0) length_ += (points_[measured_] - points_[measured_ - 1]).norm();
+      ++measured_;
+    }
+    return length_;
+  }
+
+  Path finish() {
+    path_.line = Polyline(std::move(points_));
+    path_.arrival = path_.line.length();
+    if (path_.stretches.empty()) path_.stretches.push_back({});
+    path_.stretches.back().to = path_.arrival;
+    compute_speed_profile(request_, path_);
+    return std::move(path_);
+  }
+
+ private:
+  void begin_stretch(LaneId id, double lane_from) {
+    const Lane& lane = network_.lane(id);
+    PathStretch stretch;
+    stretch.lane = id;
+    stretch.from = length();
+    stretch.lane_from = lane_from;
+    stretch.speed_limit = lane.speed_limit;
+    const double inner = 0.5 * lane.width + side_width(network_, lane, request_.vehicle_class, true);
+    const double outer = 0.5 * lane.width + side_width(network_, lane, request_.vehicle_class, false);
+    // lanes count from the kerb, so the inner side is the left one unless traffic keeps left
+    stretch.room_left = network_.left_hand ? outer : inner;
+    stretch.room_right = network_.left_hand ? inner : outer;
+    path_.stretches.push_back(stretch);
+  }
+  void end_stretch() { path_.stretches.back().to = length(); }
+
+  const RoadNetwork& network_;
+  const PathRequest& request_;
+  Path path_;
+  std::vector<Vec2> points_;
+  std::size_t measured_ = 0;
+  double length_ = 0.0;
+};
+
+/// Covers one edge from lane `entry` to lane `exit`, [from, to] along it, with lane changes spread early.
+LaneId cover_edge(const RoadNetwork& network, const Edge& edge, int entry, int exit, double from, double to,
+                  Builder& builder) {
+  const double room = to - from;
+  const int changes = std::abs(exit - entry);
+  int index = entry;
+  double along = from;
+  if (changes > 0) {
+    const double speed = network.lane(edge.lanes[static_cast<std::size_t>(entry)]).speed_limit;
+    const double each = std::min(std::clamp(3.5 * speed, 15.0, 60.0), 0.85 * room / changes);
+    const double lead_in = std::min(0.1 * room, 20.0);
+    builder.follow(edge.lanes[static_cast<std::size_t>(index)], along, along + lead_in);
+    along += lead_in;
+    for (int k = 0; k < changes; ++k) {
+      const int next = index + (exit > index ? 1 : -1);
+      builder.change(edge.lanes[static_cast<std::size_t>(index)], edge.lanes[static_cast<std::size_t>(next)], along,
+                     along + each);
+      along += each;
+      index = next;
+    }
+  }
+  const LaneId lane = edge.lanes[static_cast<std::size_t>(index)];
+  builder.follow(lane, along, std::max(along, std::min(to, network.lane(lane).centerline.length())));
+  return lane;
+}
+
+}  // namespace
+
+std::optional<Path> build_driving_path(const RoadNetwork& network, const PathRequest& request, std::string& why) {
+  if (request.route.empty()) {
+    why = "the route has no edges";
+    return std::nullopt;
+  }
+  const auto plan = plan_lanes(network, request);
+  const Edge& first = network.edge(request.route.front());
+  int entry = -1;
+  if (request.start_lane != kNoLane && network.lane(request.start_lane).edge == request.route.front() &&
+      plan[0][static_cast<std::size_t>(network.lane(request.start_lane).index)].cost < kUnreachable)
+    entry = network.lane(request.start_lane).index;
+  for (std::size_t k = 0; entry < 0 && k < first.lanes.size(); ++k) {
+    const bool better = plan[0][k].cost < kUnreachable &&
+                        std::all_of(plan[0].begin(), plan[0].end(),
+                                    [&](const LaneChoice& other) { return plan[0][k].cost <= other.cost; });
+    if (better) entry = static_cast<int>(k);
+  }
+  if (entry < 0) {
+    why = "no lane leads from edge '" + first.name + "' along the route to '" +
+          network.edge(request.route.back()).name + "' for this vehicle class";
+    return std::nullopt;
+  }
+
+  Builder builder(network, request);
+  double from = request.start_along;
+  for (std::size_t i = 0; i < request.route.size(); ++i) {
+    const Edge& edge = network.edge(request.route[i]);
+    const LaneChoice& choice = plan[i][static_cast<std::size_t>(entry)];
+    const double length = network.lane(edge.lanes[static_cast<std::size_t>(entry)]).centerline.length();
+    const bool last = i + 1 == request.route.size();
+    const double to = last && request.arrival_position >= 0.0 ? std::min(request.arrival_position, length) : length;
+    cover_edge(network, edge, entry, choice.exit_index, std::min(from, to), to, builder);
+    if (last) break;
+    if (!builder.cross(choice.next)) {
+      why = "the junction after edge '" + edge.name + "' has no complete internal lane";
+      return std::nullopt;
+    }
+    entry = network.lane(network.connection(choice.next).to).index;
+    from = 0.0;
+  }
+  return builder.finish();
+}
+
+}  // namespace sumogamma

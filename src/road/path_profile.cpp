@@ -1,0 +1,71 @@
+#include "road/path_profile.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sumogamma {
+
+namespace {
+/// Curvature of the circle through three points [1/m], 0 where they are collinear or coincide.
+double menger_curvature(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const double product = (b - a).norm() * (c - b).norm() * (c - a).norm();
+  return product > 1e-9 ? 2.0 * std::abs(cross(b - a, c - b)) / product : 0.0;
+}
+}  // namespace
+
+void compute_speed_profile(const PathRequest& request, Path& path) {
+  constexpr double kReach = 4.0;
+  const double length = path.line.length();
+  const auto samples = static_cast<std::size_t>(std::ceil(length / Path::kProfileStep)) + 1;
+  path.speed_profile.resize(samples);
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double along = std::min(static_cast<double>(i) * Path::kProfileStep, length);
+    double speed = std::min(path.stretch_at(along).speed_limit, request.max_speed);
+    if (!path.walking && along > kReach && along < length - kReach) {
+      const double curvature = menger_curvature(path.line.point_at(along - kReach), path.line.point_at(along),
+                                                path.line.point_at(along + kReach));
+      if (curvature > 1e-4) speed = std::min(speed, std::sqrt(request.max_lateral_acceleration / curvature));
+    }
+    path.speed_profile[i] = std::max(speed, 1.5);
+  }
+  if (path.walking) return;
+  for (std::size_t i = samples - 1; i-- > 0;) {
+    const double ahead = path.speed_profile[i + 1];
+    const double brake = std::sqrt(ahead * ahead + 2.0 * request.comfortable_deceleration * Path::kProfileStep);
+    path.speed_profile[i] = std::min(path.speed_profile[i], brake);
+  }
+}
+
+void append_span(const Polyline& line, double from, double to, std::vector<Vec2>& points) {
+  points.push_back(line.point_at(from));
+  const auto& vertices = line.points();
+  if (from <= to) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const double along = line.along_of_vertex(i);
+      if (along > from && along < to) points.push_back(vertices[i]);
+    }
+  } else {
+    for (std::size_t i = vertices.size(); i-- > 0;) {
+      const double along = line.along_of_vertex(i);
+      if (along < from && along > to) points.push_back(vertices[i]);
+    }
+  }
+  points.push_back(line.point_at(to));
+}
+
+const PathStretch& Path::stretch_at(double along) const {
+  auto after = std::upper_bound(stretches.begin(), stretches.end(), along,
+                                [](double value, const PathStretch& stretch) { return value < stretch.from; });
+  return after == stretches.begin() ? stretches.front() : *(after - 1);
+}
+
+double Path::profile_at(double along) const {
+  if (speed_profile.empty()) return 0.0;
+  const double place = std::max(along, 0.0) / kProfileStep;
+  const auto index = static_cast<std::size_t>(place);
+  if (index + 1 >= speed_profile.size()) return speed_profile.back();
+  const double t = place - static_cast<double>(index);
+  return (1.0 - t) * speed_profile[index] + t * speed_profile[index + 1];
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,238 @@
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <queue>
+
+#include "road/path.h"
+#include "road/path_profile.h"
+
+namespace sumogamma {
+
+namespace {
+
+/// The lane of an edge on which pedestrians walk: the lowest index that admits them, as in SUMO.
+LaneId walking_lane(const RoadNetwork& network, EdgeId edge) {
+  for (const LaneId id : network.edge(edge).lanes)
+    if (network.lane(id).allowed & vehicle_class::kPedestrian) return id;
+  return kNoLane;
+}
+
+/// Lanes reached from one lane on foot: connections count in both directions.
+void for_each_walking_neighbour(const RoadNetwork& network, LaneId id, auto&& visit) {
+  for (const ConnectionId c : network.lane(id).outgoing) visit(network.connection(c).to);
+  for (const ConnectionId c : network.lane(id).incoming) visit(network.connection(c).from);
+}
+
+Vec2 middle_of(const std::vector<Vec2>& outline) {
+  Vec2 sum = Vec2::Zero();
+  for (const Vec2& point : outline) sum += point;
+  return outline.empty() ? sum : Vec2(sum / static_cast<double>(outline.size()));
+}
+
+/// A representative place of a walking area or crossing, for distances in the search.
+Vec2 middle_of(const Lane& lane) {
+  return lane.kind == LaneKind::WalkingArea ? middle_of(lane.outline) : lane.centerline.point_at(0.5 * lane.centerline.length());
+}
+
+/// Walking areas and crossings between two sidewalk ends, by least distance; empty where there is none and they don't touch.
+std::vector<LaneId> find_junction_walk(const RoadNetwork& network, LaneId from, LaneId to, const Vec2& start,
+                                       const Vec2& end, double& cost) {
+  struct Reached {
+    double cost;
+    LaneId lane;
+    bool operator<(const Reached& other) const { return cost > other.cost || (cost == other.cost && lane > other.lane); }
+  };
+  std::map<LaneId, std::pair<double, LaneId>> best;  // cost and predecessor
+  std::priority_queue<Reached> open;
+  open.push({0.0, from});
+  best[from] = {0.0, kNoLane};
+  while (!open.empty()) {
+    const Reached here = open.top();
+    open.pop();
+    if (here.cost > best[here.lane].first) continue;
+    if (here.lane == to) {
+      std::vector<LaneId> lanes;
+      for (LaneId lane = best[to].second; lane != from && lane != kNoLane; lane = best[lane].second) lanes.push_back(lane);
+      std::reverse(lanes.begin(), lanes.end());
+      cost = here.cost;
+      return lanes;
+    }
+    const Vec2 place = here.lane == from ? start : middle_of(network.lane(here.lane));
+    for_each_walking_neighbour(network, here.lane, [&](LaneId next) {
+      const Lane& lane = network.lane(next);
+      const bool inside = lane.kind == LaneKind::WalkingArea || lane.kind == LaneKind::Crossing;
+      if (next != to && !inside) return;
+      const double step = ((next == to ? end : middle_of(lane)) - place).norm() + (lane.kind == LaneKind::Crossing ? 4.0 : 0.1);
+      const double total = here.cost + step;
+      const auto known = best.find(next);
+      if (known != best.end() && known->second.first <= total) return;
+      best[next] = {total, here.lane};
+      open.push({total, next});
+    });
+  }
+  cost = std::numeric_limits<double>::infinity();
+  return {};
+}
+
+/// Connection by which a crossing is entered: the one that carries its signal and right-of-way index.
+ConnectionId crossing_link(const RoadNetwork& network, LaneId crossing) {
+  ConnectionId found = kNoConnection;
+  for (const auto* list : {&network.lane(crossing).incoming, &network.lane(crossing).outgoing})
+    for (const ConnectionId id : *list) {
+      const Connection& connection = network.connection(id);
+      if (connection.signal != kNoSignal || connection.junction_link >= 0) return id;
+      if (found == kNoConnection) found = id;
+    }
+  return found;
+}
+
+class Walk {
+ public:
+  explicit Walk(const RoadNetwork& network) : network_(network) { path_.walking = true; }
+
+  void along_lane(LaneId id, double from, double to) {
+    const Lane& lane = network_.lane(id);
+    PathStretch stretch;
+    stretch.lane = id;
+    stretch.from = connect_to(lane.centerline.point_at(from));
+    stretch.lane_from = from;
+    stretch.reversed = to < from;
+    stretch.speed_limit = std::max(lane.speed_limit, 1.0);
+    stretch.room_left = stretch.room_right = 0.5 * lane.width + (lane.kind == LaneKind::Crossing ? 0.5 : 0.0);
+    PathLink link{kNoConnection, stretch.from, 0.0};
+    path_.stretches.push_back(stretch);
+    append_span(lane.centerline, from, to, points_);
+    path_.stretches.back().to = length();
+    if (lane.kind == LaneKind::Crossing) {
+      link.connection = crossing_link(network_, id);
+      link.end = length();
+      if (link.connection != kNoConnection) path_.links.push_back(link);
+    }
+  }
+
+  /// Free walking over an area to where the next lane begins: the stretch is closed by the next along_lane.
+  void over_area(LaneId id) {
+    PathStretch stretch;
+    stretch.lane = id;
+    stretch.from = length();
+    stretch.speed_limit = 50.0 / 3.6;
+    stretch.room_left = stretch.room_right = std::numeric_limits<double>::infinity();
+    path_.stretches.push_back(stretch);
+  }
+
+  Path finish(const PathRequest& request) {
+    path_.line = Polyline(std::move(points_));
+    path_.arrival = path_.line.length();
+    path_.stretches.back().to = path_.arrival;
+    compute_speed_profile(request, path_);
+    return std::move(path_);
+  }
+
+ private:
+  double connect_to(const Vec2& point) {
+    if (!points_.empty()) points_.push_back(point);
+    const double here = length();
+    if (!path_.stretches.empty()) path_.stretches.back().to = here;
+    return here;
+  }
+  double length() {
+    while (measured_ < points_.size()) {
+      if (measured_ > 0) length_ += (points_[measured_] - points_[measured_ - 1]).norm();
+      ++measured_;
+    }
+    return length_;
+  }
+
+  const RoadNetwork& network_;
+  Path path_;
+  std::vector<Vec2> points_;
+  std::size_t measured_ = 0;
+  double length_ = 0.0;
+};
+
+/// How a crossing or sidewalk is walked so that the way from `here` on is shortest: from its nearer end.
+bool starts_at_end(const Polyline& line, const Vec2& here, const Vec2& next) {
+  const auto& points = line.points();
+  return (points.back() - here).norm() + (points.front() - next).norm() <
+         (points.front() - here).norm() + (points.back() - next).norm();
+}
+
+}  // namespace
+
+std::optional<Path> build_walking_path(const RoadNetwork& network, const PathRequest& request, std::string& why) {
+  std::vector<LaneId> sidewalks;
+  for (const EdgeId edge : request.route) {
+    // SUMO lists crossings and walking areas of a walk too where it was routed intermodally; they are found anew here
+    if (network.edge(edge).kind != LaneKind::Normal) continue;
+    const LaneId lane = walking_lane(network, edge);
+    if (lane == kNoLane) {
+      why = "edge '" + network.edge(edge).name + "' has no lane for pedestrians";
+      return std::nullopt;
+    }
+    if (sidewalks.empty() || sidewalks.back() != lane) sidewalks.push_back(lane);
+  }
+  if (sidewalks.empty()) {
+    why = "the walk has no edges";
+    return std::nullopt;
+  }
+
+  Walk walk(network);
+  double from = request.start_along;
+  for (std::size_t i = 0; i < sidewalks.size(); ++i) {
+    const Polyline& line = network.lane(sidewalks[i]).centerline;
+    from = std::clamp(from, 0.0, line.length());
+    if (i + 1 == sidewalks.size()) {
+      const double to = request.arrival_position >= 0.0 ? std::min(request.arrival_position, line.length())
+                        : from > 0.5 * line.length()    ? 0.0
+                                                        : line.length();
+      walk.along_lane(sidewalks[i], from, to);
+      break;
+    }
+    // leave at the end, and enter the next sidewalk at the end, that together make the shortest way
+    const Polyline& next_line = network.lane(sidewalks[i + 1]).centerline;
+    double best_cost = std::numeric_limits<double>::infinity(), leave = 0.0, enter = 0.0;
+    std::vector<LaneId> best_lanes;
+    const Edge& edge = network.edge(network.lane(sidewalks[i]).edge);
+    const Edge& next_edge = network.edge(network.lane(sidewalks[i + 1]).edge);
+    for (const bool leave_at_end : {true, false})
+      for (const bool enter_at_start : {true, false}) {
+        if ((leave_at_end ? edge.to : edge.from) != (enter_at_start ? next_edge.from : next_edge.to)) continue;
+        const double out = leave_at_end ? line.length() : 0.0;
+        const double in = enter_at_start ? 0.0 : next_line.length();
+        double cost = 0.0;
+        auto lanes = find_junction_walk(network, sidewalks[i], sidewalks[i + 1], line.point_at(out), next_line.point_at(in), cost);
+        // the search knows lanes, not ends: check that it stays on this junction
+        const JunctionId junction = leave_at_end ? edge.to : edge.from;
+        if (std::any_of(lanes.begin(), lanes.end(), [&](LaneId l) { return network.lane(l).junction != junction; })) continue;
+        cost += std::abs(out - from);
+        if (cost < best_cost) {
+          best_cost = cost;
+          leave = out;
+          enter = in;
+          best_lanes = std::move(lanes);
+        }
+      }
+    if (best_cost == std::numeric_limits<double>::infinity()) {
+      why = "no way on foot from edge '" + edge.name + "' to edge '" + next_edge.name + "'";
+      return std::nullopt;
+    }
+    walk.along_lane(sidewalks[i], from, leave);
+    Vec2 here = line.point_at(leave);
+    for (std::size_t k = 0; k < best_lanes.size(); ++k) {
+      const Lane& lane = network.lane(best_lanes[k]);
+      if (lane.kind == LaneKind::WalkingArea) {
+        walk.over_area(best_lanes[k]);
+        continue;
+      }
+      const Vec2 target = k + 2 < best_lanes.size() ? middle_of(network.lane(best_lanes[k + 2])) : next_line.point_at(enter);
+      const bool backwards = starts_at_end(lane.centerline, here, target);
+      const double length = lane.centerline.length();
+      walk.along_lane(best_lanes[k], backwards ? length : 0.0, backwards ? 0.0 : length);
+      here = lane.centerline.point_at(backwards ? 0.0 : length);
+    }
+    from = enter;
+  }
+  return walk.finish(request);
+}
+
+}  // namespace sumogamma
