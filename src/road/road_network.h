@@ -49,7 +49,9 @@ struct Lane {
   VehicleClassMask allowed = vehicle_class::kAll;
   double speed_limit = 0;     ///< [m/s]
   double width = 0;           ///< [m]
+  double length = 0;          ///< as SUMO counts positions on it [m]; the centerline may be longer or shorter
   Polyline centerline;        ///< [m]; of a walking area: its outline ring (not a path)
+  std::vector<double> elevation;  ///< by vertex of the centerline [m]; empty: 0 everywhere. Keeps bridges apart
   std::vector<Vec2> outline;  ///< polygon of a walking area or crossing as in the file, else empty
   LaneId inner = kNoLane;     ///< neighbour with the next higher index on the same edge (towards the road's middle)
   LaneId outer = kNoLane;     ///< neighbour with the next lower index on the same edge (towards the kerb)
@@ -58,6 +60,9 @@ struct Lane {
   std::vector<ConnectionId> outgoing;      ///< connections that start here
   std::vector<ConnectionId> incoming;      ///< connections that end here
 };
+
+/// Height of the lane `along` its centerline [m], interpolated; 0 in a flat network.
+double elevation_at(const Lane& lane, double along);
 
 struct Edge {
   std::string name;
