@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/kinematic_set.h"
+#include "road/conflict_zones.h"
 #include "road/road_network.h"
 #include "scene/agent_type.h"
 #include "scene/scene.h"
@@ -23,6 +24,7 @@ struct Model {
   AgentTypeTable types;
   std::vector<KinematicTable> kinematics;  ///< K by type, in the order of `types`
   RoadNetwork road;                        ///< empty for a standalone scene
+  ConflictTable conflicts;                 ///< by connection of `road`
   ModelOptions options;
 };
 

@@ -25,6 +25,10 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.control);
   visit(scene.path);
   visit(scene.path_along);
+  visit(scene.path_offset);
+  visit(scene.standing_time);
+  visit(scene.next_stop);
+  visit(scene.stop_left);
   visit(scene.lane);
   visit(scene.context);
 }
@@ -47,6 +51,7 @@ void append_agent(Scene& scene, const AgentState& agent) {
   scene.behavior[row] = agent.behavior;
   scene.control[row] = agent.control;
   scene.path[row] = agent.path;
+  scene.path_offset[row] = agent.path_offset;
 }
 
 void remove_agents(Scene& scene, const std::vector<bool>& removed) {

@@ -49,6 +49,10 @@ struct Scene {
   std::vector<Control> control;
   std::vector<PathId> path;              ///< kNoPath off any network
   std::vector<double> path_along;        ///< of the centre along the path [m]
+  std::vector<double> path_offset;       ///< where beside its path the agent likes to be, positive left [m]
+  std::vector<double> standing_time;     ///< [s] since it was last faster than 0.3 m/s
+  std::vector<std::int32_t> next_stop;   ///< index of the path's next planned halt
+  std::vector<double> stop_left;         ///< [s] still to stand at the present halt, 0 where there is none
   std::vector<LanePosition> lane;
   std::vector<RoadContext> context;      ///< filled every tick from the frozen scene
 
@@ -67,6 +71,7 @@ struct AgentState {
   BehaviorState behavior;
   Control control = Control::Gamma;
   PathId path = kNoPath;
+  double path_offset = 0;
 };
 
 /// Appends a row. Precondition: its id is larger than every id present (rows stay in order of id).

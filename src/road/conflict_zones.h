@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "road/road_network.h"
+
+namespace sumogamma {
+
+/// Where two links of a junction get in each other's way, seen from one of them. Distances [m] run from where a link
+/// begins (its stop line).
+struct ConflictZone {
+  ConnectionId foe = kNoConnection;
+  double begin = 0, end = 0;          ///< on this link
+  double foe_begin = 0, foe_end = 0;  ///< on the foe
+  bool yields = false;                ///< this link must let the foe pass
+  bool foe_is_crossing = false;
+};
+
+/// By connection: its conflicts with the other links of its junction, from the right-of-way matrix and the geometry of the
+/// internal lanes (sampled every metre; lanes conflict where their swept widths meet). Links that the matrix calls
+/// conflicting but whose lanes never come near are left out.
+using ConflictTable = std::vector<std::vector<ConflictZone>>;
+ConflictTable build_conflict_table(const RoadNetwork& network);
+
+/// Centreline of a link over its junction: its internal lanes in order, or the crossing that it enters.
+Polyline link_geometry(const RoadNetwork& network, ConnectionId id);
+
+}  // namespace sumogamma
