@@ -41,7 +41,7 @@ constexpr double random_uniform(std::uint64_t seed, std::uint64_t agent, std::ui
   return low + (high - low) * random_uniform(seed, agent, tick, purpose);
 }
 
-/// Approximately standard normal within +-3.46: Irwin-Hall sum of 12 uniforms. Additions alone, so the same bits
+/// Approximately standard normal within +-6: Irwin-Hall sum of 12 uniforms. Additions alone, so the same bits
 /// with every compiler and C library, unlike Box-Muller's log and cos.
 constexpr double random_normal(std::uint64_t seed, std::uint64_t agent, std::uint64_t tick, Draw purpose) {
   double sum = -6.0;
