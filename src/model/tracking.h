@@ -1,0 +1,34 @@
+#pragma once
+
+#include "model/model.h"
+#include "scene/scene.h"
+
+namespace sumogamma {
+
+/// State of one body: what the low-level controller reads and moves.
+struct BodyState {
+  Vec2 position = Vec2::Zero();  ///< footprint centre [m]
+  double heading = 0;            ///< [rad]
+  Vec2 velocity = Vec2::Zero();  ///< of the centre [m/s]
+  double speed = 0;              ///< of the rear axle along the heading, >= 0 [m/s]
+  double steering = 0;           ///< front wheel angle, positive left [rad]
+};
+
+/// One step of a type's low-level controller and body: f_A of Eq. 1 is this, iterated.
+/// Holonomic: the velocity moves to the asked one within the limits of acceleration, the heading
+/// turns after it. Single track: the steering law points the centre's own velocity along the asked
+/// one, within steering angle, steering rate and lateral acceleration; speed follows within
+/// acceleration and braking limits; the body rolls about its rear axle on an exact arc, so it never
+/// slides sideways, turns on the spot or rolls backwards. Velocity out = displacement / dt. A
+/// velocity that is not finite counts as null.
+BodyState advance_body(const AgentType& type, const BodyState& body, const Vec2& velocity,
+                       double dt);
+
+/// The body of a row as it stands.
+BodyState body_of(const Scene& scene, std::size_t row);
+
+/// advance_body for one row of a scene.
+BodyState track_velocity(const Model& model, const Scene& scene, std::size_t row,
+                         const Vec2& velocity, double dt);
+
+}  // namespace sumogamma
