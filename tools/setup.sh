@@ -42,8 +42,9 @@ case "${1-}" in
     ;;
 esac
 
-command -v apt-get > /dev/null && command -v dpkg-query > /dev/null ||
+if ! command -v apt-get > /dev/null || ! command -v dpkg-query > /dev/null; then
   fail "no apt-get here: this script knows Debian 12 and its relatives; install by hand: ${packages[*]}"
+fi
 
 missing=()
 for package in "${packages[@]}"; do
@@ -57,8 +58,7 @@ fi
 
 as_root=()
 if ((EUID != 0)); then
-  command -v sudo > /dev/null ||
-    fail "root or sudo is needed to install: ${missing[*]}"
+  command -v sudo > /dev/null || fail "root or sudo is needed to install: ${missing[*]}"
   as_root=(sudo)
 fi
 

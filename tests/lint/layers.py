@@ -1,0 +1,94 @@
+"""Checks every #include of src/ against the modules' DEPENDS in CMakeLists.txt, and that the edges stay thin.
+
+usage: layers.py PROJECT_FOLDER
+"""
+import os
+import re
+import sys
+
+from project import finish, numbered_lines, project_files
+
+# who alone may include a library whose headers begin so
+EDGES = {
+    "osmium/": r"src/osm/.*",
+    "protozero/": r"src/osm/.*",
+    "proj.h": r"src/osm/.*",
+    "libsumo/": r"src/sumo/libsumo_backend\.cpp",
+    "libtraci/": r"nowhere: its client dies with SUMO",
+    "CLI/": r"src/app/.*",
+    "toml++/": r"src/io/.*",
+}
+# results must not depend on the standard library's generators, which differ between libraries
+NOWHERE = {"random": "draws come from base/random.h"}
+# these have never heard of a file, a terminal, a thread or a clock
+PURE_MODULES = {"geometry", "scene", "model", "inference"}
+IMPURE = {"fstream", "filesystem", "iostream", "cstdio", "stdio.h", "chrono", "thread", "mutex", "atomic"}
+
+
+def declared_modules(root):
+    """{module: modules it may include}, closed over dependencies, from CMakeLists.txt; and complaints."""
+    direct, complaints = {}, []
+    for number, line in numbered_lines(root, "CMakeLists.txt"):
+        match = re.match(r"\s*sumogamma_(module|program)\(([^)]*)\)", line)
+        if not match:
+            continue
+        names = match.group(2).split()
+        own, wanted = names[:1], names[1:]
+        if match.group(1) == "program":
+            own, wanted = names[1:2], names[2:]
+        if not own or (wanted and wanted[0] != "DEPENDS"):
+            complaints.append(f"CMakeLists.txt:{number}: not understood: {line.strip()}")
+            continue
+        for other in wanted[1:]:
+            if other not in direct:
+                complaints.append(f"CMakeLists.txt:{number}: {own[0]} depends on {other}, which is not declared above it")
+        direct[own[0]] = set(wanted[1:])
+    closed = {}
+    for module, others in direct.items():  # declared in order, so what it needs is closed already
+        closed[module] = {module} | others
+        for other in others:
+            closed[module] |= closed.get(other, set())
+    return closed, complaints
+
+
+def check_include(path, module, allowed, header):
+    """What is wrong with `#include header` in path, or None."""
+    for prefix, owner in EDGES.items():
+        if header.startswith(prefix) and not re.fullmatch(owner, path):
+            return f"{header} belongs to {owner} alone"
+    if header in NOWHERE:
+        return f"<{header}> is not used here: {NOWHERE[header]}"
+    if module in PURE_MODULES and header in IMPURE:
+        return f"module {module} does without <{header}>"
+    target = header.split("/")[0]
+    if "/" in header and target in allowed and target not in allowed[module]:
+        return f"module {module} may not know {target} (it may: {', '.join(sorted(allowed[module]))})"
+    return None
+
+
+def main(root):
+    allowed, complaints = declared_modules(root)
+    checked = 0
+    for path in project_files(root):
+        parts = path.split("/")
+        if parts[0] != "src" or not path.endswith((".h", ".cpp")):
+            continue
+        module = parts[1]
+        if module not in allowed or len(parts) < 3:
+            complaints.append(f"{path}: folder {module} is no module of CMakeLists.txt")
+            continue
+        checked += 1
+        for number, line in numbered_lines(root, path):
+            match = re.match(r'\s*#\s*include\s*(["<])([^">]+)[">]', line)
+            if not match:
+                continue
+            header = match.group(2)
+            wrong = check_include(path, module, allowed, header)
+            if match.group(1) == '"' and not wrong and not os.path.isfile(os.path.join(root, "src", header)):
+                wrong = f'"{header}" is no file under src/ (own headers are named from src/, others in <>)'
+            if wrong:
+                complaints.append(f"{path}:{number}: {wrong}")
+    finish("layers", complaints, checked)
+
+
+main(sys.argv[1])

@@ -1,0 +1,91 @@
+"""Proves that each lint can fail: feeds it small projects with one fault each and expects that complaint.
+
+usage: self_test.py
+"""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+MODULES = """
+sumogamma_module(base)
+sumogamma_module(geometry DEPENDS base)
+sumogamma_module(osm DEPENDS geometry)
+sumogamma_module(sumo DEPENDS geometry)
+sumogamma_program(town app DEPENDS sumo)
+"""
+UNFINISHED = "TO" + "DO"
+MACHINE = "/wo" + "rk/main"
+GOOD = {
+    "CMakeLists.txt": MODULES,
+    "src/base/units.h": "#pragma once\n",
+    "src/geometry/vec2.h": '#pragma once\n\n#include <vector>\n\n#include "base/units.h"\n',
+    "src/osm/reader.cpp": "#include <osmium/io/any_input.hpp>\n",
+    "src/sumo/libsumo_backend.cpp": "#include <libsumo/libsumo.h>\n",
+    "src/app/main.cpp": '#include "base/units.h"\n#include "geometry/vec2.h"\n\nint main() { return 0; }\n',
+    "tools/hello.sh": "#!/usr/bin/env bash\nset -euo pipefail\necho hello\n",
+}
+# lint, file and what is put there, what the lint must say
+FAULTS = [
+    ("layers", "src/geometry/vec2.h", '#include "sumo/backend.h"\n', "src/geometry/vec2.h:1: module geometry may not know sumo"),
+    ("layers", "src/base/units.h", '#include "geometry/vec2.h"\n', "src/base/units.h:1: module base may not know geometry"),
+    ("layers", "src/osm/reader.cpp", '#include "sumo/backend.h"\n', "module osm may not know sumo"),
+    ("layers", "src/app/main.cpp", "#include <osmium/io/any_input.hpp>\n", "osmium/io/any_input.hpp belongs to src/osm"),
+    ("layers", "src/sumo/traci_backend.cpp", "  #  include <libsumo/libsumo.h>\n", "belongs to src/sumo/libsumo_backend"),
+    ("layers", "src/sumo/clock.cpp", "#include <libtraci/libtraci.h>\n", "its client dies with SUMO"),
+    ("layers", "src/sumo/draw.cpp", "#include <random>\n", "draws come from base/random.h"),
+    ("layers", "src/geometry/save.cpp", "#include <fstream>\n", "module geometry does without <fstream>"),
+    ("layers", "src/extra/new.cpp", "int x;\n", "folder extra is no module"),
+    ("layers", "src/base/lost.cpp", '#include "lost.h"\n', '"lost.h" is no file under src/'),
+    ("layers", "CMakeLists.txt", "sumogamma_module(base DEPENDS geometry)\n" + MODULES, "which is not declared above it"),
+    ("words", "src/base/units.h", f"// {UNFINISHED}: later\n", "src/base/units.h:1: unfinished: " + UNFINISHED),
+    ("words", "tools/hello.sh", f"ls {MACHINE}\n", "tools/hello.sh:1: a path of one machine"),
+    ("words", "README.md", f"see {MACHINE}\n", "README.md:1: a path of one machine"),
+    ("format", "src/base/units.h", "int  f( int x ){return x ;}\n", "src/base/units.h:1: not as clang-format-14"),
+    ("scripts", "tools/hello.sh", "#!/usr/bin/env bash\nrm $1\n", "SC2086"),
+    ("scripts", "tools/hello.sh", "#!/usr/bin/env bash\nif true; then\n", "syntax error"),
+    ("scripts", "tools/not_executable.sh", "#!/usr/bin/env bash\necho hello\n", "needs its executable bit"),
+]
+
+
+def lay(root, files):
+    for path, text in files.items():
+        full = os.path.join(root, path)
+        os.makedirs(os.path.dirname(full), exist_ok=True)
+        with open(full, "w", encoding="utf-8") as file:
+            file.write(text)
+        if path == "tools/hello.sh":
+            os.chmod(full, 0o755)
+
+
+def run(lint, files):
+    with tempfile.TemporaryDirectory() as root:
+        shutil.copy(os.path.join(HERE, "../../.clang-format"), root)
+        lay(root, files)
+        found = subprocess.run([sys.executable, "-B", os.path.join(HERE, lint + ".py"), root],
+                               capture_output=True, text=True, check=False)
+        return found.returncode, found.stdout + found.stderr
+
+
+def main():
+    complaints = []
+    for lint in ("layers", "words", "format", "scripts"):
+        code, said = run(lint, GOOD)
+        if code not in (0, 77):
+            complaints.append(f"{lint} complains about a good project:\n{said}")
+        if run(lint, {})[0] == 0:
+            complaints.append(f"{lint} is content with an empty folder")
+    for lint, path, text, wanted in FAULTS:
+        code, said = run(lint, {**GOOD, path: text})
+        if code == 77:
+            print(f"skipped one fault: {said.strip()}")
+        elif code != 1 or wanted not in said:
+            complaints.append(f"{lint} ended with {code} on {path} = {text!r}, expected a complaint '{wanted}':\n{said}")
+    print("\n".join(complaints))
+    print(f"self-test: {len(FAULTS)} faults planted, {len(complaints)} complaints")
+    sys.exit(1 if complaints else 0)
+
+
+main()
