@@ -88,6 +88,10 @@ class SumoBackend {
   /// Ids, lanes and positions of the induction loops (those of actuated signals included).
   struct Detector { std::string id, lane; double position = 0; };
   virtual const std::vector<Detector>& detectors() const = 0;
+  /// What the user should know, ours and SUMO's own complaints, since the last call; few and short.
+  virtual std::vector<std::string> take_warnings() { return {}; }
+  /// Lines of warning that SUMO has printed so far; -1: unknown (a SUMO that the user started).
+  virtual long sumo_warnings() const { return -1; }
   /// Ends SUMO in good order; further calls are errors. Idempotent.
   virtual void close() = 0;
 };

@@ -1,0 +1,665 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "base/error.h"
+#include "sumo/backend.h"
+#include "sumo/ghost.h"
+#include "sumo/sumo_process.h"
+#include "sumo/traci_client.h"
+#include "sumo/traci_message.h"
+#include "sumo/watch_list.h"
+
+namespace sumogamma {
+namespace {
+
+constexpr int kOldestProtocol = 18,
+              kNewestProtocol = 22;       // measured with 20 (1.15, 1.18) and 22 (1.27)
+constexpr double kHandshakeTimeout = 20;  // [s], joining a SUMO that the user started
+constexpr double kLastWords = 3;          // [s] for a child to end once its socket has closed
+constexpr double kCloseGrace = 20;        // [s] to write its outputs
+constexpr int kPortTrials = 5;
+constexpr std::uint8_t kStepVariables[] = {traci::kTime,
+                                           traci::kDepartedVehicles,
+                                           traci::kArrivedVehicles,
+                                           traci::kDepartedPersons,
+                                           traci::kArrivedPersons,
+                                           traci::kTeleportCount,
+                                           traci::kEmergencyStopCount,
+                                           traci::kCollidingCount,
+                                           traci::kPendingVehicles};
+constexpr std::uint8_t kWatchedVariables[] = {traci::kPosition, traci::kAngle, traci::kSpeed};
+
+// moveToXY (docs/coupling.md): SUMO's own number for it, a compound of 7 items for vehicles and 6
+// for persons
+void append_ghost(TraciWriter& message, const SumoPose& pose, bool is_person, GhostMode mode) {
+  const std::string& id = *pose.id;
+  const std::size_t body = 1 + (4 + id.size()) + 5 + 5 + (is_person ? 0 : 5) + 3 * 9 + 2 + 9;
+  const GhostArguments arguments = ghost_arguments(mode);
+  message.begin_command(traci::set_command(is_person ? traci::kPerson : traci::kVehicle), body);
+  message.raw_byte(traci::kMoveToXy);
+  message.raw_string(id);
+  message.compound(is_person ? 6 : 7);
+  message.typed_string("");  // no hint of an edge
+  if (!is_person) message.typed_integer(-1);
+  message.typed_double(pose.position.x());
+  message.typed_double(pose.position.y());
+  message.typed_double(wrapped_degrees(pose.angle));
+  message.typed_byte(static_cast<std::uint8_t>(arguments.keep_route));
+  message.typed_double(arguments.match_threshold);
+}
+
+// one command's status and, where it is fine, its value; empty: refused, with the reason in status
+std::optional<TraciReader> read_answer(TraciReader& reply, std::uint8_t domain,
+                                       std::uint8_t variable) {
+  const TraciStatus status = reply.status();
+  if (status.command != domain) throw SumoError("SUMO", "an answer to another command over TraCI");
+  if (!status.ok()) return std::nullopt;
+  return reply.value(domain, variable);
+}
+
+TraciReader require_answer(TraciReader& reply, std::uint8_t domain, std::uint8_t variable,
+                           const std::string& question) {
+  const TraciStatus status = reply.status();
+  if (!status.ok()) throw SumoError("SUMO", "can't tell " + question + ": " + status.text);
+  return reply.value(domain, variable);
+}
+
+std::string read_text(TraciReader& reply, std::uint8_t domain, std::uint8_t variable) {
+  std::optional<TraciReader> value = read_answer(reply, domain, variable);
+  return value ? value->typed_string() : std::string();
+}
+
+double read_number(TraciReader& reply, std::uint8_t domain, std::uint8_t variable,
+                   double otherwise) {
+  std::optional<TraciReader> value = read_answer(reply, domain, variable);
+  return value ? value->typed_double() : otherwise;
+}
+
+std::vector<std::string> read_texts(TraciReader& reply, std::uint8_t domain,
+                                    std::uint8_t variable) {
+  std::optional<TraciReader> value = read_answer(reply, domain, variable);
+  return value ? value->typed_strings() : std::vector<std::string>();
+}
+
+// 16 items a stop in 1.15; the first 7 are ours
+std::vector<SumoAgentDetails::Stop> read_stops(TraciReader value, double time) {
+  std::vector<SumoAgentDetails::Stop> stops;
+  value.compound();
+  for (std::int32_t left = value.typed_integer(); left > 0; --left) {
+    SumoAgentDetails::Stop stop;
+    stop.lane = value.typed_string();
+    stop.end = value.typed_double();
+    value.typed_string();   // stopping place
+    value.typed_integer();  // flags
+    stop.duration = value.typed_double();
+    const double until = value.typed_double();
+    stop.start = value.typed_double();
+    for (int rest = 9; rest > 0; --rest) value.skip_value();
+    if (stop.duration < 0) stop.duration = std::max(0.0, until - time);
+    stops.push_back(std::move(stop));
+  }
+  return stops;
+}
+
+struct Stage {
+  int type = 0;
+  std::vector<std::string> edges;
+  double arrival_position = -1;
+};
+
+Stage read_stage(TraciReader value) {
+  Stage stage;
+  value.compound();
+  stage.type = value.typed_integer();
+  for (int i = 0; i < 3; ++i) value.skip_value();  // type, line, stop
+  stage.edges = value.typed_strings();
+  for (int i = 0; i < 6; ++i)
+    value.skip_value();  // travel time, cost, length, intended vehicle, depart, its position
+  stage.arrival_position = value.typed_double();
+  return stage;
+}
+
+constexpr std::uint8_t kDetailVariables[] = {
+    traci::kType,     traci::kVehicleClass, traci::kLength, traci::kWidth,       traci::kHeight,
+    traci::kMaxSpeed, traci::kSpeedFactor,  traci::kLane,   traci::kLanePosition};
+
+void ask_details(TraciWriter& message, const std::string& id, bool is_person) {
+  const std::uint8_t domain = is_person ? traci::kPerson : traci::kVehicle;
+  for (const std::uint8_t variable : kDetailVariables) message.get(domain, variable, id);
+  if (is_person) {
+    message.get(domain, traci::kStage, id, 0);
+  } else {
+    message.get(domain, traci::kEdges, id);
+    message.get(domain, traci::kStops, id, 0);
+  }
+}
+
+SumoAgentDetails read_details(TraciReader& reply, const std::string& id, bool is_person,
+                              double time) {
+  const std::uint8_t domain = is_person ? traci::kPerson : traci::kVehicle;
+  SumoAgentDetails details;
+  details.id = id;
+  details.is_person = is_person;
+  details.type_id = read_text(reply, domain, traci::kType);
+  details.vehicle_class = read_text(reply, domain, traci::kVehicleClass);
+  details.length = read_number(reply, domain, traci::kLength, 0);
+  details.width = read_number(reply, domain, traci::kWidth, 0);
+  details.height = read_number(reply, domain, traci::kHeight, 0);
+  details.max_speed = read_number(reply, domain, traci::kMaxSpeed, 0);
+  details.speed_factor = read_number(reply, domain, traci::kSpeedFactor, 1);
+  details.lane = read_text(reply, domain, traci::kLane);
+  details.lane_position = read_number(reply, domain, traci::kLanePosition, 0);
+  if (is_person) {
+    if (std::optional<TraciReader> value = read_answer(reply, domain, traci::kStage)) {
+      const Stage stage = read_stage(*value);
+      if (stage.type == traci::kStageWalking) {
+        details.route = stage.edges;
+        details.arrival_position = stage.arrival_position;
+      }
+    }
+  } else {
+    details.route = read_texts(reply, domain, traci::kEdges);
+    if (std::optional<TraciReader> value = read_answer(reply, domain, traci::kStops))
+      details.stops = read_stops(*value, time);
+  }
+  return details;
+}
+
+class TraciBackend final : public SumoBackend {
+ public:
+  explicit TraciBackend(const SumoStart& start) : start_(start) {
+    if (start.connect_host.empty()) {
+      spawn();
+    } else {
+      join();
+    }
+  }
+  ~TraciBackend() override {
+    try {
+      close();
+    } catch (const std::exception&) {
+      // nobody is left to tell; SumoProcess kills what still runs
+    }
+  }
+
+  std::string version() const override { return version_; }
+  std::string option(const std::string& name) override;
+  const std::vector<std::string>& signal_ids() const override { return signal_ids_; }
+  double time() const override { return time_; }
+  void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
+            SumoStep& result) override;
+  std::vector<SumoAgentDetails> details(std::span<const std::string> vehicles,
+                                        std::span<const std::string> persons) override;
+  void watch(const std::string& id, bool is_person) override;
+  void unwatch(const std::string& id, bool is_person) override;
+  void remove_vehicle(const std::string& id) override;
+  std::vector<std::string> finish_stage(const std::string& person) override;
+  void set_speed(const std::string& vehicle, double speed) override {
+    require_finite_pose(vehicle, Vec2::Zero(), speed);
+    queued_.set_double(traci::kVehicle, traci::kSpeed, vehicle, speed);
+  }
+  void override_detectors(std::span<const std::pair<std::string, double>> detectors) override {
+    for (const auto& [id, age] : detectors)
+      queued_.set_double(traci::kInductionLoop, traci::kVirtualDetection, id, age);
+  }
+  const std::vector<Detector>& detectors() const override { return detectors_; }
+  std::vector<std::string> take_warnings() override { return std::exchange(warnings_, {}); }
+  long sumo_warnings() const override { return process_ ? process_->output().warnings() : -1; }
+  void close() override;
+
+ private:
+  void spawn();
+  void join();
+  void handshake(double timeout);
+  void read_inventory();
+  template <typename Talk>
+  auto guarded(Talk&& talk) -> decltype(talk());
+  TraciReader exchange(TraciWriter& message) {
+    return TraciReader(
+        client_->exchange(message, started_ ? start_.step_timeout : start_.start_timeout));
+  }
+  [[noreturn]] void report_failure(const std::string& what);
+  std::string scenario() const;
+
+  void compose_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons);
+  void read_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
+                 SumoStep& result);
+  void read_subscriptions(TraciReader& reply, SumoStep& result);
+  void read_simulation(TraciReader& reply, int variables, SumoStep& result);
+  void poll_watched(SumoStep& result);
+  void prepare_test(GhostSelfTest& test, bool is_person, std::span<const SumoPose> poses,
+                    GhostObservation& sent);
+  void finish_test(GhostSelfTest& test, bool is_person, std::span<const SumoPose> poses,
+                   const SumoStep& result, const GhostObservation& sent);
+
+  SumoStart start_;
+  // declared before the client, which looks at it
+  std::unique_ptr<SumoProcess> process_;
+  std::unique_ptr<TraciClient> client_;
+  bool started_ = false;  // one step was made: what goes wrong from now on is not the user's input
+  bool closed_ = false;
+  std::string version_;
+  double time_ = 0;
+  std::vector<std::string> signal_ids_;
+  std::unordered_map<std::string, std::size_t> signal_index_;
+  std::vector<Detector> detectors_;
+  std::map<std::string, std::string> options_;
+  std::vector<std::string> warnings_;
+
+  TraciWriter queued_;  // commands that can wait for the next step
+  TraciWriter message_;
+  WatchList watched_;
+  TraciWriter watch_message_;
+  bool watch_changed_ = false;
+  GhostSelfTest vehicle_test_{false}, person_test_{true};
+};
+
+std::string TraciBackend::scenario() const {
+  for (std::size_t i = 0; i + 1 < start_.arguments.size(); ++i)
+    if (start_.arguments[i] == "-c" || start_.arguments[i] == "--configuration-file")
+      return start_.arguments[i + 1];
+  return "SUMO";
+}
+
+void TraciBackend::report_failure(const std::string& what) {
+  if (client_) client_->close();
+  if (!process_) throw SumoError(what, "at " + std::to_string(time_) + " s of simulation");
+  // a closed socket means that it is ending: give it the time to say why; one that hangs is killed
+  process_->wait(kLastWords);
+  const bool hangs = process_->running();
+  if (hangs) process_->terminate(0);
+  process_->drain();
+  const SumoOutput& output = process_->output();
+  const std::string words = output.first_error().empty() ? output.tail() : output.first_error();
+  // SUMO says no to its input by ending itself with a message; a signal or an abort is never the
+  // user's fault
+  if (!started_ && process_->exit_code().value_or(0) != 0 && !output.first_error().empty())
+    throw Error(scenario(), "SUMO can't run it: " + words);
+  throw SumoError(what, (hangs ? std::string("killed by us") : process_->end_description()) +
+                            " at " + std::to_string(time_) + " s of simulation" +
+                            (words.empty() ? "" : "; its last words: " + words));
+}
+
+template <typename Talk>
+auto TraciBackend::guarded(Talk&& talk) -> decltype(talk()) {
+  if (closed_ || !client_ || !client_->connected())
+    throw SumoError("SUMO", "was closed or has gone away; no further calls are possible");
+  try {
+    return talk();
+  } catch (const SumoError& error) {
+    report_failure(error.what());
+  }
+}
+
+void TraciBackend::spawn() {
+  const std::string binary = find_sumo_binary(start_.binary);
+  for (int trial = 1;; ++trial) {
+    const int port = free_port();
+    std::vector<std::string> arguments = start_.arguments;
+    arguments.insert(arguments.end(), {"--remote-port", std::to_string(port)});
+    process_ = std::make_unique<SumoProcess>(binary, arguments);
+    try {
+      client_ =
+          std::make_unique<TraciClient>("127.0.0.1", port, start_.start_timeout, process_.get());
+      handshake(start_.start_timeout);
+      return;
+    } catch (const SumoError& error) {
+      // somebody else took the port between our look and SUMO's
+      process_->wait(kLastWords);
+      const bool port_taken = process_->output().contains("listening socket") ||
+                              process_->output().contains("Address already in use");
+      if (!port_taken || trial >= kPortTrials) report_failure(error.what());
+      client_.reset();
+    }
+  }
+}
+
+void TraciBackend::join() {
+  const std::string where = start_.connect_host + ":" + std::to_string(start_.connect_port);
+  try {
+    client_ =
+        std::make_unique<TraciClient>(start_.connect_host, start_.connect_port,
+                                      std::min(start_.start_timeout, kHandshakeTimeout), nullptr);
+    handshake(std::min(start_.start_timeout, kHandshakeTimeout));
+  } catch (const SumoError& error) {
+    throw Error(where, std::string("no SUMO answers there (") + error.what() +
+                           "); start one with --remote-port " +
+                           std::to_string(start_.connect_port));
+  }
+}
+
+void TraciBackend::handshake(double timeout) {
+  message_.clear();
+  message_.begin_command(traci::kGetVersion, 0);
+  TraciReader reply(client_->exchange(message_, timeout));
+  const TraciStatus status = reply.status();
+  if (!status.ok() || status.command != traci::kGetVersion)
+    throw SumoError("SUMO", "does not tell its version; is the other side a SUMO?");
+  reply.block_length();
+  if (reply.byte() != traci::kGetVersion) throw SumoError("SUMO", "does not tell its version");
+  const std::int32_t protocol = reply.integer();
+  version_ = reply.string();
+  if (protocol < kOldestProtocol || protocol > kNewestProtocol)
+    warnings_.push_back(version_ + " speaks TraCI version " + std::to_string(protocol) +
+                        "; tested are " + std::to_string(kOldestProtocol) + " to " +
+                        std::to_string(kNewestProtocol));
+  read_inventory();
+}
+
+void TraciBackend::read_inventory() {
+  message_.clear();
+  message_.get(traci::kSimulation, traci::kTime, "");
+  message_.get(traci::kTrafficLight, traci::kIdList, "");
+  message_.get(traci::kInductionLoop, traci::kIdList, "");
+  TraciReader lists = exchange(message_);
+  time_ = require_answer(lists, traci::kSimulation, traci::kTime, "its time").typed_double();
+  signal_ids_ =
+      require_answer(lists, traci::kTrafficLight, traci::kIdList, "its signals").typed_strings();
+  detectors_.clear();
+  for (std::string& id :
+       require_answer(lists, traci::kInductionLoop, traci::kIdList, "its detectors")
+           .typed_strings())
+    detectors_.push_back({std::move(id), "", 0});
+  signal_index_.clear();
+  for (std::size_t i = 0; i < signal_ids_.size(); ++i) signal_index_[signal_ids_[i]] = i;
+
+  message_.clear();
+  for (const Detector& detector : detectors_) {
+    message_.get(traci::kInductionLoop, traci::kLane, detector.id);
+    message_.get(traci::kInductionLoop, traci::kPosition, detector.id);
+  }
+  message_.subscribe(traci::kSimulation, "", kStepVariables);
+  for (const std::string& id : signal_ids_)
+    message_.subscribe(traci::kTrafficLight, id, std::span(&traci::kSignalState, 1));
+  TraciReader reply = exchange(message_);
+  for (Detector& detector : detectors_) {
+    detector.lane = read_text(reply, traci::kInductionLoop, traci::kLane);
+    detector.position = read_number(reply, traci::kInductionLoop, traci::kPosition, 0);
+  }
+  SumoStep ignored;
+  ignored.signal_states.resize(signal_ids_.size());
+  for (std::size_t i = 0; i <= signal_ids_.size(); ++i) {
+    const TraciStatus status = reply.status();
+    if (!status.ok()) throw SumoError("SUMO", "refuses a subscription: " + status.text);
+    read_subscriptions(reply, ignored);
+  }
+}
+
+std::string TraciBackend::option(const std::string& name) {
+  const auto known = options_.find(name);
+  if (known != options_.end()) return known->second;
+  return guarded([&] {
+    message_.clear();
+    message_.get(traci::kSimulation, traci::kOption, name);
+    TraciReader reply = exchange(message_);
+    const std::string value =
+        require_answer(reply, traci::kSimulation, traci::kOption, "its option " + name)
+            .typed_string();
+    options_[name] = value;
+    return value;
+  });
+}
+
+void TraciBackend::compose_step(std::span<const SumoPose> vehicles,
+                                std::span<const SumoPose> persons) {
+  for (const SumoPose& pose : vehicles) require_finite_pose(*pose.id, pose.position, pose.angle);
+  for (const SumoPose& pose : persons) require_finite_pose(*pose.id, pose.position, pose.angle);
+  message_.clear();
+  message_.append(queued_);
+  for (const SumoPose& pose : vehicles) append_ghost(message_, pose, false, vehicle_test_.mode());
+  for (const SumoPose& pose : persons) append_ghost(message_, pose, true, person_test_.mode());
+  message_.simulation_step();  // last: SUMO does not process what stands behind it reliably
+}
+
+void TraciBackend::read_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
+                             SumoStep& result) {
+  TraciReader reply = exchange(message_);
+  // what was queued concerned agents that may have left meanwhile: a refusal means nothing
+  for (std::size_t left = queued_.command_count(); left > 0; --left) reply.status();
+  queued_.clear();
+  for (const std::span<const SumoPose> poses : {vehicles, persons})
+    for (const SumoPose& pose : poses)
+      if (!reply.status().ok()) result.lost.push_back(*pose.id);
+  const TraciStatus stepped = reply.status();
+  if (stepped.command != traci::kSimulationStep)
+    throw SumoError("SUMO", "an answer to another command over TraCI");
+  if (!stepped.ok()) throw SumoError("SUMO", "can't make a step: " + stepped.text);
+  for (std::int32_t left = reply.integer(); left > 0; --left) read_subscriptions(reply, result);
+}
+
+void TraciBackend::read_subscriptions(TraciReader& reply, SumoStep& result) {
+  constexpr std::size_t kKnownLengthFault = 4;
+  reply.block_length(kKnownLengthFault);
+  const std::uint8_t response = reply.byte();
+  const std::string id = reply.string();
+  const int variables = reply.byte();
+  if (response == traci::subscribe_response(traci::kSimulation)) {
+    read_simulation(reply, variables, result);
+    return;
+  }
+  const auto signal = signal_index_.find(id);
+  for (int i = 0; i < variables; ++i) {
+    const std::uint8_t variable = reply.byte();
+    const bool good = reply.byte() == traci::kOk;
+    if (good && response == traci::subscribe_response(traci::kTrafficLight) &&
+        variable == traci::kSignalState && signal != signal_index_.end()) {
+      result.signal_states[signal->second] = reply.typed_string();
+    } else {
+      reply.skip_value();
+    }
+  }
+}
+
+void TraciBackend::read_simulation(TraciReader& reply, int variables, SumoStep& result) {
+  for (int i = 0; i < variables; ++i) {
+    const std::uint8_t variable = reply.byte();
+    if (reply.byte() != traci::kOk) {
+      reply.skip_value();
+      continue;
+    }
+    switch (variable) {
+      case traci::kTime:
+        result.time = reply.typed_double();
+        break;
+      case traci::kDepartedVehicles:
+        result.departed_vehicles = reply.typed_strings();
+        break;
+      case traci::kArrivedVehicles:
+        result.arrived_vehicles = reply.typed_strings();
+        break;
+      case traci::kDepartedPersons:
+        result.departed_persons = reply.typed_strings();
+        break;
+      case traci::kArrivedPersons:
+        result.arrived_persons = reply.typed_strings();
+        break;
+      case traci::kTeleportCount:
+        result.teleports = reply.typed_integer();
+        break;
+      case traci::kEmergencyStopCount:
+        result.emergency_stops = reply.typed_integer();
+        break;
+      case traci::kCollidingCount:
+        result.collisions = reply.typed_integer();
+        break;
+      case traci::kPendingVehicles:
+        result.waiting_to_insert = static_cast<int>(reply.typed_strings().size());
+        break;
+      default:
+        reply.skip_value();
+    }
+  }
+}
+
+void TraciBackend::step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
+                        SumoStep& result) {
+  guarded([&] {
+    result.departed_vehicles.clear();
+    result.departed_persons.clear();
+    result.arrived_vehicles.clear();
+    result.arrived_persons.clear();
+    result.lost.clear();
+    result.signal_states.resize(signal_ids_.size());
+    GhostObservation sent_vehicle, sent_person;
+    prepare_test(vehicle_test_, false, vehicles, sent_vehicle);
+    prepare_test(person_test_, true, persons, sent_person);
+    compose_step(vehicles, persons);
+    read_step(vehicles, persons, result);
+    time_ = result.time;
+    started_ = true;
+    finish_test(vehicle_test_, false, vehicles, result, sent_vehicle);
+    finish_test(person_test_, true, persons, result, sent_person);
+    for (const std::string& id : result.arrived_vehicles) unwatch(id, false);
+    for (const std::string& id : result.arrived_persons) unwatch(id, true);
+    poll_watched(result);
+  });
+}
+
+void TraciBackend::prepare_test(GhostSelfTest& test, bool is_person,
+                                std::span<const SumoPose> poses, GhostObservation& sent) {
+  if (!test.pending() || poses.empty()) return;
+  const SumoPose& pose = poses.front();
+  sent.position = pose.position;
+  sent.angle = wrapped_degrees(pose.angle);
+  if (is_person) return;
+  message_.clear();
+  message_.get(traci::kVehicle, traci::kEdges, *pose.id);
+  TraciReader reply = exchange(message_);
+  sent.route = read_texts(reply, traci::kVehicle, traci::kEdges);
+}
+
+void TraciBackend::finish_test(GhostSelfTest& test, bool is_person, std::span<const SumoPose> poses,
+                               const SumoStep& result, const GhostObservation& sent) {
+  if (!test.pending() || poses.empty()) return;
+  const std::string& id = *poses.front().id;
+  if (std::find(result.lost.begin(), result.lost.end(), id) != result.lost.end()) return;
+  const std::uint8_t domain = is_person ? traci::kPerson : traci::kVehicle;
+  message_.clear();
+  for (const std::uint8_t variable : {traci::kPosition, traci::kAngle, traci::kLane})
+    message_.get(domain, variable, id);
+  message_.get(domain, traci::kEdges, id);
+  TraciReader reply = exchange(message_);
+  GhostObservation reported;
+  const std::optional<TraciReader> position = read_answer(reply, domain, traci::kPosition);
+  if (position) {
+    const auto [x, y] = TraciReader(*position).typed_position();
+    reported.position = {x, y};
+  }
+  reported.angle = read_number(reply, domain, traci::kAngle, 0);
+  reported.lane = read_text(reply, domain, traci::kLane);
+  reported.route = read_texts(reply, domain, traci::kEdges);
+  if (!position) return;  // it left within this very step: the next one is tested
+  const std::string warning = test.judge(sent, reported);
+  if (!warning.empty()) warnings_.push_back(warning);
+}
+
+void TraciBackend::poll_watched(SumoStep& result) {
+  const std::vector<WatchList::Entry>& entries = watched_.entries();
+  result.agents.resize(entries.size());
+  if (entries.empty()) return;
+  if (watch_changed_) {
+    watch_message_.clear();
+    for (const WatchList::Entry& entry : entries)
+      for (const std::uint8_t variable : kWatchedVariables)
+        watch_message_.get(entry.is_person ? traci::kPerson : traci::kVehicle, variable, entry.id);
+    watch_changed_ = false;
+  }
+  TraciReader reply = exchange(watch_message_);
+  std::size_t kept = 0;
+  std::vector<WatchList::Entry> gone;
+  for (const WatchList::Entry& entry : entries) {
+    const std::uint8_t domain = entry.is_person ? traci::kPerson : traci::kVehicle;
+    SumoAgent& agent = result.agents[kept];
+    std::optional<TraciReader> position = read_answer(reply, domain, traci::kPosition);
+    std::optional<TraciReader> angle = read_answer(reply, domain, traci::kAngle);
+    std::optional<TraciReader> speed = read_answer(reply, domain, traci::kSpeed);
+    if (!position || !angle || !speed) {
+      gone.push_back(entry);
+      continue;
+    }
+    const auto [x, y] = position->typed_position();
+    agent.position = {x, y};
+    agent.angle = angle->typed_double();
+    agent.speed = speed->typed_double();
+    agent.id = entry.id;
+    agent.is_person = entry.is_person;
+    ++kept;
+  }
+  result.agents.resize(kept);
+  for (const WatchList::Entry& entry : gone) unwatch(entry.id, entry.is_person);
+}
+
+std::vector<SumoAgentDetails> TraciBackend::details(std::span<const std::string> vehicles,
+                                                    std::span<const std::string> persons) {
+  if (vehicles.empty() && persons.empty()) return {};
+  return guarded([&] {
+    message_.clear();
+    for (const std::string& id : vehicles) ask_details(message_, id, false);
+    for (const std::string& id : persons) ask_details(message_, id, true);
+    TraciReader reply = exchange(message_);
+    std::vector<SumoAgentDetails> all;
+    for (const std::string& id : vehicles) all.push_back(read_details(reply, id, false, time_));
+    for (const std::string& id : persons) all.push_back(read_details(reply, id, true, time_));
+    return all;
+  });
+}
+
+void TraciBackend::watch(const std::string& id, bool is_person) {
+  if (watched_.add(id, is_person)) watch_changed_ = true;
+}
+
+void TraciBackend::unwatch(const std::string& id, bool is_person) {
+  if (watched_.drop(id, is_person)) watch_changed_ = true;
+}
+
+void TraciBackend::remove_vehicle(const std::string& id) {
+  unwatch(id, false);
+  queued_.set_byte(traci::kVehicle, traci::kRemove, id, traci::kRemovedAsArrived);
+}
+
+std::vector<std::string> TraciBackend::finish_stage(const std::string& person) {
+  return guarded([&] {
+    message_.clear();
+    message_.set_integer(traci::kPerson, traci::kRemoveStage, person, 0);
+    message_.get(traci::kPerson, traci::kStagesLeft, person);
+    message_.get(traci::kPerson, traci::kStage, person, 0);
+    TraciReader reply = exchange(message_);
+    reply.status();
+    std::optional<TraciReader> left = read_answer(reply, traci::kPerson, traci::kStagesLeft);
+    std::optional<TraciReader> value = read_answer(reply, traci::kPerson, traci::kStage);
+    if (!left || !value || left->typed_integer() <= 0) return std::vector<std::string>();
+    Stage stage = read_stage(*value);
+    return stage.type == traci::kStageWalking ? std::move(stage.edges) : std::vector<std::string>();
+  });
+}
+
+void TraciBackend::close() {
+  if (closed_) return;
+  closed_ = true;
+  if (client_ && client_->connected()) {
+    try {
+      // what was queued (arrivals of the last tick) still counts in SUMO's own statistics
+      message_.clear();
+      message_.append(queued_);
+      message_.begin_command(traci::kClose, 0);
+      client_->exchange(message_, kCloseGrace);
+    } catch (const SumoError&) {
+      // it went away by itself: the process below tells
+    }
+    client_->close();
+  }
+  if (process_ && !process_->wait(kCloseGrace)) process_->terminate(2);
+}
+
+}  // namespace
+
+std::unique_ptr<SumoBackend> start_traci_backend(const SumoStart& start) {
+  return std::make_unique<TraciBackend>(start);
+}
+
+}  // namespace sumogamma
