@@ -61,6 +61,7 @@ struct PathRequest {
   double max_lateral_acceleration = 2.5;  ///< [m/s^2]
   double comfortable_deceleration = 2.5;  ///< [m/s^2]
   double max_speed = 50;                  ///< [m/s]
+  double speed_factor = 1;                ///< of the lane limits
 };
 
 /// Path of a vehicle along its route: the lanes that need the fewest lane changes, changes spread over the edge.

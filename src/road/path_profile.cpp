@@ -20,7 +20,7 @@ void compute_speed_profile(const PathRequest& request, Path& path) {
   path.speed_profile.resize(samples);
   for (std::size_t i = 0; i < samples; ++i) {
     const double along = std::min(static_cast<double>(i) * Path::kProfileStep, length);
-    double speed = std::min(path.stretch_at(along).speed_limit, request.max_speed);
+    double speed = std::min(path.stretch_at(along).speed_limit * request.speed_factor, request.max_speed);
     if (!path.walking && along > kReach && along < length - kReach) {
       const double curvature = menger_curvature(path.line.point_at(along - kReach), path.line.point_at(along),
                                                 path.line.point_at(along + kReach));

@@ -1,0 +1,52 @@
+#include "model/approaches.h"
+
+#include <algorithm>
+
+namespace sumogamma {
+
+double half_extent(const Scene& scene, std::size_t row, const Vec2& direction) {
+  const Vec2 local = to_body(direction, direction_of(scene.heading[row]));
+  double extent = 0.0;
+  for (const Vec2& vertex : scene.footprint[row].outline()) extent = std::max(extent, vertex.dot(local));
+  return extent;
+}
+
+void ApproachTable::rebuild(const Model& model, const RoadState& road, const Scene& scene) {
+  for (const Approach& approach : approaches_) ranges_[index_of(approach.connection)] = {};
+  ranges_.resize(model.road.connections.size());
+  approaches_.clear();
+
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    const Path* path = road.path(scene.path[row]);
+    if (path == nullptr || path->links.empty()) continue;
+    const double along = scene.path_along[row];
+    const Vec2 tangent = path->line.direction_at(along);
+    const double half_length = half_extent(scene, row, tangent);
+    const double speed = std::max(0.0, scene.velocity[row].dot(tangent));
+    // far enough for the slowest foe to find its gap: ten seconds at the present speed
+    const double reach = std::max(path->walking ? 8.0 : 30.0, 10.0 * speed);
+    auto link = std::lower_bound(path->links.begin(), path->links.end(), along - half_length,
+                                 [](const PathLink& l, double value) { return l.end < value; });
+    for (; link != path->links.end() && link->stop_line < along + half_length + reach; ++link) {
+      const bool stands = speed < 0.5;
+      approaches_.push_back({link->connection, static_cast<std::uint32_t>(row), along + half_length - link->stop_line,
+                             2.0 * half_length, speed, stands ? scene.context[row].reason : LimitReason::None});
+    }
+  }
+  std::sort(approaches_.begin(), approaches_.end(), [](const Approach& a, const Approach& b) {
+    return a.connection != b.connection ? a.connection < b.connection : a.row < b.row;
+  });
+  for (std::size_t i = 0; i < approaches_.size(); ++i) {
+    Range& range = ranges_[index_of(approaches_[i].connection)];
+    if (range.begin == range.end) range.begin = static_cast<std::uint32_t>(i);
+    range.end = static_cast<std::uint32_t>(i + 1);
+  }
+}
+
+std::span<const Approach> ApproachTable::of(ConnectionId id) const {
+  if (id == kNoConnection || index_of(id) >= ranges_.size()) return {};
+  const Range range = ranges_[index_of(id)];
+  return std::span<const Approach>(approaches_).subspan(range.begin, range.end - range.begin);
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "model/model.h"
+#include "model/road_state.h"
+
+namespace sumogamma {
+
+/// Somebody on the way to, or on, a junction link.
+struct Approach {
+  ConnectionId connection = kNoConnection;
+  std::uint32_t row = 0;
+  double front = 0;    ///< of the agent's front past the link's begin [m]; negative before it
+  double length = 0;   ///< of the agent along its path [m]
+  double speed = 0;    ///< along its path, >= 0 [m/s]
+  LimitReason waits_for = LimitReason::None;  ///< what stops it now, if it stands
+};
+
+/// Who approaches which link, from the frozen scene.
+class ApproachTable {
+ public:
+  /// Registers every agent with a path for the links within its stopping distance and some seconds. Serial, O(n log n).
+  void rebuild(const Model& model, const RoadState& road, const Scene& scene);
+  std::span<const Approach> of(ConnectionId id) const;
+
+ private:
+  struct Range {
+    std::uint32_t begin = 0, end = 0;
+  };
+  std::vector<Approach> approaches_;  ///< sorted by connection, then row
+  std::vector<Range> ranges_;         ///< by connection
+};
+
+/// Half the extent of a row's footprint along a unit direction [m].
+double half_extent(const Scene& scene, std::size_t row, const Vec2& direction);
+
+}  // namespace sumogamma

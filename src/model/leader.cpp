@@ -1,0 +1,49 @@
+#include "model/leader.h"
+
+#include <algorithm>
+
+#include "model/approaches.h"
+
+namespace sumogamma {
+
+Leader find_leader(const Model& model, const RoadState& road, const Scene& scene, const SpatialGrid& grid, std::size_t row,
+                   double reach) {
+  Leader leader;
+  const Path* path = road.path(scene.path[row]);
+  if (path == nullptr) return leader;
+  const AgentType& type = type_of(model.types, scene.type[row]);
+  const double along = scene.path_along[row];
+  const Vec2 tangent = path->line.direction_at(along);
+  const Vec2 position = scene.position[row];
+  const double own_half_length = half_extent(scene, row, tangent);
+  const double own_half_width = half_extent(scene, row, left_of(direction_of(scene.heading[row])));
+  const double own_offset = cross(tangent, position - path->line.point_at(along));
+  const double speed = scene.speed[row];
+  const double margin = type.width < 1.0 ? 0.15 : 0.3;
+
+  grid.visit_within(position, reach, [&](std::size_t other, double) {
+    if (other == row) return;
+    // cheap rejection: well behind
+    if ((scene.position[other] - position).dot(tangent) < -reach * 0.3 - 10.0) return;
+    const PolylinePosition place = path->line.project(scene.position[other], along, along + reach);
+    if (place.distance > own_half_width + scene.footprint[other].radius + margin) return;
+    if (place.along <= along + 1e-6) return;
+    const Vec2 direction = path->line.direction_at(place.along);
+    const double half_width = half_extent(scene, other, left_of(direction));
+    // the body drifts back to its path: near ahead its own offset counts, far ahead the path itself
+    const double blend = std::clamp(1.0 - (place.along - along) / 15.0, 0.0, 1.0);
+    if (std::abs(place.offset - blend * own_offset) > own_half_width + half_width + margin) return;
+    const double rear = place.along - half_extent(scene, other, direction);
+    const double gap = rear - along - own_half_length;
+    if (gap < -own_half_length) return;
+    const Vec2 velocity = scene.velocity[other];
+    const double other_speed = std::max(0.0, velocity.dot(direction));
+    const bool aligned = direction.dot(direction_of(scene.heading[other])) > 0.5;
+    if (!aligned && velocity.norm() > 0.5 && gap > 2.0 * speed + 3.0) return;
+    if (gap < leader.gap || (gap == leader.gap && scene.id[other].value < leader.id))
+      leader = {gap, other_speed, rear, scene.id[other].value};
+  });
+  return leader;
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "model/approaches.h"
+
+namespace sumogamma {
+
+/// Whether, where and why an agent must halt before a link of its path.
+struct LinkDecision {
+  bool must_stop = false;
+  double stop_at = 0;  ///< along the path, for the front [m]
+  LimitReason reason = LimitReason::None;
+  std::int64_t foe = -1;
+};
+
+/// The traveller whose link is judged.
+struct Traveller {
+  std::size_t row = 0;
+  double front = 0;        ///< along its path [m]
+  double length = 0;       ///< [m]
+  double speed = 0;        ///< along its path [m/s]
+  double top_speed = 0;    ///< that it would like to reach [m/s]
+};
+
+/// Signals, priority and occupied conflict zones (facts of the network) applied to one link.
+LinkDecision decide_link(const Model& model, const RoadState& road, const Scene& scene, const ApproachTable& approaches,
+                         const Traveller& traveller, const PathLink& link);
+
+}  // namespace sumogamma

@@ -1,0 +1,105 @@
+#include "simulation/simulation.h"
+
+#include <chrono>
+#include <ctime>
+
+#include "model/locate.h"
+#include "model/road_context.h"
+
+namespace sumogamma {
+
+namespace {
+
+double cpu_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Adds the wall time since its last call to a phase.
+class PhaseClock {
+ public:
+  void end(double& phase) {
+    const auto now = std::chrono::steady_clock::now();
+    phase += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+/// Planned halts: stands out a stop's time once the front is there, then looks to the next one.
+void update_halt(const Path& path, double dt, Scene& scene, std::size_t row) {
+  const auto next = static_cast<std::size_t>(scene.next_stop[row]);
+  if (next >= path.stops.size()) return;
+  if (scene.stop_left[row] > 0.0) {
+    scene.stop_left[row] -= dt;
+    if (scene.stop_left[row] <= 0.0) {
+      scene.stop_left[row] = 0.0;
+      ++scene.next_stop[row];
+    }
+    return;
+  }
+  const double front = scene.path_along[row] + half_extent(scene, row, path.line.direction_at(scene.path_along[row]));
+  if (front > path.stops[next].along + 5.0) ++scene.next_stop[row];  // passed: it began beyond its stop
+  else if (front > path.stops[next].along - 1.5 && scene.speed[row] < 0.2) scene.stop_left[row] = std::max(path.stops[next].duration, dt);
+}
+
+void apply(const BodyState& next, double dt, Scene& scene, std::size_t row) {
+  scene.acceleration[row] = (next.velocity - scene.velocity[row]) / dt;
+  scene.position[row] = next.position;
+  scene.heading[row] = next.heading;
+  scene.velocity[row] = next.velocity;
+  scene.speed[row] = next.speed;
+  scene.steering[row] = next.steering;
+}
+
+}  // namespace
+
+void tick(Simulation& sim, World& world) {
+  PhaseClock clock;
+  world.observe(sim.scene, sim.road);
+  clock.end(sim.times.observe);
+
+  const double cpu_before = cpu_seconds();
+  const std::size_t rows = sim.scene.size();
+  Scene& scene = sim.scene;
+  sim.workspaces.resize(sim.workers->count());
+  sim.commands.resize(rows);
+  sim.grid.rebuild(scene.position);
+  sim.workers->for_each_range(rows, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) locate_on_path(sim.road, scene, row);
+  });
+  update_road_contexts(sim.model, sim.road, sim.grid, sim.dt, *sim.workers, sim.approaches, scene);
+  prepare_tick(sim.model, scene, *sim.workers, sim.geometry);
+  clock.end(sim.times.context);
+
+  // everyone reads the same frozen scene and writes only its own command
+  sim.workers->for_each_range(rows, [&](std::size_t worker, std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      if (scene.control[row] != Control::Gamma) continue;
+      const Vec2 velocity = gamma_velocity(sim.model, scene, sim.geometry, row, scene.behavior[row], sim.workspaces[worker]);
+      sim.commands[row] = track_velocity(sim.model, scene, row, velocity, sim.dt);
+    }
+  });
+  clock.end(sim.times.model);
+
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (const Path* path = sim.road.path(scene.path[row])) update_halt(*path, sim.dt, scene, row);
+    if (scene.control[row] == Control::Gamma) {
+      apply(sim.commands[row], sim.dt, scene, row);
+      ++sim.times.agent_steps;
+    }
+    scene.standing_time[row] = scene.velocity[row].norm() < 0.3 ? scene.standing_time[row] + sim.dt : 0.0;
+  }
+  ++scene.tick;
+  scene.time += sim.dt;
+  clock.end(sim.times.track);
+  sim.times.model_cpu += cpu_seconds() - cpu_before;
+
+  world.advance(scene);
+  clock.end(sim.times.advance);
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/parallel.h"
+#include "model/approaches.h"
+#include "model/gamma_velocity.h"
+#include "model/tracking.h"
+#include "simulation/world.h"
+
+namespace sumogamma {
+
+/// Wall time spent in the phases of the ticks so far [s].
+struct PhaseTimes {
+  double observe = 0, context = 0, model = 0, track = 0, advance = 0, record = 0;
+  double model_cpu = 0;         ///< CPU time of context, model and track, all threads [s]
+  std::int64_t agent_steps = 0; ///< rows moved by the model
+};
+
+/// A run: everything that a tick reads and writes.
+struct Simulation {
+  Model model;
+  RoadState road;
+  Scene scene;
+  double dt = 0.05;  ///< [s]
+  std::unique_ptr<Workers> workers = std::make_unique<Workers>(1);
+  PhaseTimes times;
+
+  // scratch, meaning nothing between ticks
+  SpatialGrid grid;
+  ApproachTable approaches;
+  TickGeometry geometry;
+  std::vector<Workspace> workspaces;
+  std::vector<BodyState> commands;
+};
+
+/// Advances everybody by dt: observe, put the road's view of each agent together, choose velocities from the frozen scene
+/// (Eq. 7), track them with the bodies' controllers, and hand the result to the world.
+void tick(Simulation& simulation, World& world);
+
+}  // namespace sumogamma

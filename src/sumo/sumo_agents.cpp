@@ -1,0 +1,86 @@
+#include "sumo/sumo_agents.h"
+
+#include <algorithm>
+
+#include "base/random.h"
+
+namespace sumogamma {
+
+std::optional<AgentTypeId> agent_type_of(const AgentTypeTable& types, const SumoAgentDetails& details) {
+  for (std::size_t row = 0; row < types.size(); ++row)
+    if (types[row].name == details.type_id) return static_cast<AgentTypeId>(row);
+  struct ByClass {
+    std::string_view sumo_class, type;
+  };
+  static constexpr ByClass kByClass[] = {
+      {"passenger", "car"},   {"private", "car"},    {"taxi", "car"},        {"emergency", "van"},    {"authority", "car"},
+      {"army", "truck"},      {"vip", "car"},        {"hov", "car"},         {"evehicle", "car"},     {"custom1", "car"},
+      {"custom2", "car"},     {"delivery", "van"},   {"truck", "truck"},     {"trailer", "truck"},    {"bus", "bus"},
+      {"coach", "bus"},       {"motorcycle", "motorcycle"}, {"moped", "motorcycle"}, {"bicycle", "bicycle"}, {"pedestrian", "pedestrian"},
+      {"ignoring", "car"}};
+  if (details.is_person) return find_agent_type(types, "pedestrian");
+  for (const ByClass& row : kByClass)
+    if (row.sumo_class == details.vehicle_class) return find_agent_type(types, row.type);
+  return std::nullopt;
+}
+
+std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& details, AgentTypeId type_id, std::string& why) {
+  const RoadNetwork& network = model.road;
+  const AgentType& type = type_of(model.types, type_id);
+  std::vector<EdgeId> route;
+  for (const std::string& name : details.route) {
+    const auto edge = network.edge_by_name.find(name);
+    if (edge == network.edge_by_name.end()) {
+      why = "edge '" + name + "' is not in the network file";
+      return nullptr;
+    }
+    route.push_back(edge->second);
+  }
+  PathRequest request;
+  request.route = route;
+  request.vehicle_class = vehicle_class_from_name(details.vehicle_class);
+  request.arrival_position = details.arrival_position;
+  request.max_lateral_acceleration = type.max_lateral_acceleration;
+  request.comfortable_deceleration = type.comfortable_deceleration;
+  request.max_speed = details.max_speed > 0.0 ? std::min(details.max_speed, type.max_speed) : type.max_speed;
+  request.speed_factor = details.speed_factor;
+  const auto lane = network.lane_by_name.find(details.lane);
+  if (lane != network.lane_by_name.end()) request.start_lane = lane->second;
+  request.start_along = std::max(0.0, details.lane_position - (details.is_person ? 0.0 : 0.5 * details.length));
+  auto path = details.is_person ? build_walking_path(network, request, why) : build_driving_path(network, request, why);
+  if (!path) return nullptr;
+  // planned halts on lanes of the path
+  for (const SumoAgentDetails::Stop& stop : details.stops) {
+    const auto stop_lane = network.lane_by_name.find(stop.lane);
+    if (stop_lane == network.lane_by_name.end()) continue;
+    for (const PathStretch& stretch : path->stretches)
+      if (network.lane(stretch.lane).edge == network.lane(stop_lane->second).edge) {
+        const double along = stretch.from + std::max(stop.end - stretch.lane_from, 0.0);
+        if (along <= stretch.to + 0.5) {
+          path->stops.push_back({along, stop.duration});
+          break;
+        }
+      }
+  }
+  std::sort(path->stops.begin(), path->stops.end(), [](const PathStop& a, const PathStop& b) { return a.along < b.along; });
+  return std::make_shared<Path>(std::move(*path));
+}
+
+BehaviorState draw_behavior(const AgentType& type, std::uint64_t seed, AgentId id) {
+  BehaviorState behavior;
+  behavior.intention.kind = IntentionKind::Path;
+  behavior.responsibility = random_uniform(seed, id.value, 0, Draw::Responsibility, 0.5, 0.6);
+  const double attention = random_uniform(seed, id.value, 0, Draw::Attention, 0.9, 1.3);
+  behavior.attention = {attention * type.attention_front, attention * type.attention_rear};
+  return behavior;
+}
+
+double draw_path_offset(const Model& model, const AgentType& type, std::uint64_t seed, AgentId id) {
+  const double kerb_side = model.road.left_hand ? 1.0 : -1.0;
+  const double draw = random_uniform(seed, id.value, 1, Draw::Intention);
+  if (type.kinematics == Kinematics::Holonomic) return kerb_side * (0.1 + 0.8 * draw);
+  if (type.width < 1.2) return kerb_side * (0.2 + 0.7 * draw);
+  return 0.3 * (draw - 0.5);
+}
+
+}  // namespace sumogamma

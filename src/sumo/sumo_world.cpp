@@ -1,0 +1,356 @@
+#include "sumo/sumo_world.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "base/units.h"
+#include "model/approaches.h"
+#include "model/following.h"
+#include "sumo/sumo_agents.h"
+
+namespace sumogamma {
+
+namespace {
+
+/// Off the map: where agents wait that SUMO has inserted and that have no room yet.
+Vec2 lobby(const RoadNetwork& network) { return network.upper_corner + Vec2(100.0, 100.0); }
+
+/// Separating-axis test of two rectangles given by centre, heading and half sizes.
+struct Box {
+  Vec2 center;
+  double heading = 0, half_length = 0, half_width = 0;
+};
+bool overlap(const Box& a, const Box& b) {
+  const Vec2 between = b.center - a.center;
+  for (const double heading : {a.heading, a.heading + 0.5 * kPi, b.heading, b.heading + 0.5 * kPi}) {
+    const Vec2 axis = direction_of(heading);
+    auto extent = [&](const Box& box) {
+      const Vec2 forward = direction_of(box.heading);
+      return box.half_length * std::abs(forward.dot(axis)) + box.half_width * std::abs(cross(forward, axis));
+    };
+    if (std::abs(between.dot(axis)) > extent(a) + extent(b)) return false;
+  }
+  return true;
+}
+
+Box box_of(const Scene& scene, std::size_t row) {
+  const Vec2 forward = direction_of(scene.heading[row]);
+  return {scene.position[row], scene.heading[row], half_extent(scene, row, forward),
+          half_extent(scene, row, left_of(forward))};
+}
+
+/// SUMO's reference point of a footprint centre and back: front bumper for vehicles, centre for persons.
+Vec2 reference_point(const Vec2& center, double heading, double length) {
+  return center + 0.5 * length * direction_of(heading);
+}
+
+}  // namespace
+
+SumoWorld::SumoWorld(const Model& model, SumoBackend& backend, SumoWorldOptions options)
+    : model_(model), backend_(backend), options_(std::move(options)), time_(backend.time()) {
+  for (const std::string& id : backend_.signal_ids()) {
+    const auto signal = model_.road.signal_by_name.find(id);
+    signal_order_.push_back(signal == model_.road.signal_by_name.end() ? kNoSignal : signal->second);
+  }
+}
+
+bool SumoWorld::wants_control(const SumoAgentDetails& details, AgentTypeId type) const {
+  const ControlChoice& control = options_.control;
+  return control.all || control.names.count(type_of(model_.types, type).name) > 0 || control.names.count(details.id) > 0;
+}
+
+void SumoWorld::observe(Scene& scene, RoadState& road) {
+  scene.time = time_;
+  road.signal_states.resize(model_.road.signals.size());
+  for (std::size_t i = 0; i < signal_order_.size() && i < step_.signal_states.size(); ++i)
+    if (signal_order_[i] != kNoSignal) road.signal_states[index_of(signal_order_[i])] = step_.signal_states[i];
+  take_arrived(scene, road);
+  finish_driven(scene, road);
+  take_departed(scene);
+  update_external(scene, road);
+  insert_pending(scene, road);
+  // each event is handled once
+  step_.departed_vehicles.clear();
+  step_.departed_persons.clear();
+  step_.arrived_vehicles.clear();
+  step_.arrived_persons.clear();
+  step_.lost.clear();
+}
+
+void SumoWorld::take_departed(Scene&) {
+  if (step_.departed_vehicles.empty() && step_.departed_persons.empty()) return;
+  for (SumoAgentDetails& details : backend_.details(step_.departed_vehicles, step_.departed_persons)) {
+    const auto type = agent_type_of(model_.types, details);
+    if (!type) {
+      ++life_cycle_.left_to_sumo["rail or water"];
+      continue;
+    }
+    Pending pending{std::move(details), *type, nullptr};
+    bool driven = options_.control.any() && wants_control(pending.details, *type);
+    if (options_.control.any()) {
+      std::string why = "a person who does not walk";
+      if (!pending.details.route.empty()) pending.path = path_of(model_, pending.details, *type, why);
+      if (driven && !pending.path) {
+        driven = false;
+        ++life_cycle_.left_to_sumo[why];
+        spdlog::warn("{}: left to SUMO: {}", pending.details.id, why);
+      }
+    }
+    if (driven) {
+      pending_.push_back(std::move(pending));
+    } else {
+      backend_.watch(pending.details.id, pending.details.is_person);
+      std::string id = pending.details.id;
+      external_arriving_.insert_or_assign(std::move(id), std::move(pending));
+    }
+  }
+}
+
+AgentId SumoWorld::register_agent(const SumoAgentDetails& details, bool external, double time) {
+  const AgentId id{static_cast<std::uint32_t>(known_.size())};
+  known_.push_back({details.id, details.is_person, external, false, time, details.is_person ? 0.0 : details.length});
+  names_.push_back(details.id);
+  return id;
+}
+
+void SumoWorld::forget(AgentId id, Scene& scene, RoadState& road, std::vector<bool>& removed, std::size_t row) {
+  if (removed.empty()) removed.assign(scene.size(), false);
+  removed[row] = true;
+  if (id.value < road.paths.size()) road.paths[id.value] = nullptr;
+  written_.erase(known_[id.value].sumo_id);
+}
+
+void SumoWorld::take_arrived(Scene& scene, RoadState& road) {
+  std::vector<bool> removed;
+  auto arrived = [&](const std::string& sumo_id) {
+    external_arriving_.erase(sumo_id);
+    const auto external = external_ids_.find(sumo_id);
+    if (external == external_ids_.end()) return;
+    const AgentId id = external->second;
+    const std::size_t row = find_row(scene, id);
+    external_ids_.erase(external);
+    if (row == scene.size()) return;
+    LifeCycle::Count& count = life_cycle_.by_type[type_of(model_.types, scene.type[row]).name];
+    ++count.arrived;
+    count.travel_time += time_ - known_[id.value].departed;
+    forget(id, scene, road, removed, row);
+  };
+  for (const std::string& id : step_.arrived_vehicles) arrived(id);
+  for (const std::string& id : step_.arrived_persons) arrived(id);
+  // refused by SUMO: it vanished there between read and write
+  for (const std::string& lost : step_.lost)
+    for (std::size_t row = 0; row < scene.size(); ++row) {
+      const AgentId id = scene.id[row];
+      if (known_[id.value].external || known_[id.value].sumo_id != lost) continue;
+      ++life_cycle_.removed["refused by SUMO"];
+      forget(id, scene, road, removed, row);
+    }
+  if (!removed.empty()) remove_agents(scene, removed);
+}
+
+void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
+  std::vector<bool> removed;
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    if (scene.control[row] != Control::Gamma) continue;
+    const Path* path = road.path(scene.path[row]);
+    const Known& known = known_[scene.id[row].value];
+    // vehicles arrive with their front, walkers when they are there within a step or two
+    const double reached = scene.path_along[row] + (known.is_person ? 0.7 : 0.5 * known.length + 0.3);
+    if (reached < path->arrival) continue;
+    if (known.is_person) {
+      const std::vector<std::string> next = backend_.finish_stage(known.sumo_id);
+      if (!next.empty()) {
+        const std::string one[] = {known.sumo_id};
+        auto details = backend_.details({}, one);
+        std::string why = "it is gone";
+        auto next_path = details.empty() ? nullptr : path_of(model_, details.front(), scene.type[row], why);
+        if (next_path) {
+          scene.path_along[row] = next_path->line.project(scene.position[row]).along;
+          road.paths[scene.id[row].value] = std::move(next_path);
+          continue;
+        }
+        ++life_cycle_.removed["next walk impossible: " + why];
+      }
+    } else {
+      backend_.remove_vehicle(known.sumo_id);
+    }
+    LifeCycle::Count& count = life_cycle_.by_type[type_of(model_.types, scene.type[row]).name];
+    ++count.arrived;
+    count.travel_time += time_ - known.departed;
+    forget(scene.id[row], scene, road, removed, row);
+  }
+  if (!removed.empty()) remove_agents(scene, removed);
+}
+
+void SumoWorld::insert_pending(Scene& scene, RoadState& road) {
+  // in order of departure; one that finds no room does not hold up those who start elsewhere
+  for (auto pending = pending_.begin(); pending != pending_.end();) {
+    if (options_.max_agents > 0 && scene.size() >= options_.max_agents) break;
+    if (insert(*pending, scene, road)) pending = pending_.erase(pending);
+    else ++pending;
+  }
+  life_cycle_.waiting = pending_.size();
+}
+
+bool SumoWorld::insert(const Pending& pending, Scene& scene, RoadState& road) {
+  const SumoAgentDetails& details = pending.details;
+  const AgentType& type = type_of(model_.types, pending.type);
+  const AgentId id{static_cast<std::uint32_t>(known_.size())};
+  const Path& path = *pending.path;
+  AgentState agent;
+  agent.id = id;
+  agent.type = pending.type;
+  const double length = details.length > 0.0 ? details.length : type.length;
+  const double width = details.width > 0.0 ? details.width : type.width;
+  agent.footprint = box_footprint(details.is_person ? type.length : length, details.is_person ? type.width : width);
+  const Vec2 direction = path.line.direction_at(0.0);
+  agent.path_offset = draw_path_offset(model_, type, options_.seed, id);
+  const PathStretch& stretch = path.stretches.front();
+  const double half_width = details.is_person ? 0.5 * type.width : 0.5 * width;
+  const double offset = std::clamp(agent.path_offset, std::min(0.0, half_width + 0.1 - stretch.room_right),
+                                   std::max(0.0, stretch.room_left - half_width - 0.1));
+  agent.position = path.line.point_at(0.0) + offset * left_of(direction);
+  agent.heading = heading_of(direction);
+  agent.preferred_speed = details.max_speed > 0.0 ? std::min(details.max_speed * (details.is_person ? details.speed_factor : 1.0), type.max_speed)
+                                                  : type.preferred_speed;
+  agent.behavior = draw_behavior(type, options_.seed, id);
+  agent.path = static_cast<PathId>(id.value);
+
+  // room for the body now, and for what comes from behind and goes ahead
+  const double half_length = details.is_person ? 0.5 * type.length : 0.5 * length;
+  const double gap = details.is_person ? 0.1 : type.min_gap;
+  const Box wanted{agent.position, agent.heading, half_length + gap, half_width + (details.is_person ? 0.05 : 0.2)};
+  double speed = details.is_person ? agent.preferred_speed : std::min(path.profile_at(0.0), agent.preferred_speed);
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    const Vec2 relative = to_body(scene.position[row] - agent.position, direction);
+    if (std::abs(relative.x()) > 80.0 || std::abs(relative.y()) > 30.0) continue;
+    const Box other = box_of(scene, row);
+    if (overlap(wanted, other)) return false;
+    if (details.is_person || std::abs(relative.y()) > half_width + other.half_width + 0.3) continue;
+    const double ahead = scene.velocity[row].dot(direction);
+    const double free = std::abs(relative.x()) - half_length - scene.footprint[row].radius - gap;
+    if (relative.x() > 0.0) {
+      // no faster than stops behind it at ease
+      const double leader = std::max(ahead, 0.0);
+      speed = std::min(speed, std::sqrt(leader * leader + 2.0 * 0.7 * type.comfortable_deceleration * std::max(free - 1.0, 0.0)));
+    } else if (free < ahead * 2.0) {
+      return false;  // somebody is about to be here
+    }
+  }
+  agent.speed = details.is_person ? 0.0 : speed;
+
+  register_agent(details, false, time_);
+  road.paths.resize(known_.size());
+  road.paths[id.value] = pending.path;
+  append_agent(scene, agent);
+  ++life_cycle_.by_type[type.name].inserted;
+  // spread over the run, a few ghosts at a time are read back
+  if (written_.size() < options_.watched) {
+    backend_.watch(details.id, details.is_person);
+    written_.emplace(details.id, std::pair(id, Vec2(Vec2::Constant(std::nan("")))));
+  }
+  return true;
+}
+
+void SumoWorld::update_external(Scene& scene, RoadState& road) {
+  for (const SumoAgent& seen : step_.agents) {
+    const auto arriving = external_arriving_.find(seen.id);
+    const double heading = heading_from_sumo(seen.angle);
+    if (arriving != external_arriving_.end()) {
+      const SumoAgentDetails& details = arriving->second.details;
+      const AgentType& type = type_of(model_.types, arriving->second.type);
+      const AgentId id = register_agent(details, true, time_);
+      AgentState agent;
+      agent.id = id;
+      agent.type = arriving->second.type;
+      agent.footprint = details.is_person ? box_footprint(type.length, type.width) : box_footprint(details.length, details.width);
+      agent.position = reference_point(seen.position, heading, -known_[id.value].length);
+      agent.heading = heading;
+      agent.speed = seen.speed;
+      agent.preferred_speed = details.max_speed;
+      agent.behavior = draw_behavior(type, options_.seed, id);
+      agent.control = Control::External;
+      road.paths.resize(known_.size());
+      if (arriving->second.path) {
+        agent.path = static_cast<PathId>(id.value);
+        road.paths[id.value] = arriving->second.path;
+      }
+      append_agent(scene, agent);
+      ++life_cycle_.by_type[type.name].inserted;
+      external_ids_.emplace(seen.id, id);
+      external_arriving_.erase(arriving);
+      continue;
+    }
+    const auto external = external_ids_.find(seen.id);
+    if (external == external_ids_.end()) continue;
+    const std::size_t row = find_row(scene, external->second);
+    if (row == scene.size()) continue;
+    const Vec2 velocity = seen.speed * direction_of(heading);
+    scene.acceleration[row] = (velocity - scene.velocity[row]) / options_.dt;
+    scene.position[row] = reference_point(seen.position, heading, -known_[external->second.value].length);
+    scene.heading[row] = heading;
+    scene.velocity[row] = velocity;
+    scene.speed[row] = seen.speed;
+    if (scene.path[row] != kNoPath && scene.path_along[row] == 0.0)
+      if (const Path* path = road.path(scene.path[row])) scene.path_along[row] = path->line.project(scene.position[row]).along;
+  }
+}
+
+/// SUMO is blind to ghosts: a vehicle that it drives is slowed by us where a ghost binds it, and given back after.
+void SumoWorld::hold_followers(const Scene& scene) {
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    if (scene.control[row] != Control::External) continue;
+    Known& known = known_[scene.id[row].value];
+    if (known.is_person) continue;
+    const RoadContext& context = scene.context[row];
+    bool bound = false;
+    if (context.active && context.foe >= 0 && context.allowed_speed < scene.speed[row] + 1.0) {
+      const std::size_t foe = find_row(scene, AgentId{static_cast<std::uint32_t>(context.foe)});
+      bound = foe < scene.size() && scene.control[foe] == Control::Gamma;
+    }
+    if (bound) backend_.set_speed(known.sumo_id, context.allowed_speed);
+    else if (known.speed_held) backend_.set_speed(known.sumo_id, -1.0);
+    known.speed_held = bound;
+  }
+}
+
+void SumoWorld::compare_poses(const Scene& scene) {
+  for (const SumoAgent& seen : step_.agents) {
+    const auto sent = written_.find(seen.id);
+    if (sent == written_.end() || !coupling_.position_error) continue;
+    const double error = (seen.position - sent->second.second).norm();
+    if (std::isfinite(error)) coupling_.position_error(error);
+  }
+  static_cast<void>(scene);
+}
+
+void SumoWorld::advance(const Scene& scene) {
+  if (options_.control.any()) hold_followers(scene);
+  vehicle_poses_.clear();
+  person_poses_.clear();
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    if (scene.control[row] != Control::Gamma) continue;
+    const Known& known = known_[scene.id[row].value];
+    SumoPose pose{&known.sumo_id, reference_point(scene.position[row], scene.heading[row], known.length),
+                  sumo_from_heading(scene.heading[row])};
+    (known.is_person ? person_poses_ : vehicle_poses_).push_back(pose);
+    const auto watched = written_.find(known.sumo_id);
+    if (watched != written_.end()) watched->second.second = pose.position;
+  }
+  const Vec2 waiting_place = lobby(model_.road);
+  for (const Pending& pending : pending_) {
+    const SumoPose pose{&pending.details.id, waiting_place, 0.0};
+    (pending.details.is_person ? person_poses_ : vehicle_poses_).push_back(pose);
+  }
+  backend_.step(vehicle_poses_, person_poses_, step_);
+  time_ = step_.time;
+  coupling_.teleports += step_.teleports;
+  coupling_.emergency_stops += step_.emergency_stops;
+  coupling_.sumo_collisions += step_.collisions;
+  compare_poses(scene);
+}
+
+bool SumoWorld::finished() const { return false; }
+
+}  // namespace sumogamma

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "model/model.h"
+#include "simulation/world.h"
+#include "sumo/backend.h"
+
+namespace sumogamma {
+
+/// Which agents GAMMA takes over.
+struct ControlChoice {
+  bool all = true;                   ///< everyone that can be driven
+  std::set<std::string> names;       ///< else: agent types ("car") or SUMO ids; empty: none
+  bool has_region = false;           ///< only inside the box below
+  Vec2 region_low = Vec2::Zero(), region_high = Vec2::Zero();
+
+  bool any() const { return all || !names.empty() || has_region; }
+};
+
+/// Options of a run in SUMO.
+struct SumoWorldOptions {
+  ControlChoice control;
+  std::size_t max_agents = 0;   ///< cap on agents alive at once, 0: none
+  std::uint64_t seed = 1;
+  double dt = 0.05;             ///< [s]
+  std::size_t watched = 32;     ///< ghosts whose pose is read back to measure the coupling
+};
+
+/// Counts of the life cycle, by type name.
+struct LifeCycle {
+  struct Count {
+    std::int64_t inserted = 0, arrived = 0;
+    double travel_time = 0;  ///< of the arrived, summed [s]
+  };
+  std::map<std::string, Count> by_type;
+  std::map<std::string, std::int64_t> removed;      ///< taken out before the destination, by reason
+  std::map<std::string, std::int64_t> left_to_sumo; ///< not driven by us although asked for, by reason
+  std::size_t waiting = 0;                          ///< departed in SUMO, waiting for room here
+};
+
+/// What SUMO reported against what was written.
+struct CouplingCheck {
+  std::function<void(double error)> position_error;  ///< called for each compared pose [m]
+  int teleports = 0, emergency_stops = 0, sumo_collisions = 0;
+};
+
+/// SUMO as the world: it inserts, routes, signals and shows; agents under our control are ghosts in it (see docs/coupling.md).
+/// Life cycle of an agent: departed in SUMO -> pending (kept off the map until its place is free) -> driven -> arrived.
+class SumoWorld : public World {
+ public:
+  /// `model` and `backend` outlive the world.
+  SumoWorld(const Model& model, SumoBackend& backend, SumoWorldOptions options);
+
+  void observe(Scene& scene, RoadState& road) override;
+  void advance(const Scene& scene) override;
+  bool finished() const override;
+
+  const LifeCycle& life_cycle() const { return life_cycle_; }
+  CouplingCheck& coupling() { return coupling_; }
+  /// SUMO's id of an agent, by AgentId.
+  const std::vector<std::string>& names() const { return names_; }
+  const SumoStep& last_step() const { return step_; }
+
+ private:
+  struct Pending {
+    SumoAgentDetails details;
+    AgentTypeId type{};
+    std::shared_ptr<const Path> path;
+  };
+  struct Known {
+    std::string sumo_id;
+    bool is_person = false;
+    bool external = false;
+    bool speed_held = false;  ///< SUMO-driven: we hold its speed behind a ghost
+    double departed = 0;      ///< [s]
+    double length = 0;        ///< 0 for persons, whose reference point is their centre [m]
+  };
+
+  void take_departed(Scene& scene);
+  void take_arrived(Scene& scene, RoadState& road);
+  void finish_driven(Scene& scene, RoadState& road);
+  void insert_pending(Scene& scene, RoadState& road);
+  void update_external(Scene& scene, RoadState& road);
+  void hold_followers(const Scene& scene);
+  bool wants_control(const SumoAgentDetails& details, AgentTypeId type) const;
+  bool insert(const Pending& pending, Scene& scene, RoadState& road);
+  AgentId register_agent(const SumoAgentDetails& details, bool external, double time);
+  void forget(AgentId id, Scene& scene, RoadState& road, std::vector<bool>& removed, std::size_t row);
+  void compare_poses(const Scene& scene);
+
+  const Model& model_;
+  SumoBackend& backend_;
+  SumoWorldOptions options_;
+  SumoStep step_;
+  LifeCycle life_cycle_;
+  CouplingCheck coupling_;
+  std::deque<Pending> pending_;
+  std::map<std::string, Pending> external_arriving_;  ///< watched, first pose not seen yet
+  std::map<std::string, AgentId> external_ids_;
+  std::vector<Known> known_;        ///< by AgentId
+  std::vector<std::string> names_;  ///< by AgentId
+  std::vector<SignalId> signal_order_;  ///< of the back end's list
+  std::map<std::string, std::pair<AgentId, Vec2>> written_;  ///< watched ghosts: what was sent
+  std::vector<SumoPose> vehicle_poses_, person_poses_;
+  double time_ = 0;
+};
+
+}  // namespace sumogamma
