@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# Builds and tests sumo-gamma; installs what that takes.
+#   tools/test.sh          everything, under the sanitizers, too
+#   tools/test.sh quick    build, unit and property tests
+#   tools/test.sh tidy     clang-tidy on every file (slow)
+# The last line adds it all up; the exit code is 0 only where nothing failed.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/lib/common.sh"
+
+mode=${1:-full}
+case "$mode" in
+  full | quick | tidy) ;;
+  -h | --help)
+    sed -n '2,6s/^# \{0,1\}//p' "$0"
+    exit 0
+    ;;
+  *)
+    sed -n '2,6s/^# \{0,1\}//p' "$0" >&2
+    exit 2
+    ;;
+esac
+cd "$project"
+
+stages=()
+lost=()
+
+# test_stage PRESET LABELS [TARGET...]: builds the preset (or the targets in it) and runs the tests of the labels
+test_stage() {
+  local preset=$1 labels=$2
+  shift 2
+  headline "$preset: build"
+  rm -f "build/$preset/tests.xml"
+  if ! build "$preset" "$@"; then
+    lost+=(--failed "$preset")
+    return
+  fi
+  headline "$preset: tests"
+  "${runner[@]}" ctest --test-dir "build/$preset" -L "$labels" -j "$jobs" --output-on-failure \
+    --no-tests=error --output-junit "$project/build/$preset/tests.xml" < /dev/null || true
+  if [[ -s build/$preset/tests.xml ]]; then
+    stages+=("build/$preset/tests.xml")
+  else
+    lost+=(--failed "$preset")
+  fi
+}
+
+headline "packages"
+tools/setup.sh --test
+
+if [[ $mode == tidy ]]; then
+  headline "clang-tidy"
+  build tidy
+  echo "clang-tidy: nothing to complain about"
+  exit 0
+fi
+
+# reports end the test; libsumo leaks a little at its exit, through libraries of its own
+export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1:${ASAN_OPTIONS-}"
+export LSAN_OPTIONS="suppressions=$project/tests/support/leaks.supp:print_suppressions=0:${LSAN_OPTIONS-}"
+export UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1:${UBSAN_OPTIONS-}"
+export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:${TSAN_OPTIONS-}"
+runner=()
+
+case "$mode" in
+  quick) test_stage dev '^(unit|property)$' ;;
+  full)
+    test_stage dev '.'
+    test_stage asan '^(unit|property|golden)$' tests_unit tests_property tests_golden
+    # the other compiler must give the same bits
+    test_stage clang '^(golden|fuzz)$'
+    # g++ 12's thread sanitizer cannot place its memory where the kernel randomises addresses a lot
+    setarch "$(uname -m)" -R true 2> /dev/null && runner=(setarch "$(uname -m)" -R)
+    test_stage tsan '^(unit|property)$' tests_unit tests_property
+    ;;
+esac
+
+headline "summary"
+python3 tools/lib/summarise_tests.py "${lost[@]}" "${stages[@]}"
