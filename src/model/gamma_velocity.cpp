@@ -1,0 +1,34 @@
+#include "model/gamma_velocity.h"
+
+#include <algorithm>
+
+#include "model/context.h"
+#include "model/geometric_constraints.h"
+#include "model/kinematic_set.h"
+#include "model/preferred_velocity.h"
+
+namespace sumogamma {
+
+Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                    std::size_t row, const BehaviorState& behavior, Workspace& work) {
+  const AgentType& type = type_of(model.types, scene.type[row]);
+  work.preferred = preferred_velocity(model, scene, row, behavior.intention);
+  if (!work.preferred.allFinite()) work.preferred = Vec2::Zero();
+  find_attended(scene, geometry, row, behavior.attention, work.preferred, type.horizon,
+                work.attended);
+
+  work.constraints.clear();
+  append_kinematic_constraints(model, scene, row, work.constraints);   // K, III-A
+  append_contextual_constraints(model, scene, row, work.constraints);  // C, III-C
+  work.constraints.hard_count = work.constraints.planes.size();
+  append_geometric_constraints(model, scene, geometry, row, behavior, work.attended,
+                               work.constraints);  // G, III-B
+
+  const double fastest =
+      std::min(type.max_speed, std::max(scene.preferred_speed[row], work.preferred.norm()));
+  work.result = closest_point(work.constraints.planes, work.constraints.hard_count, work.preferred,
+                              fastest, work.program);
+  return work.result.point;
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/half_plane_program.h"
+#include "model/attention.h"
+#include "model/constraints.h"
+#include "model/model.h"
+#include "model/tick_geometry.h"
+
+namespace sumogamma {
+
+/// Scratch of one thread. After a call it tells how the velocity came about: a replay draws it, a
+/// failing test prints it.
+struct Workspace {
+  std::vector<Attended> attended;
+  ConstraintSet constraints;
+  ProgramScratch program;
+  Vec2 preferred = Vec2::Zero();  ///< v_pref [m/s]
+  ProgramResult result;           ///< of Eq. 7; result.binding is an index into constraints
+
+  /// Where the plane that holds the velocity comes from; null where v_pref itself was feasible.
+  const ConstraintSource* binding_source() const {
+    return result.binding < 0 ? nullptr
+                              : &constraints.sources[static_cast<std::size_t>(result.binding)];
+  }
+};
+
+/// v_new of Eq. 7 [m/s]: the velocity nearest to the preferred one within K, C and G, for one row
+/// of the frozen scene under a hypothesis of its behaviour. Reads everything, writes only `work`,
+/// so rows may be computed in any order and thread. Always finite, always within K and C, null at
+/// the worst.
+Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                    std::size_t row, const BehaviorState& behavior, Workspace& work);
+
+}  // namespace sumogamma

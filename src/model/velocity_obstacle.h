@@ -1,0 +1,27 @@
+#pragma once
+
+#include "geometry/convex_polygon.h"
+
+namespace sumogamma {
+
+/// The way out of a velocity obstacle from the present relative velocity (Eq. 4).
+struct Escape {
+  Vec2 change = Vec2::Zero();  ///< u: nearest boundary point minus the relative velocity [m/s]
+  Vec2 normal = Vec2(1, 0);    ///< outward unit normal of the boundary there
+  bool colliding = false;      ///< the relative velocity lies inside the obstacle
+  bool overlapping = false;    ///< the bodies overlap already
+};
+
+/// Which way symmetric encounters are resolved.
+enum class PassingSide : std::uint8_t { Right, Left };
+
+/// The nearest point on the boundary of VO^tau (Eqs. 3-4) from `relative_velocity` = v_A - v_B,
+/// exactly. `difference`: B - A with the position of B seen from A; `horizon`: tau [s];
+/// `separation_time`: bodies that overlap are to come apart within it [s]. Where passing on either
+/// side is equally near, the given side is taken. Laws: |change| is the distance to the boundary;
+/// change is along normal inside and against it outside.
+Escape nearest_escape(const PolygonDifference& difference, const Vec2& relative_velocity,
+                      double horizon, double separation_time,
+                      PassingSide side = PassingSide::Right);
+
+}  // namespace sumogamma
