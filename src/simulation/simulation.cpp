@@ -67,12 +67,11 @@ void tick(Simulation& sim, World& world) {
   Scene& scene = sim.scene;
   sim.workspaces.resize(sim.workers->count());
   sim.commands.resize(rows);
-  sim.grid.rebuild(scene.position);
+  prepare_tick(sim.model, scene, *sim.workers, sim.geometry);
   sim.workers->for_each_range(rows, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) locate_on_path(sim.road, scene, row);
   });
-  update_road_contexts(sim.model, sim.road, sim.grid, sim.dt, *sim.workers, sim.approaches, scene);
-  prepare_tick(sim.model, scene, *sim.workers, sim.geometry);
+  update_road_contexts(sim.model, sim.road, sim.geometry.grid, sim.dt, *sim.workers, sim.approaches, scene);
   clock.end(sim.times.context);
 
   // everyone reads the same frozen scene and writes only its own command

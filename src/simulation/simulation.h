@@ -28,7 +28,6 @@ struct Simulation {
   PhaseTimes times;
 
   // scratch, meaning nothing between ticks
-  SpatialGrid grid;
   ApproachTable approaches;
   TickGeometry geometry;
   std::vector<Workspace> workspaces;

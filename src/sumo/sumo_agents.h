@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "model/model.h"
+#include "road/path.h"
 #include "sumo/backend.h"
 
 namespace sumogamma {
