@@ -1,0 +1,86 @@
+#include "study/flow_metrics.h"
+
+#include <algorithm>
+
+namespace sumogamma {
+
+void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const RoadState& road) {
+  by_type_.resize(types.size());
+  red_lights_.update(road);
+  track_.match(scene.id);
+  stuck_now_ = 0;
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    State& state = track_[row];
+    const AgentType& type = type_of(types, scene.type[row]);
+    const double speed = scene.velocity[row].norm();
+    Sums& sums = by_type_[static_cast<std::size_t>(scene.type[row])];
+    sums.speed += speed;
+    ++sums.steps;
+    const bool vehicle = type.kinematics == Kinematics::SingleTrack;
+    if (!state.known && vehicle) ++vehicles_;
+    if (state.known) {
+      const double moved = (scene.position[row] - state.position).norm();
+      // a jump (a teleport of SUMO) is no distance covered
+      if (moved <= 2.0 * type.max_speed * step_ + 1.0) distance_ += moved;
+    }
+    if (vehicle && speed < kWaiting) waiting_ += step_;
+    state.known = true;
+    state.position = scene.position[row];
+    if (speed < kStanding) {
+      add_standing(scene, row, state);
+    } else {
+      if (state.record >= 0) stuck_[static_cast<std::size_t>(state.record)].moved_on = true;
+      state.record = -1;
+      state.standing = 0;
+      state.stopped_at = scene.time;
+    }
+    if (state.record >= 0) ++stuck_now_;
+  }
+}
+
+void FlowMonitor::add_standing(const Scene& scene, std::size_t row, State& state) {
+  const RoadContext& context = scene.context[row];
+  const bool excused = (context.active && (context.reason == LimitReason::Signal ||
+                                           context.reason == LimitReason::Stop)) ||
+                       red_lights_.ahead(scene.lane[row].lane);
+  if (state.standing == 0) state.stopped_at = scene.time - step_;
+  if (!excused) state.standing += step_;
+  longest_ = std::max(longest_, state.standing);
+  // half a step less: sums of steps don't meet a whole number of seconds exactly
+  if (state.record < 0 && state.standing > kStuckTime - 0.5 * step_) {
+    state.record = static_cast<std::int32_t>(stuck_.size());
+    StuckAgent agent;
+    agent.id = scene.id[row];
+    agent.type = scene.type[row];
+    agent.position = scene.position[row];
+    agent.lane = scene.lane[row].lane;
+    agent.since = state.stopped_at;
+    agent.reason = context.active ? context.reason : LimitReason::None;
+    agent.foe = context.active ? context.foe : -1;
+    stuck_.push_back(agent);
+    if (!state.ever_stuck) ++stuck_agents_;
+    state.ever_stuck = true;
+  }
+  if (state.record >= 0) stuck_[static_cast<std::size_t>(state.record)].standing = state.standing;
+}
+
+FlowResult FlowMonitor::result(const AgentTypeTable& types) const {
+  FlowResult result;
+  double speed = 0;
+  std::uint64_t steps = 0;
+  for (std::size_t type = 0; type < by_type_.size(); ++type) {
+    const Sums& sums = by_type_[type];
+    if (sums.steps == 0) continue;
+    result.mean_speed_by_type[types[type].name] = sums.speed / static_cast<double>(sums.steps);
+    speed += sums.speed;
+    steps += sums.steps;
+  }
+  if (steps > 0) result.mean_speed = speed / static_cast<double>(steps);
+  result.distance_km = distance_ / 1000.0;
+  result.stuck_agents = stuck_agents_;
+  result.longest_standstill_s = longest_;
+  if (vehicles_ > 0) result.waiting_time_mean_s = waiting_ / static_cast<double>(vehicles_);
+  return result;
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "model/road_state.h"
+#include "scene/agent_type.h"
+#include "scene/scene.h"
+#include "study/agent_track.h"
+#include "study/red_lights.h"
+
+namespace sumogamma {
+
+/// Keys of `flow` in results.json.
+struct FlowResult {
+  double mean_speed = 0;            ///< over all agent-steps [m/s]
+  double distance_km = 0;           ///< covered by all agents together
+  std::uint64_t stuck_agents = 0;   ///< agents that were ever stuck
+  double longest_standstill_s = 0;  ///< longest standing without a red light ahead
+  double waiting_time_mean_s =
+      0;  ///< vehicles: time under kWaiting per trip, trips under way included
+  std::map<std::string, double> mean_speed_by_type;  ///< [m/s]
+};
+
+/// One standstill of at least kStuckTime, for stuck.csv.
+struct StuckAgent {
+  AgentId id;
+  AgentTypeId type{};
+  Vec2 position = Vec2::Zero();  ///< where it stood when it became stuck [m]
+  LaneId lane = kNoLane;
+  double since = 0;                        ///< when it stopped [s]
+  double standing = 0;                     ///< without a red light ahead, in the end or so far [s]
+  bool moved_on = false;                   ///< false: still stuck in the end, or gone while stuck
+  LimitReason reason = LimitReason::None;  ///< at that moment; None for agents that SUMO drives
+  std::int64_t foe = -1;                   ///< id of the agent that it waited for, -1 where unknown
+};
+
+/// Speeds, distances and standstills. An agent stands below kStanding. Standing time counts while
+/// no red light is ahead and no planned halt is on; a red light suspends the count and only moving
+/// resets it, so that a queue which doesn't move through several cycles is found out.
+class FlowMonitor {
+ public:
+  static constexpr double kStanding = 0.2;    ///< [m/s]
+  static constexpr double kStuckTime = 60.0;  ///< [s]
+  static constexpr double kWaiting = 0.1;     ///< SUMO's threshold of waiting time [m/s]
+
+  /// `network` must outlive the monitor.
+  FlowMonitor(double step, const RoadNetwork& network) : step_(step), red_lights_(network) {}
+
+  void add(const Scene& scene, const AgentTypeTable& types, const RoadState& road);
+
+  FlowResult result(const AgentTypeTable& types) const;
+  /// In order of becoming stuck.
+  const std::vector<StuckAgent>& stuck() const { return stuck_; }
+  /// Agents stuck at the last tick.
+  std::size_t stuck_now() const { return stuck_now_; }
+
+ private:
+  struct State {
+    bool known = false;
+    bool ever_stuck = false;
+    std::int32_t record = -1;  ///< index into stuck_ of the present standstill
+    Vec2 position = Vec2::Zero();
+    double stopped_at = 0, standing = 0;
+  };
+  void add_standing(const Scene& scene, std::size_t row, State& state);
+
+  double step_;
+  RedLights red_lights_;
+  AgentTrack<State> track_;
+  std::vector<StuckAgent> stuck_;
+  struct Sums {
+    double speed = 0;
+    std::uint64_t steps = 0;
+  };
+  std::vector<Sums> by_type_;
+  double distance_ = 0, longest_ = 0, waiting_ = 0;
+  std::uint64_t stuck_agents_ = 0, vehicles_ = 0;
+  std::size_t stuck_now_ = 0;
+};
+
+}  // namespace sumogamma

@@ -1,0 +1,213 @@
+#include "study/rule_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+
+namespace sumogamma {
+
+namespace {
+
+constexpr VehicleClassMask kMotor =
+    vehicle_class::kMotorcycle | vehicle_class::kMoped | vehicle_class::kPassenger |
+    vehicle_class::kDelivery | vehicle_class::kTruck | vehicle_class::kTrailer |
+    vehicle_class::kBus | vehicle_class::kTaxi | vehicle_class::kEmergency;
+constexpr VehicleClassMask kRoadVehicle = kMotor | vehicle_class::kBicycle;
+
+bool for_vehicles(const Lane& lane) {
+  return lane.kind != LaneKind::WalkingArea && lane.kind != LaneKind::Crossing &&
+         (lane.allowed & kRoadVehicle);
+}
+
+double front_reach(const Footprint& footprint) {
+  double reach = 0;
+  for (const Vec2& vertex : footprint.outline()) reach = std::max(reach, vertex.x());
+  return reach;
+}
+
+}  // namespace
+
+RuleMonitor::RuleMonitor(double step, const RoadNetwork& network, const LaneLocator& locator)
+    : step_(step), network_(network), locator_(locator) {
+  has_heights_ = std::any_of(network.lanes.begin(), network.lanes.end(),
+                             [](const Lane& lane) { return !lane.elevation.empty(); });
+}
+
+void RuleMonitor::add(const Scene& scene, const AgentTypeTable& types, const RoadState& road) {
+  by_type_.resize(types.size());
+  new_events_.clear();
+  track_.match(scene.id);
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    const AgentType& type = type_of(types, scene.type[row]);
+    const Row agent{scene, row, type, by_type_[static_cast<std::size_t>(scene.type[row])]};
+    State& state = track_[row];
+    const Vec2 front =
+        scene.position[row] + front_reach(scene.footprint[row]) * direction_of(scene.heading[row]);
+    // after a jump (a teleport of SUMO) nothing was passed
+    if (state.known &&
+        (scene.position[row] - state.center).norm() > 2.0 * type.max_speed * step_ + 1.0)
+      state = State{};
+    if (type.kinematics == Kinematics::Holonomic) {
+      judge_crossing(agent, state, road);
+    } else {
+      judge_ground(agent);
+      if (state.known) judge_stop_line(agent, state, front, road);
+      if (state.passed != kNoLane) judge_turn(agent, state);
+    }
+    state.known = true;
+    state.front = front;
+    state.center = scene.position[row];
+  }
+  before_.signal_states = road.signal_states;
+}
+
+void RuleMonitor::find_lanes(const Row& agent, const Vec2& point,
+                             std::vector<LaneHit>& hits) const {
+  locator_.find_containing(point, hits);
+  const LanePosition& own = agent.scene.lane[agent.row];
+  if (!has_heights_ || own.lane == kNoLane) return;
+  const double height = elevation_at(network_.lane(own.lane), own.along);
+  std::erase_if(hits, [&](const LaneHit& hit) {
+    return std::abs(elevation_at(network_.lane(hit.lane), hit.along) - height) > kStorey;
+  });
+}
+
+void RuleMonitor::judge_ground(const Row& agent) {
+  const Vec2& center = agent.scene.position[agent.row];
+  find_lanes(agent, center, hits_);
+  const bool junction = locator_.on_junction(center);
+  if (hits_.empty()) {
+    if (!junction) agent.counts.off_road_s += step_;
+    return;
+  }
+  const Vec2& velocity = agent.scene.velocity[agent.row];
+  const double speed = velocity.norm();
+  const double limit = -0.5 * speed;  // cos 120 degrees
+  bool on_road = false, on_walkway = false, against = false, explained = false;
+  for (const LaneHit& hit : hits_) {
+    const Lane& lane = network_.lane(hit.lane);
+    if (for_vehicles(lane)) {
+      on_road = on_road || (lane.allowed & kMotor);
+      if (velocity.dot(hit.direction) < limit)
+        against = against || lane.kind == LaneKind::Normal;
+      else
+        explained = true;
+    }
+    if ((lane.allowed & vehicle_class::kPedestrian) && !(lane.allowed & kMotor) &&
+        lane.kind != LaneKind::Crossing)
+      on_walkway = true;
+  }
+  if (against && !explained && !junction && speed > kMoving) agent.counts.wrong_way_s += step_;
+  const bool motor = vehicle_class_from_name(agent.type.sumo_class) & kMotor;
+  if (motor && on_walkway && !on_road) agent.counts.sidewalk_by_vehicle_s += step_;
+}
+
+bool RuleMonitor::was_and_is_red(const Connection& connection, const RoadState& road) const {
+  return is_red(before_.signal(connection)) && is_red(road.signal(connection));
+}
+
+void RuleMonitor::record_red(const Row& agent, const Vec2& place, ConnectionId connection) {
+  ++agent.counts.red_light_crossings;
+  new_events_.push_back({agent.scene.time, agent.scene.id[agent.row], place, connection});
+}
+
+void RuleMonitor::judge_stop_line(const Row& agent, State& state, const Vec2& front,
+                                  const RoadState& road) {
+  if (network_.signals.empty()) return;
+  find_lanes(agent, state.front, front_hits_);
+  for (const LaneHit& hit : front_hits_) {
+    const Lane& lane = network_.lane(hit.lane);
+    if (lane.kind != LaneKind::Normal || !for_vehicles(lane)) continue;
+    const Vec2& end = lane.centerline.points().back();
+    const Vec2 forward = lane.centerline.direction_at(lane.centerline.length());
+    const Vec2 now = to_body(front - end, forward), was = to_body(state.front - end, forward);
+    if (was.x() > 0 || now.x() <= 0 || std::abs(now.y()) > 0.5 * lane.width) continue;
+    // someone who crosses the lane's end sideways or on its way back doesn't take the lane's links
+    if (direction_of(agent.scene.heading[agent.row]).dot(forward) < 0.5) continue;
+    std::size_t links = 0;
+    state.was_red.clear();
+    for (const ConnectionId id : lane.outgoing) {
+      const Connection& connection = network_.connection(id);
+      if (connection.signal == kNoSignal || !for_vehicles(network_.lane(connection.to))) continue;
+      ++links;
+      if (was_and_is_red(connection, road)) state.was_red.push_back(id);
+    }
+    if (links == 0) continue;
+    ++agent.counts.signal_crossings;
+    if (state.was_red.empty()) return;
+    if (state.was_red.size() == links) {
+      record_red(agent, front, state.was_red.front());
+      return;
+    }
+    state.passed = hit.lane;
+    state.passed_at = agent.scene.time;
+    state.passed_place = front;
+    return;
+  }
+}
+
+void RuleMonitor::judge_turn(const Row& agent, State& state) {
+  if (agent.scene.time - state.passed_at > kJudgement) {
+    state.passed = kNoLane;
+    return;
+  }
+  // judge_ground has just found the lanes of the centre
+  for (const LaneHit& hit : hits_) {
+    const Lane& lane = network_.lane(hit.lane);
+    if (lane.kind != LaneKind::Normal) continue;
+    for (const ConnectionId id : network_.lane(state.passed).outgoing) {
+      if (network_.lane(network_.connection(id).to).edge != lane.edge) continue;
+      const bool red =
+          std::find_if(state.was_red.begin(), state.was_red.end(), [&](ConnectionId other) {
+            return network_.lane(network_.connection(other).to).edge == lane.edge;
+          }) != state.was_red.end();
+      if (red) record_red(agent, state.passed_place, id);
+      state.passed = kNoLane;
+      return;
+    }
+  }
+}
+
+void RuleMonitor::judge_crossing(const Row& agent, State& state, const RoadState& road) {
+  if (network_.signals.empty()) return;
+  const Vec2& center = agent.scene.position[agent.row];
+  find_lanes(agent, center, hits_);
+  LaneId on = kNoLane;
+  for (const LaneHit& hit : hits_) {
+    const Lane& lane = network_.lane(hit.lane);
+    if (lane.kind != LaneKind::Crossing) continue;
+    // once on it, one is on it to its very ends
+    const double margin = hit.lane == state.on_crossing ? 0.0 : kEntered;
+    if (hit.along < margin || hit.along > lane.centerline.length() - margin) continue;
+    on = hit.lane;
+    if (on == state.on_crossing) break;
+  }
+  if (on != kNoLane && on != state.on_crossing) {
+    const Lane& lane = network_.lane(on);
+    const auto link =
+        std::find_if(lane.incoming.begin(), lane.incoming.end(),
+                     [&](ConnectionId id) { return network_.connection(id).signal != kNoSignal; });
+    if (link != lane.incoming.end() && state.known) {
+      ++agent.counts.signal_crossings;
+      if (was_and_is_red(network_.connection(*link), road)) record_red(agent, center, *link);
+    }
+  }
+  state.on_crossing = on;
+}
+
+RuleResult RuleMonitor::result(const AgentTypeTable& types) const {
+  RuleResult result;
+  for (std::size_t type = 0; type < by_type_.size(); ++type) {
+    const RuleCounts& counts = by_type_[type];
+    result.by_type[types[type].name] = counts;
+    result.all.red_light_crossings += counts.red_light_crossings;
+    result.all.signal_crossings += counts.signal_crossings;
+    result.all.wrong_way_s += counts.wrong_way_s;
+    result.all.off_road_s += counts.off_road_s;
+    result.all.sidewalk_by_vehicle_s += counts.sidewalk_by_vehicle_s;
+  }
+  return result;
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "model/road_state.h"
+#include "road/lane_locator.h"
+#include "scene/agent_type.h"
+#include "scene/scene.h"
+#include "study/agent_track.h"
+
+namespace sumogamma {
+
+/// Counts of one type, or of everybody.
+struct RuleCounts {
+  std::uint64_t red_light_crossings =
+      0;  ///< stop lines or crossings entered while their link showed red
+  std::uint64_t signal_crossings =
+      0;                   ///< all signalled stop lines or crossings entered, whatever they showed
+  double wrong_way_s = 0;  ///< against every lane of the place
+  double off_road_s = 0;   ///< on no lane and no junction
+  double sidewalk_by_vehicle_s = 0;  ///< motor vehicles on ground for people on foot
+};
+
+/// Keys of `rules` in results.json.
+struct RuleResult {
+  RuleCounts all;
+  std::map<std::string, RuleCounts> by_type;
+};
+
+/// A red light that was run: for the replay and for rules.csv.
+struct RedLightEvent {
+  double time = 0;
+  AgentId id;
+  Vec2 position = Vec2::Zero();
+  ConnectionId connection = kNoConnection;
+};
+
+/// Traffic offences, judged from where agents are alone: the same yardstick for GAMMA's and SUMO's
+/// agents.
+///
+/// Red light, vehicles: the front passes a signalled lane's end in its direction, and the link that
+/// it then takes showed red before and after that step (so a light that changes within the step is
+/// nobody's fault). Where the lane's links don't show the same, judgement waits until the vehicle
+/// is on an edge that one of them leads to. Red light, pedestrians: the centre gets kEntered deep
+/// into a signalled crossing under the same condition. Wrong way: faster than kMoving, on a normal
+/// lane, off junctions, more than 120 degrees from every lane of the place that vehicles may use.
+/// Lanes more than a storey above or below one's own don't count (bridges).
+class RuleMonitor {
+ public:
+  static constexpr double kMoving = 0.5;   ///< [m/s]
+  static constexpr double kEntered = 0.5;  ///< [m]
+  static constexpr double kStorey = 2.5;   ///< [m]
+  static constexpr double kJudgement =
+      30.0;  ///< a mixed stop line is dropped unjudged after so long [s]
+
+  /// Both must outlive the monitor.
+  RuleMonitor(double step, const RoadNetwork& network, const LaneLocator& locator);
+
+  void add(const Scene& scene, const AgentTypeTable& types, const RoadState& road);
+
+  RuleResult result(const AgentTypeTable& types) const;
+  /// Red lights run with the last add.
+  const std::vector<RedLightEvent>& new_events() const { return new_events_; }
+
+ private:
+  struct State {
+    bool known = false;
+    Vec2 front = Vec2::Zero(), center = Vec2::Zero();
+    LaneId on_crossing = kNoLane;  ///< pedestrians: the signalled crossing they are on
+    LaneId passed = kNoLane;       ///< vehicles: the lane with mixed lights whose end they passed
+    double passed_at = 0;
+    Vec2 passed_place = Vec2::Zero();
+    std::vector<ConnectionId> was_red;  ///< links of `passed` that showed red then
+  };
+  struct Row {  ///< what the judging of one agent needs
+    const Scene& scene;
+    std::size_t row;
+    const AgentType& type;
+    RuleCounts& counts;
+  };
+  void judge_ground(const Row& agent);
+  void judge_stop_line(const Row& agent, State& state, const Vec2& front, const RoadState& road);
+  void judge_turn(const Row& agent, State& state);
+  void judge_crossing(const Row& agent, State& state, const RoadState& road);
+  void find_lanes(const Row& agent, const Vec2& point, std::vector<LaneHit>& hits) const;
+  bool was_and_is_red(const Connection& connection, const RoadState& road) const;
+  void record_red(const Row& agent, const Vec2& place, ConnectionId connection);
+
+  double step_;
+  const RoadNetwork& network_;
+  const LaneLocator& locator_;
+  bool has_heights_ = false;
+  AgentTrack<State> track_;
+  std::vector<RuleCounts> by_type_;
+  RoadState before_;  ///< signals of the previous tick
+  std::vector<RedLightEvent> new_events_;
+  std::vector<LaneHit> hits_, front_hits_;
+};
+
+}  // namespace sumogamma
