@@ -4,23 +4,32 @@
 
 namespace sumogamma {
 
+namespace {
+constexpr double kCreep = 1.0;  // [m/s]
+}  // namespace
+
 void append_contextual_constraints(const Model& model, const Scene& scene, std::size_t row, ConstraintSet& constraints) {
   const RoadContext& context = scene.context[row];
   if (!context.active) return;
   const AgentType& type = type_of(model.types, scene.type[row]);
   const Vec2 left = left_of(context.tangent);
+  const Vec2 forward = direction_of(scene.heading[row]);
+  const bool on_wheels = type.kinematics != Kinematics::Holonomic;
 
   // lane boundaries: lateral speed under d/tau (III-C); beyond a boundary no further, but standing stays allowed
   auto boundary = [&](double room, const Vec2& outward) {
     if (!std::isfinite(room)) return;
-    const double limit = std::max(room, 0.0) / type.horizon;
+    double limit = std::max(room, 0.0) / type.horizon;
+    // differs from the paper: a wheeled body that points outward can only come back by rolling on while it turns, so it
+    // may creep
+    if (on_wheels) limit = std::max(limit, kCreep * std::clamp(4.0 * forward.dot(outward), 0.0, 1.0));
     constraints.append({limit * outward, -outward}, {ConstraintKind::LaneBoundary, -1});
   };
   boundary(context.room_left, left);
   boundary(context.room_right, -left);
 
-  // driving direction: wheeled agents never go against their path
-  if (type.kinematics != Kinematics::Holonomic)
+  // driving direction: wheeled agents never go against their path; one that was turned away from it has to turn back first
+  if (on_wheels && forward.dot(context.tangent) > 0.3)
     constraints.append({Vec2::Zero(), context.tangent}, {ConstraintKind::Direction, -1});
 
   // leader, signals, right of way: a cap on the speed along the path

@@ -10,6 +10,16 @@ Vec2 towards(const Vec2& from, const Vec2& to, double speed) {
   const double distance = delta.norm();
   return distance > 1e-9 ? Vec2(delta * (speed / distance)) : Vec2(Vec2::Zero());
 }
+
+/// A wheeled body can't head for what lies beside or behind it: it asks for its tightest slow turn towards it instead.
+Vec2 within_turning(const Vec2& preferred, double heading) {
+  constexpr double kWidest = 0.9;      // [rad]
+  constexpr double kTurnSpeed = 2.0;   // [m/s]
+  const Vec2 forward = direction_of(heading);
+  const double angle = std::atan2(cross(forward, preferred), forward.dot(preferred));
+  if (std::abs(angle) <= kWidest) return preferred;
+  return std::min(preferred.norm(), kTurnSpeed) * direction_of(heading + std::copysign(kWidest, angle));
+}
 }  // namespace
 
 Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row, const Intention& intention) {
@@ -20,7 +30,9 @@ Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row,
     case IntentionKind::Path: {
       const RoadContext& context = scene.context[row];
       if (!context.active) return towards(scene.position[row], intention.goal, scene.preferred_speed[row]);
-      return towards(scene.position[row], context.sub_goal, std::min(context.speed_limit, scene.preferred_speed[row]));
+      const Vec2 preferred =
+          towards(scene.position[row], context.sub_goal, std::min(context.speed_limit, scene.preferred_speed[row]));
+      return type.kinematics == Kinematics::Holonomic ? preferred : within_turning(preferred, scene.heading[row]);
     }
     case IntentionKind::KeepVelocity:
       return scene.velocity[row];

@@ -156,8 +156,10 @@ class Builder {
     stretch.from = length();
     stretch.lane_from = lane_from;
     stretch.speed_limit = lane.speed_limit;
-    const double inner = 0.5 * lane.width + side_width(network_, lane, request_.vehicle_class, true);
-    const double outer = 0.5 * lane.width + side_width(network_, lane, request_.vehicle_class, false);
+    // a junction has no kerb beside each of its lanes, and long bodies swing out
+    const double swing = lane.kind == LaneKind::Internal ? 1.5 : 0.0;
+    const double inner = 0.5 * lane.width + swing + side_width(network_, lane, request_.vehicle_class, true);
+    const double outer = 0.5 * lane.width + swing + side_width(network_, lane, request_.vehicle_class, false);
     // lanes count from the kerb, so the inner side is the left one unless traffic keeps left
     stretch.room_left = network_.left_hand ? outer : inner;
     stretch.room_right = network_.left_hand ? inner : outer;
