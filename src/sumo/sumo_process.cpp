@@ -19,6 +19,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/subprocess.h"
 
 extern char** environ;
 
@@ -28,11 +29,6 @@ namespace {
 constexpr std::size_t kKeptLines = 40;
 constexpr std::size_t kLongestLine = 4096;
 constexpr const char* kDebianSumoHome = "/usr/share/sumo";
-
-bool executable_file(const std::string& path) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
-}
 
 // the environment of the child: ours, with SUMO_HOME (its tools and schemas) where the user has not
 // set it
@@ -82,26 +78,14 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
 }  // namespace
 
 std::string find_sumo_binary(const std::string& name) {
-  if (name.find('/') != std::string::npos) {
-    if (executable_file(name)) return name;
-    throw Error(name, "no executable file of that name");
-  }
-  if (const char* home = std::getenv("SUMO_HOME")) {
-    const std::string path = std::string(home) + "/bin/" + name;
-    if (executable_file(path)) return path;
-  }
-  const char* search = std::getenv("PATH");
-  std::string rest = search != nullptr ? search : "/usr/local/bin:/usr/bin:/bin";
-  while (!rest.empty()) {
-    const std::size_t colon = rest.find(':');
-    const std::string folder = rest.substr(0, colon);
-    rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
-    const std::string path = (folder.empty() ? "." : folder) + "/" + name;
-    if (executable_file(path)) return path;
-  }
-  throw Error(
-      name,
-      "not found in $SUMO_HOME/bin nor in PATH; install SUMO (tools/setup.sh) or set SUMO_HOME");
+  // a path is taken as it is, relative to where we are; a bare name is looked up
+  const std::filesystem::path found =
+      name.find('/') == std::string::npos ? find_program(name) : std::filesystem::path(name);
+  if (found.empty() || access(found.c_str(), X_OK) != 0 || std::filesystem::is_directory(found))
+    throw Error(
+        name,
+        "not found in $SUMO_HOME/bin nor in PATH; install SUMO (tools/setup.sh) or set SUMO_HOME");
+  return found.string();
 }
 
 int free_port() {

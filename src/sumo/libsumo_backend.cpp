@@ -1,0 +1,406 @@
+#include <libsumo/libsumo.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <type_traits>
+#include <utility>
+
+#include "base/error.h"
+#include "sumo/backend.h"
+#include "sumo/ghost.h"
+#include "sumo/sumo_process.h"
+#include "sumo/watch_list.h"
+
+namespace sumogamma {
+namespace {
+
+// libsumo keeps its simulation in static variables: a second instance would share them
+std::atomic_flag in_use = ATOMIC_FLAG_INIT;
+
+/// Catches what SUMO writes to std::cerr during a call, as the pipe does for a child.
+class CapturedErrors {
+ public:
+  explicit CapturedErrors(SumoOutput& output)
+      : output_(output), before_(std::cerr.rdbuf(text_.rdbuf())) {}
+  ~CapturedErrors() {
+    std::cerr.rdbuf(before_);
+    if (text_.tellp() > 0) output_.append(text_.str());
+  }
+  CapturedErrors(const CapturedErrors&) = delete;
+  CapturedErrors& operator=(const CapturedErrors&) = delete;
+
+ private:
+  SumoOutput& output_;
+  std::ostringstream text_;
+  std::streambuf* before_;
+};
+
+// a getter of an agent that may have left: its value, or `otherwise`
+template <typename Value, typename Getter>
+Value value_or(Value otherwise, Getter&& getter) {
+  try {
+    return static_cast<Value>(getter());
+  } catch (const std::exception&) {
+    return otherwise;
+  }
+}
+
+template <typename Kind>
+SumoAgentDetails common_details(const std::string& id) {
+  SumoAgentDetails details;
+  details.id = id;
+  details.is_person = std::is_same_v<Kind, libsumo::Person>;
+  details.type_id = value_or(std::string(), [&] { return Kind::getTypeID(id); });
+  if (details.type_id.empty()) return details;
+  details.vehicle_class = value_or(std::string(), [&] { return Kind::getVehicleClass(id); });
+  details.length = value_or(0.0, [&] { return Kind::getLength(id); });
+  details.width = value_or(0.0, [&] { return Kind::getWidth(id); });
+  details.height = value_or(0.0, [&] { return Kind::getHeight(id); });
+  details.max_speed = value_or(0.0, [&] { return Kind::getMaxSpeed(id); });
+  details.speed_factor = value_or(1.0, [&] { return Kind::getSpeedFactor(id); });
+  details.lane = value_or(std::string(), [&] { return Kind::getLaneID(id); });
+  details.lane_position = value_or(0.0, [&] { return Kind::getLanePosition(id); });
+  return details;
+}
+
+SumoAgentDetails vehicle_details(const std::string& id, double time) {
+  SumoAgentDetails details = common_details<libsumo::Vehicle>(id);
+  details.route =
+      value_or(std::vector<std::string>(), [&] { return libsumo::Vehicle::getRoute(id); });
+  const auto stops = value_or(std::vector<libsumo::TraCINextStopData>(),
+                              [&] { return libsumo::Vehicle::getStops(id); });
+  for (const libsumo::TraCINextStopData& stop : stops)
+    details.stops.push_back({stop.lane, stop.startPos, stop.endPos,
+                             stop.duration < 0 ? std::max(0.0, stop.until - time) : stop.duration});
+  return details;
+}
+
+SumoAgentDetails person_details(const std::string& id) {
+  SumoAgentDetails details = common_details<libsumo::Person>(id);
+  const auto stage = value_or(libsumo::TraCIStage(), [&] { return libsumo::Person::getStage(id); });
+  if (stage.type == libsumo::STAGE_WALKING) {
+    details.route = stage.edges;
+    details.arrival_position = stage.arrivalPos;
+  }
+  return details;
+}
+
+class LibsumoBackend final : public SumoBackend {
+ public:
+  explicit LibsumoBackend(const SumoStart& start);
+  ~LibsumoBackend() override { shut(); }
+
+  std::string version() const override { return version_; }
+  std::string option(const std::string& name) override {
+    return guarded([&] { return libsumo::Simulation::getOption(name); });
+  }
+  const std::vector<std::string>& signal_ids() const override { return signal_ids_; }
+  double time() const override { return time_; }
+  void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
+            SumoStep& result) override;
+  std::vector<SumoAgentDetails> details(std::span<const std::string> vehicles,
+                                        std::span<const std::string> persons) override;
+  void watch(const std::string& id, bool is_person) override { watched_.add(id, is_person); }
+  void unwatch(const std::string& id, bool is_person) override { watched_.drop(id, is_person); }
+  void remove_vehicle(const std::string& id) override;
+  std::vector<std::string> finish_stage(const std::string& person) override;
+  void set_speed(const std::string& vehicle, double speed) override;
+  void override_detectors(std::span<const std::pair<std::string, double>> detectors) override;
+  const std::vector<Detector>& detectors() const override { return detectors_; }
+  std::vector<std::string> take_warnings() override { return std::exchange(warnings_, {}); }
+  long sumo_warnings() const override { return output_.warnings(); }
+  void close() override { shut(); }
+
+ private:
+  void shut();
+  template <typename Talk>
+  auto guarded(Talk&& talk) -> decltype(talk());
+  [[noreturn]] void report_failure(const std::string& what);
+  std::string scenario() const;
+  void read_inventory();
+  void move(std::span<const SumoPose> poses, bool is_person, SumoStep& result);
+  void read_step(SumoStep& result);
+  void read_watched(SumoStep& result);
+  void finish_test(GhostSelfTest& test, bool is_person, std::span<const SumoPose> poses,
+                   const SumoStep& result, GhostObservation sent);
+
+  SumoStart start_;
+  bool open_ = false;
+  bool started_ = false;
+  bool moves_pending_ = false;
+  std::string version_;
+  double time_ = 0;
+  std::vector<std::string> signal_ids_;
+  std::vector<Detector> detectors_;
+  std::vector<std::string> warnings_;
+  SumoOutput output_;
+  WatchList watched_;
+  GhostSelfTest vehicle_test_{false}, person_test_{true};
+};
+
+LibsumoBackend::LibsumoBackend(const SumoStart& start) : start_(start) {
+  if (!start.connect_host.empty())
+    throw Error("--connect", "needs the traci back end; leave --backend libsumo out");
+  if (start.binary.find("gui") != std::string::npos)
+    throw Error("--backend", "libsumo has no window; use --backend traci with sumo-gui");
+  if (in_use.test_and_set())
+    throw SumoError(
+        "libsumo",
+        "holds one simulation a process, and none after a failed step; use the traci back end");
+  open_ = true;
+  try {
+    std::vector<std::string> words = start.arguments;
+    words.insert(words.begin(), "sumo");
+    {
+      CapturedErrors captured(output_);
+      version_ = libsumo::Simulation::start(words).second;
+    }
+    read_inventory();
+  } catch (const std::exception& error) {
+    report_failure(error.what());
+  }
+}
+
+void LibsumoBackend::shut() {
+  if (!open_) return;
+  open_ = false;
+  try {
+    // a start that failed leaves a half-loaded simulation behind, which would happily step
+    CapturedErrors captured(output_);
+    libsumo::Simulation::close();
+  } catch (const std::exception&) {
+    // nothing was open
+  }
+  // libsumo 1.15 keeps pointers to moved vehicles until a step has ended well; they would dangle in
+  // the next simulation
+  if (!moves_pending_) in_use.clear();
+}
+
+std::string LibsumoBackend::scenario() const {
+  for (std::size_t i = 0; i + 1 < start_.arguments.size(); ++i)
+    if (start_.arguments[i] == "-c" || start_.arguments[i] == "--configuration-file")
+      return start_.arguments[i + 1];
+  return "SUMO";
+}
+
+void LibsumoBackend::report_failure(const std::string& what) {
+  shut();
+  const std::string words = output_.first_error().empty() ? what : output_.first_error();
+  if (!started_) throw Error(scenario(), "SUMO can't run it: " + words);
+  throw SumoError("libsumo", words + " (at " + std::to_string(time_) + " s of simulation)");
+}
+
+template <typename Talk>
+auto LibsumoBackend::guarded(Talk&& talk) -> decltype(talk()) {
+  if (!open_) throw SumoError("libsumo", "was closed or has failed; no further calls are possible");
+  try {
+    CapturedErrors captured(output_);
+    return talk();
+  } catch (const std::logic_error&) {
+    throw;  // our own bug
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    report_failure(error.what());
+  }
+}
+
+void LibsumoBackend::read_inventory() {
+  time_ = libsumo::Simulation::getTime();
+  signal_ids_ = libsumo::TrafficLight::getIDList();
+  for (const std::string& id : libsumo::InductionLoop::getIDList())
+    detectors_.push_back(
+        {id, libsumo::InductionLoop::getLaneID(id), libsumo::InductionLoop::getPosition(id)});
+}
+
+void LibsumoBackend::move(std::span<const SumoPose> poses, bool is_person, SumoStep& result) {
+  const GhostArguments arguments =
+      ghost_arguments((is_person ? person_test_ : vehicle_test_).mode());
+  static const std::string kNoHint;
+  for (const SumoPose& pose : poses) {
+    const double angle = wrapped_degrees(pose.angle);
+    try {
+      if (is_person) {
+        libsumo::Person::moveToXY(*pose.id, kNoHint, pose.position.x(), pose.position.y(), angle,
+                                  arguments.keep_route, arguments.match_threshold);
+      } else {
+        libsumo::Vehicle::moveToXY(*pose.id, kNoHint, -1, pose.position.x(), pose.position.y(),
+                                   angle, arguments.keep_route, arguments.match_threshold);
+      }
+    } catch (const std::exception&) {
+      result.lost.push_back(*pose.id);
+    }
+  }
+}
+
+void LibsumoBackend::read_step(SumoStep& result) {
+  using libsumo::Simulation;
+  result.time = Simulation::getTime();
+  result.departed_vehicles = Simulation::getDepartedIDList();
+  result.arrived_vehicles = Simulation::getArrivedIDList();
+  result.departed_persons = Simulation::getDepartedPersonIDList();
+  result.arrived_persons = Simulation::getArrivedPersonIDList();
+  result.teleports = Simulation::getStartingTeleportNumber();
+  result.emergency_stops = Simulation::getEmergencyStoppingVehiclesNumber();
+  result.collisions = Simulation::getCollidingVehiclesNumber();
+  result.waiting_to_insert = static_cast<int>(Simulation::getPendingVehicles().size());
+  result.signal_states.resize(signal_ids_.size());
+  for (std::size_t i = 0; i < signal_ids_.size(); ++i)
+    result.signal_states[i] = libsumo::TrafficLight::getRedYellowGreenState(signal_ids_[i]);
+}
+
+void LibsumoBackend::step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
+                          SumoStep& result) {
+  guarded([&] {
+    for (const SumoPose& pose : vehicles) require_finite_pose(*pose.id, pose.position, pose.angle);
+    for (const SumoPose& pose : persons) require_finite_pose(*pose.id, pose.position, pose.angle);
+    result.lost.clear();
+    GhostObservation sent_vehicle;
+    if (vehicle_test_.pending() && !vehicles.empty())
+      sent_vehicle.route = value_or(std::vector<std::string>(), [&] {
+        return libsumo::Vehicle::getRoute(*vehicles.front().id);
+      });
+    moves_pending_ = !vehicles.empty() || !persons.empty();
+    move(vehicles, false, result);
+    move(persons, true, result);
+    libsumo::Simulation::step();
+    moves_pending_ = false;
+    read_step(result);
+    time_ = result.time;
+    started_ = true;
+    finish_test(vehicle_test_, false, vehicles, result, sent_vehicle);
+    finish_test(person_test_, true, persons, result, GhostObservation());
+    for (const std::string& id : result.arrived_vehicles) unwatch(id, false);
+    for (const std::string& id : result.arrived_persons) unwatch(id, true);
+    read_watched(result);
+  });
+}
+
+template <typename Kind>
+bool observe(const std::string& id, GhostObservation& reported) {
+  try {
+    const libsumo::TraCIPosition position = Kind::getPosition(id);
+    reported.position = {position.x, position.y};
+    reported.angle = Kind::getAngle(id);
+    reported.lane = Kind::getLaneID(id);
+  } catch (const std::exception&) {
+    return false;
+  }
+  return true;
+}
+
+void LibsumoBackend::finish_test(GhostSelfTest& test, bool is_person,
+                                 std::span<const SumoPose> poses, const SumoStep& result,
+                                 GhostObservation sent) {
+  if (!test.pending() || poses.empty()) return;
+  const SumoPose& pose = poses.front();
+  if (std::find(result.lost.begin(), result.lost.end(), *pose.id) != result.lost.end()) return;
+  sent.position = pose.position;
+  sent.angle = wrapped_degrees(pose.angle);
+  GhostObservation reported;
+  const bool there = is_person ? observe<libsumo::Person>(*pose.id, reported)
+                               : observe<libsumo::Vehicle>(*pose.id, reported);
+  if (!there) return;  // it left within this very step: the next one is tested
+  if (!is_person)
+    reported.route =
+        value_or(std::vector<std::string>(), [&] { return libsumo::Vehicle::getRoute(*pose.id); });
+  const std::string warning = test.judge(sent, reported);
+  if (!warning.empty()) warnings_.push_back(warning);
+}
+
+void LibsumoBackend::read_watched(SumoStep& result) {
+  const std::vector<WatchList::Entry>& entries = watched_.entries();
+  result.agents.resize(entries.size());
+  std::size_t kept = 0;
+  std::vector<WatchList::Entry> gone;
+  for (const WatchList::Entry& entry : entries) {
+    SumoAgent& agent = result.agents[kept];
+    try {
+      const libsumo::TraCIPosition position = entry.is_person
+                                                  ? libsumo::Person::getPosition(entry.id)
+                                                  : libsumo::Vehicle::getPosition(entry.id);
+      agent.position = {position.x, position.y};
+      agent.angle = entry.is_person ? libsumo::Person::getAngle(entry.id)
+                                    : libsumo::Vehicle::getAngle(entry.id);
+      agent.speed = entry.is_person ? libsumo::Person::getSpeed(entry.id)
+                                    : libsumo::Vehicle::getSpeed(entry.id);
+    } catch (const std::exception&) {
+      gone.push_back(entry);
+      continue;
+    }
+    agent.id = entry.id;
+    agent.is_person = entry.is_person;
+    ++kept;
+  }
+  result.agents.resize(kept);
+  for (const WatchList::Entry& entry : gone) unwatch(entry.id, entry.is_person);
+}
+
+std::vector<SumoAgentDetails> LibsumoBackend::details(std::span<const std::string> vehicles,
+                                                      std::span<const std::string> persons) {
+  return guarded([&] {
+    std::vector<SumoAgentDetails> all;
+    for (const std::string& id : vehicles) all.push_back(vehicle_details(id, time_));
+    for (const std::string& id : persons) all.push_back(person_details(id));
+    return all;
+  });
+}
+
+void LibsumoBackend::remove_vehicle(const std::string& id) {
+  unwatch(id, false);
+  guarded([&] {
+    try {
+      libsumo::Vehicle::remove(id, libsumo::REMOVE_ARRIVED);
+    } catch (const libsumo::TraCIException&) {
+      // it left by itself
+    }
+  });
+}
+
+std::vector<std::string> LibsumoBackend::finish_stage(const std::string& person) {
+  return guarded([&]() -> std::vector<std::string> {
+    try {
+      libsumo::Person::removeStage(person, 0);
+      if (libsumo::Person::getRemainingStages(person) <= 0) return {};
+      const libsumo::TraCIStage stage = libsumo::Person::getStage(person, 0);
+      return stage.type == libsumo::STAGE_WALKING ? stage.edges : std::vector<std::string>();
+    } catch (const libsumo::TraCIException&) {
+      return {};  // it has finished
+    }
+  });
+}
+
+void LibsumoBackend::set_speed(const std::string& vehicle, double speed) {
+  require_finite_pose(vehicle, Vec2::Zero(), speed);
+  guarded([&] {
+    try {
+      libsumo::Vehicle::setSpeed(vehicle, speed);
+    } catch (const libsumo::TraCIException&) {
+      // it left meanwhile
+    }
+  });
+}
+
+void LibsumoBackend::override_detectors(std::span<const std::pair<std::string, double>> detectors) {
+  guarded([&] {
+    for (const auto& [id, age] : detectors) {
+      try {
+        libsumo::InductionLoop::overrideTimeSinceDetection(id, age);
+      } catch (const libsumo::TraCIException&) {
+        // no such detector: the traci back end ignores it too
+      }
+    }
+  });
+}
+
+}  // namespace
+
+std::unique_ptr<SumoBackend> start_libsumo_backend(const SumoStart& start) {
+  return std::make_unique<LibsumoBackend>(start);
+}
+
+}  // namespace sumogamma
