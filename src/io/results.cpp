@@ -1,0 +1,236 @@
+#include "io/results.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "io/output_file.h"
+
+namespace sumogamma {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json agents_json(const AgentCounts& agents) {
+  Json by_type = Json::object();
+  for (const auto& [type, counts] : agents.by_type)
+    by_type[type] = {{"inserted", counts.inserted}, {"arrived", counts.arrived}};
+  Json removed = Json::object();
+  for (const auto& [reason, count] : agents.removed) removed[reason] = count;
+  return {{"inserted", agents.inserted},
+          {"arrived", agents.arrived},
+          {"controlled_now", agents.controlled_now},
+          {"controlled_peak", agents.controlled_peak},
+          {"controlled_mean", agents.controlled_mean},
+          {"removed", removed},
+          {"by_type", by_type}};
+}
+
+Json timing_json(const RunTiming& timing) {
+  return {{"wall_s", timing.wall_s},
+          {"real_time_factor", timing.real_time_factor},
+          {"cpu_s", timing.cpu_s},
+          {"share",
+           {{"observe", timing.observe},
+            {"context", timing.context},
+            {"model", timing.model},
+            {"track", timing.track},
+            {"advance_sumo", timing.advance_sumo},
+            {"record", timing.record}}},
+          {"model_cpu_us_per_agent_step", timing.model_cpu_us_per_agent_step}};
+}
+
+Json collisions_json(const CollisionResult& collisions) {
+  Json by_types = Json::object();
+  for (const auto& [pair, count] : collisions.by_types) by_types[pair] = count;
+  return {{"unique_pairs", collisions.unique_pairs},
+          {"unique_pairs_per_agent_hour", collisions.unique_pairs_per_agent_hour},
+          {"overlap_share_of_agent_steps", collisions.overlap_share_of_agent_steps},
+          {"deep_pairs", collisions.deep_pairs},
+          {"by_types", by_types},
+          {"worst_penetration_m", collisions.worst_penetration_m},
+          {"agent_hours", collisions.agent_hours}};
+}
+
+Json flow_json(const FlowResult& flow) {
+  Json by_type = Json::object();
+  for (const auto& [type, speed] : flow.mean_speed_by_type) by_type[type] = speed;
+  return {{"mean_speed", flow.mean_speed},
+          {"mean_speed_by_type", by_type},
+          {"distance_km", flow.distance_km},
+          {"stuck_agents", flow.stuck_agents},
+          {"longest_standstill_s", flow.longest_standstill_s},
+          {"waiting_time_mean_s", flow.waiting_time_mean_s}};
+}
+
+Json rule_counts_json(const RuleCounts& counts) {
+  return {{"red_light_crossings", counts.red_light_crossings},
+          {"signal_crossings", counts.signal_crossings},
+          {"wrong_way_s", counts.wrong_way_s},
+          {"off_road_s", counts.off_road_s},
+          {"sidewalk_by_vehicle_s", counts.sidewalk_by_vehicle_s}};
+}
+
+Json rules_json(const RuleResult& rules) {
+  Json json = rule_counts_json(rules.all);
+  Json by_types = Json::object();
+  for (const auto& [type, counts] : rules.by_type) by_types[type] = rule_counts_json(counts);
+  json["by_types"] = by_types;
+  return json;
+}
+
+Json smoothness_values_json(const SmoothnessValues& values) {
+  return {{"accel_p95", values.accel_p95},
+          {"jerk_p95", values.jerk_p95},
+          {"yaw_rate_p95", values.yaw_rate_p95},
+          {"lateral_slip_p95", values.lateral_slip_p95},
+          {"reversals", values.reversals}};
+}
+
+Json smoothness_json(const SmoothnessResult& smoothness) {
+  Json json = smoothness_values_json(smoothness.wheeled);
+  Json by_type = Json::object();
+  for (const auto& [type, values] : smoothness.by_type)
+    by_type[type] = smoothness_values_json(values);
+  json["by_type"] = by_type;
+  return json;
+}
+
+std::string hash_text(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+/// A heading or "name  value" line of the table.
+class Table {
+ public:
+  explicit Table(std::FILE* stream) : stream_(stream) {}
+  void heading(const char* text) { std::fprintf(stream_, "%s\n", text); }
+  void text(const char* name, const std::string& value) {
+    std::fprintf(stream_, "  %-30s %s\n", name, value.c_str());
+  }
+  void count(const char* name, std::uint64_t value) {
+    std::fprintf(stream_, "  %-30s %llu\n", name, static_cast<unsigned long long>(value));
+  }
+  void number(const char* name, double value, const char* unit, int decimals = 2) {
+    std::fprintf(stream_, "  %-30s %.*f%s%s\n", name, decimals, value, *unit ? " " : "", unit);
+  }
+
+ private:
+  std::FILE* stream_;
+};
+
+}  // namespace
+
+const char* name_of_reason(LimitReason reason) {
+  switch (reason) {
+    case LimitReason::None:
+      return "none";
+    case LimitReason::Signal:
+      return "signal";
+    case LimitReason::Yield:
+      return "yield";
+    case LimitReason::Crossing:
+      return "crossing";
+    case LimitReason::BlockedJunction:
+      return "blocked junction";
+    case LimitReason::Leader:
+      return "leader";
+    case LimitReason::Stop:
+      return "stop";
+    case LimitReason::PathEnd:
+      return "path end";
+  }
+  return "none";
+}
+
+std::string results_json(const RunResults& results) {
+  const CouplingResult& coupling = results.coupling;
+  const Json json = {{"sumo_version", results.sumo_version},
+                     {"sumo_gamma_version", results.sumo_gamma_version},
+                     {"scenario", results.scenario},
+                     {"seed", results.seed},
+                     {"step", results.step},
+                     {"duration", results.duration},
+                     {"backend", results.backend},
+                     {"threads", results.threads},
+                     {"control", results.control},
+                     {"ended", results.ended},
+                     {"agents", agents_json(results.agents)},
+                     {"timing", timing_json(results.timing)},
+                     {"collisions", collisions_json(results.collisions)},
+                     {"flow", flow_json(results.flow)},
+                     {"rules", rules_json(results.rules)},
+                     {"smoothness", smoothness_json(results.smoothness)},
+                     {"coupling",
+                      {{"position_error_max_m", coupling.position_error_max_m},
+                       {"position_error_p99_m", coupling.position_error_p99_m},
+                       {"lane_mismatches", coupling.lane_mismatches},
+                       {"teleports", results.teleports},
+                       {"emergency_stops", results.emergency_stops},
+                       {"sumo_warnings", results.sumo_warnings},
+                       {"poses_compared", coupling.compared}}},
+                     {"state_hash", hash_text(results.state_hash)}};
+  return json.dump(2) + "\n";
+}
+
+void write_results(const std::filesystem::path& file, const RunResults& results) {
+  write_file(file, results_json(results));
+}
+
+void print_results_table(std::FILE* stream, const RunResults& results) {
+  Table table(stream);
+  const AgentCounts& agents = results.agents;
+  std::string scenario = results.scenario + ", seed " + std::to_string(results.seed);
+  table.heading("run");
+  table.text("scenario", scenario);
+  table.number("simulated", results.duration, "s");
+  table.text("ended", results.ended);
+  table.number("real-time factor", results.timing.real_time_factor, "", 1);
+  table.number("model CPU per agent step", results.timing.model_cpu_us_per_agent_step, "us", 1);
+  table.heading("agents");
+  table.text("inserted / arrived",
+             std::to_string(agents.inserted) + " / " + std::to_string(agents.arrived));
+  for (const auto& [type, counts] : agents.by_type)
+    table.text(("  " + type).c_str(),
+               std::to_string(counts.inserted) + " / " + std::to_string(counts.arrived));
+  table.number("driven by GAMMA, mean", agents.controlled_mean, "", 1);
+  table.count("driven by GAMMA, most", agents.controlled_peak);
+  std::uint64_t removed = 0;
+  for (const auto& [reason, count] : agents.removed) removed += count;
+  table.count("removed before destination", removed);
+  table.heading("collisions");
+  table.count("pairs", results.collisions.unique_pairs);
+  table.count("pairs deeper than 0.1 m", results.collisions.deep_pairs);
+  for (const auto& [pair, count] : results.collisions.by_types)
+    table.count(("  " + pair).c_str(), count);
+  table.number("pairs per agent hour", results.collisions.unique_pairs_per_agent_hour, "", 3);
+  table.number("worst penetration", results.collisions.worst_penetration_m, "m");
+  table.heading("flow");
+  table.number("mean speed", results.flow.mean_speed, "m/s");
+  table.number("distance", results.flow.distance_km, "km");
+  table.count("stuck agents", results.flow.stuck_agents);
+  table.number("longest standstill", results.flow.longest_standstill_s, "s", 1);
+  table.number("mean waiting time", results.flow.waiting_time_mean_s, "s", 1);
+  table.heading("rules");
+  table.text("red lights run", std::to_string(results.rules.all.red_light_crossings) + " of " +
+                                   std::to_string(results.rules.all.signal_crossings) +
+                                   " signalled crossings");
+  table.number("wrong way", results.rules.all.wrong_way_s, "s");
+  table.number("off the road", results.rules.all.off_road_s, "s");
+  table.number("vehicles on sidewalks", results.rules.all.sidewalk_by_vehicle_s, "s");
+  table.heading("smoothness (vehicles, 95th percentile)");
+  table.number("acceleration", results.smoothness.wheeled.accel_p95, "m/s2");
+  table.number("jerk", results.smoothness.wheeled.jerk_p95, "m/s3");
+  table.number("yaw rate", results.smoothness.wheeled.yaw_rate_p95, "rad/s", 3);
+  table.number("sideways slip", results.smoothness.wheeled.lateral_slip_p95, "m/s", 3);
+  table.count("reversals", results.smoothness.wheeled.reversals);
+  table.heading("coupling");
+  table.number("position error, 99th percentile", results.coupling.position_error_p99_m, "m", 4);
+  table.count("teleports", results.teleports);
+  table.count("emergency stops", results.emergency_stops);
+  table.text("state hash", hash_text(results.state_hash));
+}
+
+}  // namespace sumogamma

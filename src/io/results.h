@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "study/collisions.h"
+#include "study/coupling_metrics.h"
+#include "study/flow_metrics.h"
+#include "study/rule_metrics.h"
+#include "study/smoothness_metrics.h"
+
+namespace sumogamma {
+
+/// Agents that came and went.
+struct AgentCounts {
+  struct ByType {
+    std::uint64_t inserted = 0, arrived = 0;
+  };
+  std::uint64_t inserted = 0, arrived = 0;
+  std::uint64_t controlled_now = 0, controlled_peak = 0;  ///< driven by GAMMA at the end, at most
+  double controlled_mean = 0;                             ///< over the ticks
+  std::map<std::string, ByType> by_type;
+  std::map<std::string, std::uint64_t> removed;  ///< taken out before their destination, by reason
+};
+
+/// What a run cost.
+struct RunTiming {
+  double wall_s = 0, cpu_s = 0;  ///< cpu_s: this process and its SUMO [s]
+  double real_time_factor = 0;   ///< simulated time / wall_s
+  double observe = 0, context = 0, model = 0, track = 0, advance_sumo = 0,
+         record = 0;  ///< shares of wall_s
+  double model_cpu_us_per_agent_step = 0;
+};
+
+/// Everything in results.json: docs/results.md defines each key.
+struct RunResults {
+  std::string sumo_version, sumo_gamma_version, scenario;
+  std::uint64_t seed = 1;
+  double step = 0, duration = 0;  ///< [s]; duration: simulated
+  std::string backend, control = "all";
+  unsigned threads = 1;
+  std::string ended = "done";  ///< "done", "interrupted" or why SUMO failed
+  AgentCounts agents;
+  RunTiming timing;
+  CollisionResult collisions;
+  FlowResult flow;
+  RuleResult rules;
+  SmoothnessResult smoothness;
+  CouplingResult coupling;
+  std::uint64_t teleports = 0, emergency_stops = 0, sumo_warnings = 0;
+  std::uint64_t state_hash = 0;
+};
+
+/// results.json as text: every key always present, numbers in SI units, the hash as 16 hexadecimal
+/// digits.
+std::string results_json(const RunResults& results);
+
+/// Writes results_json as a whole or not at all. Throws Error naming the file.
+void write_results(const std::filesystem::path& file, const RunResults& results);
+
+/// The table for people that a run ends with.
+void print_results_table(std::FILE* stream, const RunResults& results);
+
+/// stuck.csv: one line a standstill of a minute or more. `name_of` gives SUMO's id of an agent.
+template <typename NameOf>
+std::string stuck_csv(const std::vector<StuckAgent>& stuck, const AgentTypeTable& types,
+                      const RoadNetwork& network, NameOf&& name_of);
+
+/// Word for a reason: "signal", "leader", ...; "none" for None.
+const char* name_of_reason(LimitReason reason);
+
+template <typename NameOf>
+std::string stuck_csv(const std::vector<StuckAgent>& stuck, const AgentTypeTable& types,
+                      const RoadNetwork& network, NameOf&& name_of) {
+  std::string text = "agent,type,lane,x,y,since_s,standing_s,moved_on,reason,foe\n";
+  char line[160];
+  for (const StuckAgent& agent : stuck) {
+    text += std::string(name_of(agent.id)) + ',' + type_of(types, agent.type).name + ',';
+    if (agent.lane != kNoLane) text += network.lane(agent.lane).name;
+    std::snprintf(line, sizeof line, ",%.2f,%.2f,%.2f,%.2f,%s,%s,", agent.position.x(),
+                  agent.position.y(), agent.since, agent.standing, agent.moved_on ? "yes" : "no",
+                  name_of_reason(agent.reason));
+    text += line;
+    if (agent.foe >= 0)
+      text += std::string(name_of(AgentId{static_cast<std::uint32_t>(agent.foe)}));
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,169 @@
+#include "io/trajectories.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+
+#include "base/error.h"
+#include "base/units.h"
+
+namespace sumogamma {
+
+namespace {
+
+void append_number(std::string& text, double value, int decimals) {
+  char digits[64];
+  const auto end =
+      std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, decimals);
+  text.append(digits, end.ptr);
+}
+
+void append_attribute(std::string& text, const char* name, double value, int decimals = 2) {
+  text += ' ';
+  text += name;
+  text += "=\"";
+  append_number(text, value, decimals);
+  text += '"';
+}
+
+void append_attribute(std::string& text, const char* name, std::string_view value) {
+  text += ' ';
+  text += name;
+  text += "=\"";
+  for (const char c : value) switch (c) {
+      case '&':
+        text += "&amp;";
+        break;
+      case '<':
+        text += "&lt;";
+        break;
+      case '>':
+        text += "&gt;";
+        break;
+      case '"':
+        text += "&quot;";
+        break;
+      default:
+        text += c;
+    }
+  text += '"';
+}
+
+}  // namespace
+
+TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& file, double period,
+                                   const RoadNetwork& network, const LaneLocator* locator)
+    : file_(file), period_(period), network_(network), locator_(locator) {
+  // "T": plain text through the same interface
+  stream_ = gzopen(file.c_str(), file.extension() == ".gz" ? "wb4" : "wbT");
+  if (!stream_)
+    throw Error(file.string(), std::string("can't be written (") + std::strerror(errno) + ")");
+  text_ =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\n<fcd-export "
+      "xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
+      "xsi:noNamespaceSchemaLocation=\"http://sumo.dlr.de/xsd/fcd_file.xsd\">\n";
+}
+
+TrajectoryWriter::~TrajectoryWriter() {
+  try {
+    close();
+  } catch (const Error&) {
+    // an exception is on its way already, or nobody asked whether the end was written
+  }
+}
+
+void TrajectoryWriter::fail() {
+  int code = Z_OK;
+  const char* message = gzerror(stream_, &code);
+  const std::string why = code == Z_ERRNO ? std::strerror(errno) : message;
+  gzclose(stream_);
+  stream_ = nullptr;
+  throw Error(file_.string(), "can't be written to its end (" + why + "), make room and run again");
+}
+
+void TrajectoryWriter::flush_text() {
+  if (!text_.empty() && gzwrite(stream_, text_.data(), static_cast<unsigned>(text_.size())) <= 0)
+    fail();
+  text_.clear();
+}
+
+void TrajectoryWriter::add(const Scene& scene, const AgentTypeTable& types,
+                           const AgentName& name_of) {
+  if (!stream_) throw Error(file_.string(), "is closed already");
+  // a little early: sums of steps don't meet the period exactly
+  if (started_ && scene.time < next_time_ - 1e-6) return;
+  next_time_ = started_ ? std::max(next_time_ + period_, scene.time) : scene.time + period_;
+  started_ = true;
+  text_ += "    <timestep";
+  append_attribute(text_, "time", scene.time);
+  text_ += ">\n";
+  for (const bool persons : {false, true})
+    for (std::size_t row = 0; row < scene.size(); ++row) {
+      const AgentType& type = type_of(types, scene.type[row]);
+      if ((type.kinematics == Kinematics::Holonomic) == persons)
+        append_agent(scene, row, type, name_of(scene.id[row]));
+    }
+  text_ += "    </timestep>\n";
+  flush_text();
+  // what is on the disk can be read up to here even if the process is killed
+  constexpr int kSyncEvery = 64;
+  if (++since_sync_ >= kSyncEvery) {
+    since_sync_ = 0;
+    if (gzflush(stream_, Z_SYNC_FLUSH) != Z_OK) fail();
+  }
+}
+
+void TrajectoryWriter::append_agent(const Scene& scene, std::size_t row, const AgentType& type,
+                                    std::string_view name) {
+  const bool person = type.kinematics == Kinematics::Holonomic;
+  double reach = 0;
+  if (!person)
+    for (const Vec2& vertex : scene.footprint[row].outline()) reach = std::max(reach, vertex.x());
+  const Vec2 place = scene.position[row] + reach * direction_of(scene.heading[row]);
+  LanePosition lane = scene.lane[row];
+  if (lane.lane == kNoLane && locator_) {
+    const LaneHit hit = locator_->find_nearest(
+        scene.position[row], vehicle_class_from_name(type.sumo_class), scene.heading[row]);
+    lane = {hit.lane, hit.along, hit.offset};
+  }
+  double along = 0, slope = 0;
+  if (lane.lane != kNoLane) {
+    const Lane& on = network_.lane(lane.lane);
+    // SUMO's length of a lane differs from its shape's where the map says so
+    const double scale = on.centerline.length() > 0 ? on.length / on.centerline.length() : 1.0;
+    along = std::clamp((lane.along + reach) * scale, 0.0, on.length);
+    if (!on.elevation.empty()) {
+      const double rise = elevation_at(on, lane.along + 0.5) - elevation_at(on, lane.along - 0.5);
+      slope = degrees(std::atan(rise));
+    }
+  }
+  text_ += person ? "        <person" : "        <vehicle";
+  append_attribute(text_, "id", name);
+  append_attribute(text_, "x", place.x());
+  append_attribute(text_, "y", place.y());
+  append_attribute(text_, "angle", sumo_from_heading(scene.heading[row]));
+  append_attribute(text_, "type", type.name);
+  append_attribute(text_, "speed", scene.velocity[row].norm());
+  append_attribute(text_, "pos", along);
+  if (person)
+    append_attribute(text_, "edge",
+                     lane.lane == kNoLane ? "" : network_.edge(network_.lane(lane.lane).edge).name);
+  else
+    append_attribute(text_, "lane", lane.lane == kNoLane ? "" : network_.lane(lane.lane).name);
+  append_attribute(text_, "slope", slope);
+  text_ += "/>\n";
+}
+
+void TrajectoryWriter::close() {
+  if (!stream_) return;
+  text_ += "</fcd-export>\n";
+  flush_text();
+  const int code = gzclose(stream_);
+  stream_ = nullptr;
+  if (code != Z_OK)
+    throw Error(file_.string(),
+                std::string("can't be written to its end (") + std::strerror(errno) + ")");
+}
+
+}  // namespace sumogamma

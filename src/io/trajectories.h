@@ -1,0 +1,58 @@
+#pragma once
+
+#include <zlib.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "road/lane_locator.h"
+#include "scene/agent_type.h"
+#include "scene/scene.h"
+
+namespace sumogamma {
+
+/// SUMO's id of an agent.
+using AgentName = std::function<std::string_view(AgentId)>;
+
+/// Writes trajectories in SUMO's floating-car-data schema (root <fcd-export>), gzipped where the
+/// file's name ends in
+/// ".gz": vehicles by front bumper, persons by centre, angles in degrees clockwise from north.
+/// SUMO's own tools read it. The file is whole and readable after close() or destruction, also when
+/// a run was interrupted.
+class TrajectoryWriter {
+ public:
+  /// `period`: least time between two recorded steps [s]; 0 records all. `locator`: for agents
+  /// whose scene row names no lane; may be null. Network and locator must outlive the writer.
+  /// Throws Error naming the file.
+  TrajectoryWriter(const std::filesystem::path& file, double period, const RoadNetwork& network,
+                   const LaneLocator* locator = nullptr);
+  ~TrajectoryWriter();
+  TrajectoryWriter(const TrajectoryWriter&) = delete;
+  TrajectoryWriter& operator=(const TrajectoryWriter&) = delete;
+
+  /// Records the scene where the period is over. Throws Error naming the file where the disk is
+  /// full.
+  void add(const Scene& scene, const AgentTypeTable& types, const AgentName& name_of);
+
+  /// Ends the document. Idempotent. Throws Error naming the file where the end couldn't be written.
+  void close();
+
+ private:
+  void append_agent(const Scene& scene, std::size_t row, const AgentType& type,
+                    std::string_view name);
+  void flush_text();
+  [[noreturn]] void fail();
+
+  std::filesystem::path file_;
+  double period_, next_time_ = 0;
+  bool started_ = false;
+  const RoadNetwork& network_;
+  const LaneLocator* locator_;
+  gzFile stream_ = nullptr;
+  std::string text_;
+  int since_sync_ = 0;
+};
+
+}  // namespace sumogamma
