@@ -24,13 +24,16 @@ logged() {
   fi
 }
 
-# build PRESET [TARGET...]: configures the preset and builds it (everything, or the targets)
+# build PRESET [TARGET...] [-- NINJA_OPTION...]: configures the preset and builds it (everything, or the targets)
 build() {
   local preset=$1
   shift
   local targets=()
-  (($# == 0)) || targets=(--target "$@")
+  while (($# > 0)) && [[ $1 != -- ]]; do
+    targets+=(--target "$1")
+    shift
+  done
   logged "$project/build/$preset/configure.log" cmake --preset "$preset" -S "$project" || return 1
   logged "$project/build/$preset/build.log" \
-    cmake --build "$project/build/$preset" -j "$jobs" "${targets[@]}"
+    cmake --build "$project/build/$preset" -j "$jobs" "${targets[@]}" "$@"
 }
