@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/units.h"
+
 namespace sumogamma {
 
 namespace {
@@ -15,14 +17,20 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
   const Vec2 left = left_of(context.tangent);
   const Vec2 forward = direction_of(scene.heading[row]);
   const bool on_wheels = type.kinematics != Kinematics::Holonomic;
+  const KinematicSet trackable = model.kinematics[static_cast<std::size_t>(scene.type[row])].at(
+      std::min(scene.speed[row], kCreep), scene.steering[row]);
 
   // lane boundaries: lateral speed under d/tau (III-C); beyond a boundary no further, but standing stays allowed
   auto boundary = [&](double room, const Vec2& outward) {
     if (!std::isfinite(room)) return;
     double limit = std::max(room, 0.0) / type.horizon;
     // differs from the paper: a wheeled body that points outward can only come back by rolling on while it turns, so it
-    // may creep
-    if (on_wheels) limit = std::max(limit, kCreep * std::clamp(4.0 * forward.dot(outward), 0.0, 1.0));
+    // may creep along the inmost direction that it can track
+    if (on_wheels) {
+      const double turn = std::abs(heading_of(sumogamma::cross(forward, outward) > 0.0 ? trackable.right : trackable.left));
+      const double away = std::asin(std::clamp(forward.dot(outward), -1.0, 1.0));
+      limit = std::max(limit, kCreep * std::sin(std::clamp(away - 0.9 * turn, 0.0, 0.5 * kPi)));
+    }
     constraints.append({limit * outward, -outward}, {ConstraintKind::LaneBoundary, -1});
   };
   boundary(context.room_left, left);

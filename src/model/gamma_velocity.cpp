@@ -24,8 +24,11 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
   append_geometric_constraints(model, scene, geometry, row, behavior, work.attended,
                                work.constraints);  // G, III-B
 
-  const double fastest =
+  double fastest =
       std::min(type.max_speed, std::max(scene.preferred_speed[row], work.preferred.norm()));
+  // what the road allows holds for a wheeled body whichever way it points
+  if (scene.context[row].active && type.kinematics != Kinematics::Holonomic)
+    fastest = std::min(fastest, std::max(scene.context[row].allowed_speed, 0.0));
   work.result = closest_point(work.constraints.planes, work.constraints.hard_count, work.preferred,
                               fastest, work.program);
   return work.result.point;

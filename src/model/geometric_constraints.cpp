@@ -6,6 +6,25 @@
 
 namespace sumogamma {
 
+namespace {
+
+/// Horizon of a pair on the road [s].
+/// differs from the paper: who follows a lane bends with it, so that straight lines over the whole horizon see collisions with
+/// oncoming traffic in every curve; leaders, signals and right of way look far ahead instead (C). Avoidance is what is left:
+/// the near term. People on foot follow no lane and keep the full horizon.
+double road_horizon(const Model& model, const Scene& scene, std::size_t row, std::size_t other, double horizon) {
+  constexpr double kLanes = 1.5, kLeader = 0.7;
+  const RoadContext& context = scene.context[row];
+  if (!context.active) return horizon;
+  const bool walker = type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic ||
+                      type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic;
+  if (walker) return horizon;
+  const bool leader = context.reason == LimitReason::Leader && context.foe == scene.id[other].value;
+  return std::min(horizon, leader ? kLeader : kLanes);
+}
+
+}  // namespace
+
 double responsibility_share(const Model& model, const Scene& scene, const TickGeometry& geometry,
                             std::size_t row, std::size_t other, const BehaviorState& behavior) {
   if (!model.options.share_responsibility) return behavior.responsibility;
@@ -28,10 +47,11 @@ void append_geometric_constraints(const Model& model, const Scene& scene,
   for (const Attended& neighbour : attended) {
     const std::size_t other = neighbour.row;
     const double their_horizon = type_of(model.types, scene.type[other]).horizon;
-    const double horizon = options.pair_horizon == PairHorizon::Own ? own_horizon
-                           : options.pair_horizon == PairHorizon::Shortest
-                               ? std::min(own_horizon, their_horizon)
-                               : std::max(own_horizon, their_horizon);
+    const double pair_horizon = options.pair_horizon == PairHorizon::Own ? own_horizon
+                                : options.pair_horizon == PairHorizon::Shortest
+                                    ? std::min(own_horizon, their_horizon)
+                                    : std::max(own_horizon, their_horizon);
+    const double horizon = road_horizon(model, scene, row, other, pair_horizon);
     const PolygonDifference difference =
         minkowski_difference(geometry.guarded[other], geometry.guarded[row],
                              scene.position[other] - scene.position[row]);

@@ -17,7 +17,7 @@ struct Leader {
 };
 
 /// Nearest agent ahead whose footprint reaches into the corridor that the row's body will sweep along its path, whoever drives
-/// it. Crossing traffic counts only when near: it will have gone. `reach` is how far to look [m].
+/// it. Vehicles that don't move the same way don't count (right of way and avoidance see to them), people on foot when near. `reach` is how far to look [m].
 Leader find_leader(const Model& model, const RoadState& road, const Scene& scene, const SpatialGrid& grid, std::size_t row,
                    double reach);
 
