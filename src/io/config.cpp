@@ -1,0 +1,290 @@
+#include "io/config.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/error.h"
+#include "io/output_file.h"
+
+namespace sumogamma {
+
+namespace {
+
+constexpr double kAny = -std::numeric_limits<double>::infinity();
+
+/// A word for one value of an enumeration.
+template <typename Enum>
+struct Choice {
+  Enum* target;
+  std::vector<std::pair<std::string, Enum>> words;
+};
+
+/// A key and where its value goes. Numbers must be finite and at least `least`, or above it where
+/// `open`.
+struct Binding {
+  std::string key;
+  std::variant<double*, int*, bool*, std::string*, Choice<Kinematics>, Choice<PairHorizon>> target;
+  double least = kAny;
+  bool open = false;
+};
+
+struct TypeField {
+  const char* name;
+  double AgentType::*member;
+  double least;
+  bool open;
+};
+
+constexpr std::array kTypeFields{
+    TypeField{"length", &AgentType::length, 0, true},
+    TypeField{"width", &AgentType::width, 0, true},
+    TypeField{"wheelbase", &AgentType::wheelbase, 0, true},
+    TypeField{"rear_axle_to_center", &AgentType::rear_axle_to_center, 0, false},
+    TypeField{"max_steering", &AgentType::max_steering, 0, true},
+    TypeField{"max_steering_rate", &AgentType::max_steering_rate, 0, true},
+    TypeField{"max_speed", &AgentType::max_speed, 0, true},
+    TypeField{"preferred_speed", &AgentType::preferred_speed, 0, true},
+    TypeField{"max_acceleration", &AgentType::max_acceleration, 0, true},
+    TypeField{"comfortable_deceleration", &AgentType::comfortable_deceleration, 0, true},
+    TypeField{"max_deceleration", &AgentType::max_deceleration, 0, true},
+    TypeField{"max_lateral_acceleration", &AgentType::max_lateral_acceleration, 0, true},
+    TypeField{"tracking_error", &AgentType::tracking_error, 0, true},
+    TypeField{"horizon", &AgentType::horizon, 0, true},
+    TypeField{"attention_front", &AgentType::attention_front, 0, false},
+    TypeField{"attention_rear", &AgentType::attention_rear, 0, false},
+    TypeField{"responsibility_decay", &AgentType::responsibility_decay, 0, false},
+    TypeField{"headway", &AgentType::headway, 0, false},
+    TypeField{"min_gap", &AgentType::min_gap, 0, false},
+};
+
+void bind_model(ModelOptions& model, std::vector<Binding>& bindings) {
+  bindings.push_back({"model.use_kinematics", &model.use_kinematics});
+  bindings.push_back({"model.use_polygons", &model.use_polygons});
+  bindings.push_back({"model.use_avoidance", &model.use_avoidance});
+  bindings.push_back({"model.keep_left", &model.keep_left});
+  bindings.push_back({"model.constrain_safe_pairs", &model.constrain_safe_pairs});
+  bindings.push_back({"model.share_responsibility", &model.share_responsibility});
+  bindings.push_back(
+      {"model.pair_horizon", Choice<PairHorizon>{&model.pair_horizon,
+                                                 {{"own", PairHorizon::Own},
+                                                  {"shortest", PairHorizon::Shortest},
+                                                  {"longest", PairHorizon::Longest}}}});
+  bindings.push_back({"model.separation_time", &model.separation_time, 0, true});
+  bindings.push_back({"model.front_margin", &model.front_margin, 0});
+  bindings.push_back({"model.rear_margin", &model.rear_margin, 0});
+  bindings.push_back({"model.side_margin", &model.side_margin, 0});
+  bindings.push_back({"model.walker_margin", &model.walker_margin, 0});
+}
+
+std::vector<Binding> bind_all(ScenarioConfig& config) {
+  std::vector<Binding> bindings{
+      {"scenario.name", &config.name},     {"scenario.map", &config.map},
+      {"scenario.bbox", &config.bbox},     {"scenario.attribution", &config.attribution},
+      {"run.agents", &config.agents, 1},   {"run.duration", &config.duration, 0, true},
+      {"run.step", &config.step, 0, true}, {"run.control", &config.control},
+      {"run.backend", &config.backend},
+  };
+  bind_model(config.model, bindings);
+  for (AgentType& type : config.types) {
+    const std::string prefix = "types." + type.name + ".";
+    bindings.push_back({prefix + "sumo_class", &type.sumo_class});
+    bindings.push_back(
+        {prefix + "kinematics", Choice<Kinematics>{&type.kinematics,
+                                                   {{"holonomic", Kinematics::Holonomic},
+                                                    {"single_track", Kinematics::SingleTrack}}}});
+    for (const TypeField& field : kTypeFields)
+      bindings.push_back({prefix + field.name, &(type.*field.member), field.least, field.open});
+  }
+  return bindings;
+}
+
+/// Levenshtein's distance: how many letters to add, drop or change.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// One document (the file, or one override): knows how to name a place in it.
+class Document {
+ public:
+  Document(std::string origin, bool has_lines)
+      : origin_(std::move(origin)), has_lines_(has_lines) {}
+
+  [[noreturn]] void fail(const toml::node& node, const std::string& what) const {
+    throw Error(has_lines_ ? origin_ + ":" + std::to_string(node.source().begin.line) : origin_,
+                what);
+  }
+
+  /// Rows for [types.NAME] that name a base: they must exist before their fields can be bound.
+  void add_types(const toml::table& root, AgentTypeTable& types) const {
+    const toml::node* node = root.get("types");
+    if (!node) return;
+    if (!node->is_table()) fail(*node, "'types' must be a table of types, [types.NAME]");
+    for (const auto& [key, value] : *node->as_table()) {
+      const std::string name(key.str());
+      if (!value.is_table())
+        fail(value, "'types." + name + "' must be a table, [types." + name + "]");
+      const bool known = std::any_of(types.begin(), types.end(),
+                                     [&](const AgentType& t) { return t.name == name; });
+      const toml::node* base = value.as_table()->get("base");
+      if (known) {
+        if (base)
+          fail(*base,
+               "'types." + name + ".base': the type '" + name + "' exists already, leave base out");
+        continue;
+      }
+      if (!base || !base->is_string())
+        fail(value,
+             "unknown type '" + name + "', a new type needs base = \"car\" or another known type");
+      AgentType type;
+      try {
+        type = type_of(types, find_agent_type(types, base->value<std::string>().value()));
+      } catch (const Error& error) {
+        fail(*base, error.what());
+      }
+      type.name = name;
+      types.push_back(std::move(type));
+    }
+  }
+
+  void apply(const toml::table& table, const std::string& prefix,
+             const std::vector<Binding>& bindings) const {
+    for (const auto& [key, value] : table) {
+      const std::string full = prefix + std::string(key.str());
+      if (value.is_table()) {
+        apply(*value.as_table(), full + ".", bindings);
+        continue;
+      }
+      // consumed by add_types
+      if (full.rfind("types.", 0) == 0 && key.str() == "base") continue;
+      const auto found = std::find_if(bindings.begin(), bindings.end(),
+                                      [&](const Binding& b) { return b.key == full; });
+      if (found == bindings.end()) {
+        const auto nearest = std::min_element(
+            bindings.begin(), bindings.end(), [&](const Binding& a, const Binding& b) {
+              return edit_distance(full, a.key) < edit_distance(full, b.key);
+            });
+        fail(value, "unknown key '" + full + "', the nearest known one is '" + nearest->key + "'");
+      }
+      std::visit([&](const auto& target) { assign(value, *found, target); }, found->target);
+    }
+  }
+
+ private:
+  void check_range(const toml::node& node, const Binding& binding, double value) const {
+    const bool fits =
+        std::isfinite(value) && (binding.open ? value > binding.least : value >= binding.least);
+    if (fits) return;
+    char text[64];
+    std::snprintf(text, sizeof text, "%s %g", binding.open ? "above" : "of at least",
+                  binding.least);
+    fail(node, "'" + binding.key + "' must be a number " +
+                   (binding.least == kAny ? "that is finite" : text));
+  }
+
+  void assign(const toml::node& node, const Binding& binding, double* target) const {
+    if (!node.is_number()) fail(node, "'" + binding.key + "' must be a number");
+    *target = node.value<double>().value();
+    check_range(node, binding, *target);
+  }
+  void assign(const toml::node& node, const Binding& binding, int* target) const {
+    const auto value = node.is_integer() ? node.value<std::int64_t>() : std::nullopt;
+    if (!value || *value > std::numeric_limits<int>::max() ||
+        *value < std::numeric_limits<int>::min())
+      fail(node, "'" + binding.key + "' must be a whole number");
+    *target = static_cast<int>(*value);
+    check_range(node, binding, *target);
+  }
+  void assign(const toml::node& node, const Binding& binding, bool* target) const {
+    if (!node.is_boolean()) fail(node, "'" + binding.key + "' must be true or false");
+    *target = node.value<bool>().value();
+  }
+  void assign(const toml::node& node, const Binding& binding, std::string* target) const {
+    if (!node.is_string()) fail(node, "'" + binding.key + "' must be a text in quotes");
+    *target = node.value<std::string>().value();
+  }
+  template <typename Enum>
+  void assign(const toml::node& node, const Binding& binding, const Choice<Enum>& choice) const {
+    const auto word = node.value<std::string>();
+    std::string known;
+    for (const auto& [name, value] : choice.words) {
+      if (word && *word == name) {
+        *choice.target = value;
+        return;
+      }
+      known += (known.empty() ? "\"" : ", \"") + name + "\"";
+    }
+    fail(node, "'" + binding.key + "' must be one of " + known);
+  }
+
+  std::string origin_;
+  bool has_lines_;
+};
+
+void apply_document(const Document& document, const toml::table& root, ScenarioConfig& config) {
+  document.add_types(root, config.types);
+  document.apply(root, "", bind_all(config));
+}
+
+/// "key=value" as TOML; a value that is no TOML by itself is taken as text, so that quotes aren't
+/// needed in a shell.
+toml::table parse_override(const std::string& text) {
+  const std::size_t cut = text.find('=');
+  if (cut == std::string::npos || cut == 0) throw Error("--set " + text, "expected KEY=VALUE");
+  const std::string key = text.substr(0, cut), value = text.substr(cut + 1);
+  try {
+    return toml::parse(key + " = " + value);
+  } catch (const toml::parse_error&) {
+  }
+  try {
+    toml::table table = toml::parse(key + " = \"\"");
+    toml::node* node = &table;
+    while (node->is_table()) node = &node->as_table()->begin()->second;
+    *node->as_string() = value;
+    return table;
+  } catch (const toml::parse_error&) {
+    throw Error("--set " + text, "'" + key + "' is no key, expected one such as types.car.headway");
+  }
+}
+
+}  // namespace
+
+ScenarioConfig read_config(const std::filesystem::path& file,
+                           std::span<const std::string> overrides) {
+  ScenarioConfig config;
+  if (!file.empty()) {
+    const std::string content = read_file(file);
+    toml::table root;
+    try {
+      root = toml::parse(content);
+    } catch (const toml::parse_error& error) {
+      throw Error(file.string() + ":" + std::to_string(error.source().begin.line),
+                  "not TOML (" + std::string(error.description()) + ")");
+    }
+    apply_document(Document(file.string(), true), root, config);
+  }
+  for (const std::string& text : overrides) {
+    const toml::table root = parse_override(text);
+    apply_document(Document("--set " + text, false), root, config);
+  }
+  return config;
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "model/model.h"
+#include "scene/agent_type.h"
+
+namespace sumogamma {
+
+/// What scenario.toml says: docs/scenario.md lists the keys. Everything has a default, so an empty
+/// file is valid.
+struct ScenarioConfig {
+  // [scenario]: what the importer notes about the place, for people and reports
+  std::string name, map, bbox, attribution;
+  // [run]: defaults of `sumo-gamma run`; its options win
+  int agents = 100;       ///< cap on agents alive at once
+  double duration = 600;  ///< [s]
+  double step = 0.05;     ///< [s]
+  std::string control = "all";
+  std::string backend = "traci";
+  // [model]
+  ModelOptions model;
+  // [types.NAME]: rows changed, or added with base = "car"
+  AgentTypeTable types = default_agent_types();
+};
+
+/// Reads scenario.toml (an empty path: defaults alone) and applies overrides "key=value" in order,
+/// later ones winning. Throws Error naming file and line (or the override) for what isn't TOML, an
+/// unknown key (with the nearest known one), a value of the wrong type or out of range, and a new
+/// type without a known `base`.
+ScenarioConfig read_config(const std::filesystem::path& file,
+                           std::span<const std::string> overrides = {});
+
+}  // namespace sumogamma
