@@ -1,0 +1,169 @@
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/command.h"
+#include "base/error.h"
+#include "base/staged_folder.h"
+#include "io/output_file.h"
+#include "io/scenario_files.h"
+#include "osm/build_network.h"
+#include "osm/import_report.h"
+#include "scene/agent_type.h"
+#include "study/demand.h"
+
+namespace sumogamma {
+namespace {
+
+struct ImportOptions {
+  std::string map, folder, bbox, agents = "100", duration = "3600", side = "auto";
+  bool force = false;
+};
+
+double parse_number(const std::string& option, const std::string& text) {
+  double value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    throw Error(option + " " + text, "is not a number");
+  return value;
+}
+
+long parse_agents(const std::string& text) {
+  const double value = parse_number("--agents", text);
+  if (value < 1 || value > 1e6 || value != std::floor(value))
+    throw Error("--agents " + text, "must be a whole number from 1 to 1000000");
+  return static_cast<long>(value);
+}
+
+double parse_duration(const std::string& text) {
+  const double value = parse_number("--duration", text);
+  if (value <= 0 || value > 1e6)
+    throw Error("--duration " + text, "must be more than 0 and at most 1000000 s");
+  return value;
+}
+
+std::optional<osm::GeoBox> parse_box(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const std::string where = "--bbox " + text;
+  std::vector<double> values;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', start), text.size());
+    values.push_back(parse_number(where + ": part", text.substr(start, comma - start)));
+    start = comma + 1;
+  }
+  if (values.size() != 4) throw Error(where, "needs four numbers: W,S,E,N in degrees");
+  const osm::GeoBox box{values[0], values[1], values[2], values[3]};
+  if (box.west < -180 || box.east > 180 || box.south < -90 || box.north > 90)
+    throw Error(
+        where,
+        "is not in degrees: expected W,S,E,N with longitudes within 180 and latitudes within 90");
+  if (!(box.west < box.east && box.south < box.north))
+    throw Error(where, "is empty: expected W,S,E,N with west < east and south < north");
+  return box;
+}
+
+osm::Side parse_side(const std::string& text) {
+  return text == "left" ? osm::Side::Left : text == "right" ? osm::Side::Right : osm::Side::Auto;
+}
+
+void print_summary(const osm::BuildResult& built, const DemandReport& demand,
+                   const std::string& folder) {
+  const auto count = [&](const char* name) { return static_cast<long>(built.built.at(name)); };
+  std::printf(
+      "%s: %ld edges, %ld lanes, %ld signals, %ld crossings, %ld buildings, traffic on the %s\n",
+      folder.c_str(), count("edges"), count("lanes"), count("signals"), count("crossings"),
+      built.obstacles.at("buildings") + built.obstacles.at("buildings_opened"),
+      built.left_hand ? "left" : "right");
+  for (const DemandByType& type : demand.types) {
+    if (type.problem.empty())
+      std::printf("  %-12s %5ld departures, mean trip %.0f m, %.0f s\n", type.type.c_str(),
+                  type.departures, type.mean_length, type.mean_duration);
+    else
+      std::printf("  %-12s left out: %s\n", type.type.c_str(), type.problem.c_str());
+  }
+  for (const auto& [kind, issue] : built.log.issues())
+    if (issue.severity == osm::Severity::Warning)
+      std::printf("  warning: %s (%ld)\n", issue.what.c_str(), issue.count);
+}
+
+int run_import(const ImportOptions& options, const CommonOptions& common) {
+  const long agents = parse_agents(options.agents);
+  const double duration = parse_duration(options.duration);
+  osm::BuildRequest build;
+  build.map = options.map;
+  build.bbox = parse_box(options.bbox);
+  build.side = parse_side(options.side);
+  build.should_stop = interrupted;
+  if (!common.quiet)
+    build.progress = [](const std::string& text) {
+      std::fprintf(stderr, "import: %s\n", text.c_str());
+    };
+
+  StagedFolder folder(options.folder, options.force);
+  build.folder = folder.path();
+  build.work = folder.path() / "work";
+  std::filesystem::create_directory(build.work);
+  const osm::BuildResult built = osm::build_network(build);
+  if (built.stopped) return kExitInterrupted;
+
+  build.progress("drawing and routing demand (duarouter)");
+  DemandRequest demand;
+  demand.network = folder.path() / "net.net.xml";
+  demand.routes = folder.path() / "demand.rou.xml";
+  demand.work = build.work;
+  demand.seed = common.seed;
+  demand.agents = agents;
+  demand.duration = duration;
+  demand.should_stop = interrupted;
+  const DemandReport made = generate_demand(built.road, default_agent_types(), demand);
+  if (made.stopped) return kExitInterrupted;
+
+  ScenarioFiles scenario;
+  scenario.name = std::filesystem::path(options.folder).lexically_normal().filename().string();
+  scenario.map = std::filesystem::path(options.map).filename().string();
+  scenario.west = built.box.west;
+  scenario.south = built.box.south;
+  scenario.east = built.box.east;
+  scenario.north = built.box.north;
+  scenario.left_hand = built.left_hand;
+  scenario.agents = agents;
+  scenario.duration = duration;
+  write_scenario_files(folder.path(), scenario, default_agent_types());
+  nlohmann::ordered_json report = osm::import_report(built, scenario.map);
+  report["demand"] = demand_report(made, demand);
+  write_file(folder.path() / "import.json", report.dump(2) + "\n");
+
+  std::filesystem::remove_all(build.work);
+  if (interrupted()) return kExitInterrupted;
+  folder.commit();
+  print_summary(built, made, options.folder);
+  return kExitDone;
+}
+
+}  // namespace
+
+CommandRunner add_import_command(CLI::App& parent) {
+  CLI::App* command = parent.add_subcommand(
+      "import",
+      "build a scenario folder from an OpenStreetMap extract: network, obstacles, demand");
+  auto options = std::make_shared<ImportOptions>();
+  command->add_option("map", options->map, "extract: .osm .osm.gz .osm.bz2 .osm.pbf")->required();
+  command->add_option("-o,--output", options->folder, "scenario folder to write")->required();
+  command->add_option("--bbox", options->bbox, "cut to W,S,E,N [degrees]");
+  command->add_option("--agents", options->agents, "agents to keep alive")->capture_default_str();
+  command->add_option("--duration", options->duration, "time for which demand is written [s]")
+      ->capture_default_str();
+  command
+      ->add_option("--side", options->side,
+                   "side of the road: auto (from the place), left or right")
+      ->check(CLI::IsMember({"auto", "left", "right"}))
+      ->capture_default_str();
+  command->add_flag("--force", options->force, "write into a folder that is not empty");
+  return [options](const CommonOptions& common) { return run_import(*options, common); };
+}
+
+}  // namespace sumogamma

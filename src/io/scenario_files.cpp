@@ -1,0 +1,103 @@
+#include "io/scenario_files.h"
+
+#include <cstdio>
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "base/error.h"
+#include "io/output_file.h"
+
+namespace sumogamma {
+namespace {
+
+std::string plain(double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  // a TOML float needs a point
+  const std::string result = text;
+  return result.find_first_of(".e") == std::string::npos ? result + ".0" : result;
+}
+
+std::string toml_string(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    if (static_cast<unsigned char>(c) < 0x20)
+      continue;  // a control character in a file name is not worth keeping
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::string toml_text(const ScenarioFiles& scenario, const AgentTypeTable& types) {
+  char box[128];
+  std::snprintf(box, sizeof box, "%.7f,%.7f,%.7f,%.7f", scenario.west, scenario.south,
+                scenario.east, scenario.north);
+  std::ostringstream text;
+  text << "# Made by sumo-gamma import; every key has a default, and run --set KEY=VALUE overrides "
+          "any.\n"
+       << "[scenario]\n"
+       << "name = " << toml_string(scenario.name) << "\n"
+       << "map = " << toml_string(scenario.map) << "\n"
+       << "bbox = \"" << box << "\"  # W,S,E,N; traffic keeps "
+       << (scenario.left_hand ? "left" : "right") << "\n"
+       << "attribution = \"(c) OpenStreetMap contributors, ODbL 1.0\"\n\n"
+       << "[run]\n"
+       << "agents = " << scenario.agents << "  # alive at once\n"
+       << "duration = " << plain(scenario.duration) << "  # [s], for which demand was written\n"
+       << "step = 0.05  # [s]\n\n"
+       << "# Any field of a type may be overridden; what is built in, of some:\n";
+  for (const AgentType& type : types)
+    text << "# [types." << type.name << "]\n"
+         << "# preferred_speed = " << plain(type.preferred_speed) << "  # [m/s]\n"
+         << "# max_acceleration = " << plain(type.max_acceleration) << "  # [m/s^2]\n"
+         << "# horizon = " << plain(type.horizon) << "  # tau [s]\n";
+  return text.str();
+}
+
+void write_sumocfg(const std::filesystem::path& file, const ScenarioFiles& scenario) {
+  pugi::xml_document document;
+  pugi::xml_node root = document.append_child("configuration");
+  auto section = [&](const char* name,
+                     std::initializer_list<std::pair<const char*, std::string>> options) {
+    pugi::xml_node node = root.append_child(name);
+    for (const auto& [key, value] : options)
+      node.append_child(key).append_attribute("value") = value.c_str();
+  };
+  section("input", {{"net-file", "net.net.xml"},
+                    {"route-files", "demand.rou.xml"},
+                    {"additional-files", "obstacles.add.xml"}});
+  section("time", {{"begin", "0"}, {"end", plain(scenario.duration)}});
+  section("report",
+          {{"xml-validation", "never"}, {"xml-validation.net", "never"}, {"no-step-log", "true"}});
+  if (!document.save_file(file.c_str(), "  "))
+    throw Error(file.string(), "cannot be written: is the disk full?");
+}
+
+}  // namespace
+
+void write_scenario_files(const std::filesystem::path& folder, const ScenarioFiles& scenario,
+                          const AgentTypeTable& types) {
+  write_sumocfg(folder / "scenario.sumocfg", scenario);
+  write_file(folder / "scenario.toml", toml_text(scenario, types));
+}
+
+nlohmann::ordered_json demand_report(const DemandReport& report, const DemandRequest& request) {
+  nlohmann::ordered_json json;
+  json["agents"] = request.agents;
+  json["duration"] = request.duration;
+  json["seed"] = request.seed;
+  json["departures"] = report.departures;
+  json["departures_on_the_way"] = report.initial;
+  for (const DemandByType& type : report.types)
+    json["by_type"][type.type] = {{"share", type.share},
+                                  {"trips_asked", type.trips_drawn},
+                                  {"trips_kept", type.trips_routable},
+                                  {"departures", type.departures},
+                                  {"mean_length", type.mean_length},
+                                  {"mean_duration", type.mean_duration},
+                                  {"left_out", type.problem}};
+  return json;
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "scene/agent_type.h"
+#include "study/demand.h"
+
+namespace sumogamma {
+
+/// What the two scenario files of an imported folder say.
+struct ScenarioFiles {
+  std::string name;                                 ///< of the scenario
+  std::string map;                                  ///< file name of the extract
+  double west = 0, south = 0, east = 0, north = 0;  ///< the place [deg]
+  bool left_hand = false;
+  long agents = 100;
+  double duration = 3600.0;  ///< [s]
+};
+
+/// Writes scenario.sumocfg (for SUMO, and for `run`) and scenario.toml (for `run`). Throws Error
+/// naming the file.
+void write_scenario_files(const std::filesystem::path& folder, const ScenarioFiles& scenario,
+                          const AgentTypeTable& types);
+
+/// The demand's part of import.json.
+nlohmann::ordered_json demand_report(const DemandReport& report, const DemandRequest& request);
+
+}  // namespace sumogamma

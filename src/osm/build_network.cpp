@@ -1,0 +1,203 @@
+#include "osm/build_network.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+#include "osm/driving_side.h"
+#include "osm/geo_projection.h"
+#include "osm/netconvert.h"
+#include "osm/network_facts.h"
+#include "osm/obstacles.h"
+#include "osm/osm_reader.h"
+#include "osm/osm_writer.h"
+#include "osm/prepare.h"
+#include "road/sumo_net_reader.h"
+
+namespace sumogamma::osm {
+namespace {
+
+constexpr double kReadMargin =
+    200.0;  // [m] read beyond the box, so that stop lines and squares at its edge are seen
+constexpr double kLargest = 100e3;  // [m] side of a map that one plane and one netconvert can bear
+
+std::string box_text(const GeoBox& box) {
+  char text[128];
+  std::snprintf(text, sizeof text, "%.5f,%.5f,%.5f,%.5f", box.west, box.south, box.east, box.north);
+  return text;
+}
+
+void check_roads(const OsmMap& map, const BuildRequest& request) {
+  const bool any = std::any_of(map.ways.begin(), map.ways.end(), [](const MapWay& way) {
+    return is_car_way(way) || is_path_way(way);
+  });
+  if (any) return;
+  throw Error(request.map.string(),
+              request.bbox ? "holds no roads or paths within --bbox " + box_text(*request.bbox)
+                           : std::string("holds no roads or paths (no way with a highway tag "
+                                         "that traffic can use)"));
+}
+
+/// The place to build: what was asked for, else what the file says it covers, else where its roads
+/// lie.
+void choose_box(const OsmMap& map, const BuildRequest& request, BuildResult& result) {
+  const std::optional<GeoBox> roads = road_extent(map);
+  if (request.bbox) {
+    const std::optional<GeoBox> covered = map.bounds ? map.bounds : roads;
+    if (!covered || !covered->overlaps(*request.bbox))
+      throw Error("--bbox " + box_text(*request.bbox),
+                  "lies outside the extract" +
+                      (covered ? ", which covers " + box_text(*covered) : std::string()) +
+                      " (W,S,E,N)");
+    result.box = *request.bbox;
+  } else if (map.bounds && roads && map.bounds->overlaps(*roads)) {
+    result.box = *map.bounds;
+    result.box_from_file = true;
+  } else {
+    check_roads(map, request);
+    result.box = *roads;
+    result.log.add(Severity::Note, "no_bounds",
+                   "the extract does not say what it covers: built whole, nothing cut");
+  }
+  const LocalMetric metric(result.box.center());
+  if ((result.box.east - result.box.west) * metric.meters_per_lon > kLargest ||
+      (result.box.north - result.box.south) * metric.meters_per_lat > kLargest)
+    throw Error(request.map.string(),
+                "covers " + box_text(result.box) +
+                    " (W,S,E,N), more than 100 km: cut out a city with --bbox W,S,E,N");
+}
+
+void choose_side(const OsmMap& map, const BuildRequest& request, BuildResult& result) {
+  const std::string_view region = left_hand_region(result.box.center());
+  result.left_hand = request.side == Side::Auto ? !region.empty() : request.side == Side::Left;
+  result.side_reason = request.side != Side::Auto ? "asked for"
+                       : region.empty() ? "place outside the regions with left-hand traffic"
+                                        : "place in region " + std::string(region);
+  const RoundaboutTurns turns = count_roundabout_turns(map);
+  const int agree = result.left_hand ? turns.clockwise : turns.counter_clockwise;
+  const int disagree = result.left_hand ? turns.counter_clockwise : turns.clockwise;
+  if (disagree > agree + 1)
+    result.log.add(Severity::Warning, "side_doubtful",
+                   "most roundabouts turn the other way than traffic on this side would: check, or "
+                   "give --side",
+                   "", disagree);
+}
+
+bool has_layers(const OsmMap& map) {
+  return std::any_of(map.ways.begin(), map.ways.end(), [](const MapWay& way) {
+    return way.tags.contains("highway") && !tag(way.tags, "layer").empty() &&
+           tag(way.tags, "layer") != "0";
+  });
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// Builds net.net.xml; false where it was stopped.
+bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result) {
+  NetconvertRequest netconvert;
+  netconvert.prepared = request.work / "prepared.osm";
+  netconvert.network = request.folder / "net.net.xml";
+  netconvert.log = request.folder / "netconvert.log";
+  netconvert.projection = result.projection;
+  netconvert.left_hand = result.left_hand;
+  netconvert.layers = has_layers(map);
+  netconvert.should_stop = request.should_stop;
+  write_prepared_osm(map, netconvert.prepared);
+  result.command = run_netconvert(netconvert);
+  if (result.command.empty()) return false;
+  const auto rings = unmarked_roundabouts(netconvert.network, map);
+  if (!rings.empty()) {
+    if (mark_roundabouts(netconvert, rings).empty()) return false;
+    result.log.add(Severity::Note, "roundabout_marked",
+                   "roundabouts by tag that netconvert had not seen", rings[0][0],
+                   static_cast<long>(rings.size()));
+  }
+  result.netconvert_messages = count_message_kinds(read_text(netconvert.log));
+  return true;
+}
+
+void check_network(BuildResult& result) {
+  if (result.built["car_edges"] == 0)
+    result.log.add(Severity::Warning, "no_car_roads",
+                   "no road for cars: only walking and cycling here");
+  if (result.built["car_components"] > 1)
+    result.log.add(Severity::Note, "car_components",
+                   "parts of the road network that do not join within the map", "",
+                   static_cast<long>(result.built["car_components"]));
+  const auto wanted = result.read.find("signals");
+  if (wanted != result.read.end() && wanted->second > 0 && result.built["signals"] == 0)
+    result.log.add(Severity::Warning, "signals_lost",
+                   "traffic lights in the map, none in the network", "", wanted->second);
+}
+
+void count_read(const OsmMap& map, BuildResult& result) {
+  result.read = map.counts;
+  long signals = 0, crossings = 0, roads = 0, paths = 0, mini = 0, give_way = 0;
+  for (const auto& [id, node] : map.nodes) {
+    signals += tag_is(node.tags, "highway", {"traffic_signals"});
+    crossings += tag_is(node.tags, "highway", {"crossing"});
+    mini += tag_is(node.tags, "highway", {"mini_roundabout"});
+    give_way += tag_is(node.tags, "highway", {"give_way", "stop"});
+  }
+  for (const MapWay& way : map.ways) {
+    roads += is_car_way(way);
+    paths += is_path_way(way);
+  }
+  result.read["signals"] = signals;
+  result.read["crossing_nodes"] = crossings;
+  result.read["mini_roundabouts"] = mini;
+  result.read["give_way_and_stop_signs"] = give_way;
+  result.read["road_ways"] = roads;
+  result.read["path_ways"] = paths;
+  result.read["areas"] = static_cast<long>(map.areas.size());
+  result.read["turn_restrictions"] = static_cast<long>(map.relations.size());
+  if (const auto missing = map.counts.find("missing_nodes");
+      missing != map.counts.end() && missing->second > 0)
+    result.log.add(Severity::Warning, "missing_nodes",
+                   "points of ways that the extract does not hold", "", missing->second);
+}
+
+}  // namespace
+
+BuildResult build_network(const BuildRequest& request) {
+  BuildResult result;
+  request.progress("reading " + request.map.filename().string());
+  std::optional<GeoBox> keep;
+  if (request.bbox) keep = request.bbox->grown(kReadMargin);
+  OsmMap map = read_osm(request.map, keep);
+  count_read(map, result);
+  choose_box(map, request, result);
+  check_roads(map, request);
+  choose_side(map, request, result);
+  result.projection = local_projection(result.box.center());
+  if (request.should_stop()) return result.stopped = true, std::move(result);
+
+  request.progress("repairing tags, signals and edges");
+  PrepareOptions options;
+  options.box = result.box;
+  options.clip = request.bbox.has_value() || result.box_from_file;
+  prepare_map(map, options, result.log);
+  check_roads(map, request);
+
+  request.progress("building the network (netconvert)");
+  if (!convert(map, request, result)) return result.stopped = true, std::move(result);
+  result.road = read_sumo_net(request.folder / "net.net.xml");
+  result.built = network_facts(result.road);
+  check_network(result);
+
+  request.progress("placing obstacles");
+  result.obstacles =
+      write_obstacles(map, GeoProjection(result.projection), result.road, options.box.grown(100.0),
+                      request.folder / "obstacles.add.xml", result.log);
+  result.stopped = request.should_stop();
+  return result;
+}
+
+}  // namespace sumogamma::osm

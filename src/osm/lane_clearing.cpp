@@ -1,0 +1,180 @@
+#include "osm/lane_clearing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sumogamma::osm {
+namespace {
+
+constexpr double kCell = 10.0;          // [m]
+constexpr double kFootClearance = 0.6;  // [m] to either side of a sidewalk's middle
+constexpr double kJoint = 0.3;          // [m] by which pieces overlap, so that bends leave no gap
+constexpr VehicleClassMask kOnFootOrBicycle = vehicle_class::kPedestrian | vehicle_class::kBicycle;
+
+std::uint64_t cell_key(std::int64_t column, std::int64_t row) {
+  return (static_cast<std::uint64_t>(column + (1 << 30)) << 32) |
+         static_cast<std::uint64_t>(row + (1 << 30));
+}
+
+double half_width_of(const Lane& lane) {
+  const bool feet = lane.kind == LaneKind::Normal && (lane.allowed & ~kOnFootOrBicycle) == 0;
+  return feet ? std::min(lane.width / 2, kFootClearance) : lane.width / 2;
+}
+
+void merge(std::vector<Stretch>& stretches) {
+  std::sort(stretches.begin(), stretches.end(),
+            [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
+  std::vector<Stretch> merged;
+  for (const Stretch& stretch : stretches) {
+    if (!merged.empty() && stretch.from <= merged.back().to)
+      merged.back().to = std::max(merged.back().to, stretch.to);
+    else
+      merged.push_back(stretch);
+  }
+  stretches = std::move(merged);
+}
+
+/// Stretches of a-b within a ring: cut at each crossing, then each part asked by its middle.
+void append_within_ring(const std::vector<Vec2>& ring, const Vec2& a, const Vec2& b,
+                        std::vector<Stretch>& stretches) {
+  std::vector<double> cuts = {0.0, 1.0};
+  const Vec2 d = b - a;
+  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const Vec2 e = ring[i] - ring[j], w = ring[j] - a;
+    const double cross = d.x() * e.y() - d.y() * e.x();
+    if (cross == 0) continue;
+    const double t = (w.x() * e.y() - w.y() * e.x()) / cross,
+                 u = (w.x() * d.y() - w.y() * d.x()) / cross;
+    if (t > 0 && t < 1 && u >= 0 && u <= 1) cuts.push_back(t);
+  }
+  std::sort(cuts.begin(), cuts.end());
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+    if (cuts[i] < cuts[i + 1] && inside_rings({ring}, a + (cuts[i] + cuts[i + 1]) / 2 * d))
+      stretches.push_back({cuts[i], cuts[i + 1]});
+}
+
+}  // namespace
+
+bool inside_rings(const std::vector<std::vector<Vec2>>& rings, const Vec2& point) {
+  bool inside = false;
+  for (const std::vector<Vec2>& ring : rings)
+    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+      const Vec2 &a = ring[i], &b = ring[j];
+      if ((a.y() > point.y()) != (b.y() > point.y()) &&
+          point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+        inside = !inside;
+    }
+  return inside;
+}
+
+template <typename Visit>
+void LaneClearing::visit_cells(const Vec2& low, const Vec2& high, Visit visit) const {
+  for (auto column = static_cast<std::int64_t>(std::floor(low.x() / kCell));
+       column <= static_cast<std::int64_t>(std::floor(high.x() / kCell)); ++column)
+    for (auto row = static_cast<std::int64_t>(std::floor(low.y() / kCell));
+         row <= static_cast<std::int64_t>(std::floor(high.y() / kCell)); ++row)
+      visit(cell_key(column, row));
+}
+
+void LaneClearing::add_piece(const Vec2& from, const Vec2& to, double half_width) {
+  const double length = (to - from).norm();
+  if (length < 1e-6 || half_width <= 0) return;
+  const auto index = static_cast<std::uint32_t>(pieces_.size());
+  const Vec2 direction = (to - from) / length;
+  pieces_.push_back({from - kJoint * direction, direction, length + 2 * kJoint, half_width});
+  const Vec2 reach = Vec2::Constant(half_width + kJoint);
+  visit_cells(from.cwiseMin(to) - reach, from.cwiseMax(to) + reach,
+              [&](std::uint64_t cell) { cells_[cell].push_back(index); });
+}
+
+LaneClearing::LaneClearing(const RoadNetwork& road) {
+  for (const Lane& lane : road.lanes) {
+    if (lane.kind == LaneKind::WalkingArea) {
+      const std::vector<Vec2>& outline =
+          lane.outline.empty() ? lane.centerline.points() : lane.outline;
+      if (outline.size() >= 3) walking_areas_.push_back(outline);
+      continue;
+    }
+    const std::vector<Vec2>& points = lane.centerline.points();
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      add_piece(points[i], points[i + 1], half_width_of(lane));
+  }
+}
+
+std::vector<std::uint32_t> LaneClearing::pieces_near(const Vec2& low, const Vec2& high) const {
+  std::vector<std::uint32_t> found;
+  visit_cells(low, high, [&](std::uint64_t cell) {
+    if (const auto entry = cells_.find(cell); entry != cells_.end())
+      found.insert(found.end(), entry->second.begin(), entry->second.end());
+  });
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+std::vector<Stretch> LaneClearing::stretches_on_lanes(const Vec2& from, const Vec2& to) const {
+  std::vector<Stretch> stretches;
+  for (const std::uint32_t index : pieces_near(from.cwiseMin(to), from.cwiseMax(to))) {
+    const Piece& piece = pieces_[index];
+    const Vec2 normal(-piece.direction.y(), piece.direction.x());
+    // in the piece's own frame the rectangle is a box: Liang and Barsky again
+    const Vec2 a(piece.direction.dot(from - piece.from), normal.dot(from - piece.from));
+    const Vec2 b(piece.direction.dot(to - piece.from), normal.dot(to - piece.from));
+    const Vec2 low(0, -piece.half_width), high(piece.length, piece.half_width);
+    Stretch stretch{0, 1};
+    bool meets = true;
+    for (int axis = 0; axis < 2 && meets; ++axis) {
+      const double d = b[axis] - a[axis];
+      if (std::abs(d) < 1e-12) {
+        meets = a[axis] >= low[axis] && a[axis] <= high[axis];
+        continue;
+      }
+      const double s = (low[axis] - a[axis]) / d, t = (high[axis] - a[axis]) / d;
+      stretch.from = std::max(stretch.from, std::min(s, t));
+      stretch.to = std::min(stretch.to, std::max(s, t));
+    }
+    if (meets && stretch.from < stretch.to) stretches.push_back(stretch);
+  }
+  const Vec2 low = from.cwiseMin(to), high = from.cwiseMax(to);
+  for (const std::vector<Vec2>& ring : walking_areas_) {
+    Vec2 ring_low = ring[0], ring_high = ring[0];
+    for (const Vec2& p : ring) {
+      ring_low = ring_low.cwiseMin(p);
+      ring_high = ring_high.cwiseMax(p);
+    }
+    if ((ring_low.array() <= high.array()).all() && (low.array() <= ring_high.array()).all())
+      append_within_ring(ring, from, to, stretches);
+  }
+  merge(stretches);
+  return stretches;
+}
+
+bool LaneClearing::any_lane_within(const std::vector<std::vector<Vec2>>& rings) const {
+  Vec2 low = rings[0][0], high = low;
+  for (const Vec2& p : rings[0]) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  for (const std::uint32_t index : pieces_near(low, high)) {
+    const Piece& piece = pieces_[index];
+    for (const double share : {0.1, 0.5, 0.9})
+      if (inside_rings(rings, piece.from + share * piece.length * piece.direction)) return true;
+  }
+  return false;
+}
+
+bool LaneClearing::touches_lane(const Vec2& center, double radius) const {
+  const Vec2 reach = Vec2::Constant(radius);
+  for (const std::uint32_t index : pieces_near(center - reach, center + reach)) {
+    const Piece& piece = pieces_[index];
+    const Vec2 at = center - piece.from;
+    const double along = piece.direction.dot(at),
+                 across = piece.direction.x() * at.y() - piece.direction.y() * at.x();
+    if (along > -radius && along < piece.length + radius &&
+        std::abs(across) < piece.half_width + radius)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace sumogamma::osm

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "road/road_network.h"
+
+namespace sumogamma::osm {
+
+/// A stretch of a segment, as shares of it in [0, 1].
+struct Stretch {
+  double from = 0, to = 0;
+};
+
+/// The ground that lanes need, for cutting obstacles out of it. Lanes for wheels count with their
+/// whole width; those for feet with 0.6 m to either side of their middle, since guessed sidewalks
+/// are wider than many real ones; walking areas whole. Height is not looked at: a tunnel opens the
+/// house above it rather than being walled up.
+class LaneClearing {
+ public:
+  explicit LaneClearing(const RoadNetwork& road);
+
+  /// The stretches of the segment that lie on lanes: sorted, disjoint.
+  std::vector<Stretch> stretches_on_lanes(const Vec2& from, const Vec2& to) const;
+  /// True where a lane's middle line runs through the region within the rings (even-odd rule).
+  bool any_lane_within(const std::vector<std::vector<Vec2>>& rings) const;
+  /// True where the disc touches a lane.
+  bool touches_lane(const Vec2& center, double radius) const;
+
+ private:
+  /// A piece of lane: a rectangle about a segment of its middle line.
+  struct Piece {
+    Vec2 from = Vec2::Zero(), direction = Vec2::UnitX();
+    double length = 0, half_width = 0;
+  };
+  template <typename Visit>
+  void visit_cells(const Vec2& low, const Vec2& high, Visit visit) const;
+  void add_piece(const Vec2& from, const Vec2& to, double half_width);
+  std::vector<std::uint32_t> pieces_near(const Vec2& low, const Vec2& high) const;
+
+  std::vector<Piece> pieces_;
+  std::vector<std::vector<Vec2>> walking_areas_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>
+      cells_;  ///< looked up only, never iterated
+};
+
+/// Even-odd rule.
+bool inside_rings(const std::vector<std::vector<Vec2>>& rings, const Vec2& point);
+
+}  // namespace sumogamma::osm

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "osm/osm_map.h"
+#include "road/road_network.h"
+
+namespace sumogamma::osm {
+
+/// What a network holds, by stable name: "edges", "lanes", "car_edges", "car_edges_with_sidewalk",
+/// "junctions", "signals", "crossings", "walking_areas", "roundabout_junctions", "connections",
+/// "car_components", "walk_components", "lanes_under_1_m", "kilometres".
+std::map<std::string, double> network_facts(const RoadNetwork& road);
+
+/// Rings of edges that stem from ways tagged as roundabouts and that the network file does not list
+/// as roundabouts, in driving order. Needs a network written with --output.original-names.
+std::vector<std::vector<std::string>> unmarked_roundabouts(const std::filesystem::path& network,
+                                                           const OsmMap& map);
+
+}  // namespace sumogamma::osm

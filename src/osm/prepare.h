@@ -1,0 +1,49 @@
+#pragma once
+
+#include "osm/osm_map.h"
+
+namespace sumogamma::osm {
+
+/// The steps between what people mapped and what netconvert 1.15 understands. Each changes the map
+/// in place and says in the log what it guessed, moved or dropped. prepare_map() runs them in the
+/// order in which they stand here.
+struct PrepareOptions {
+  GeoBox box;        ///< the place asked for
+  bool clip = true;  ///< cut ways at the box; false where the extract does not say what it covers
+  double clip_margin = 60.0;   ///< [m] beyond the box, so that junctions at its edge stay whole
+  double signal_reach = 60.0;  ///< [m] from a stop line downstream to its junction
+};
+
+/// Leaves only ways that somebody may travel: no private, planned, indoor or underground-walk ways,
+/// no railways; a road closed to motors becomes a path; a pedestrian area becomes a star of
+/// footways between its entrances.
+void select_ways(OsmMap& map, IssueLog& log);
+
+/// Rewrites tags that netconvert 1.15 ignores or misreads: sidewalk:left and kin,
+/// sidewalk=separate, junction=circular, missing lanes of two-way main roads, highway=road.
+void normalise_tags(OsmMap& map, IssueLog& log);
+
+/// Cuts ways at the box: pieces outside vanish, new nodes stand on its edge (never within 1 m of
+/// another node: netconvert would merge them). The first piece keeps the way's id.
+void clip_ways(OsmMap& map, const GeoBox& box, IssueLog& log);
+
+/// Where the two carriageways of a road meet in one point at or outside the box, splits that point:
+/// netconvert would join them into a hairpin that eats its own lanes.
+void split_carriageway_ends(OsmMap& map, const GeoBox& box, IssueLog& log);
+
+/// Moves traffic lights that were mapped on stop lines to the junction that they guard; signalled
+/// mid-block crossings stay.
+void snap_signals(OsmMap& map, double reach, IssueLog& log);
+
+/// Drops turn restrictions that lost a member or no longer join at their via node.
+void filter_restrictions(OsmMap& map, IssueLog& log);
+
+/// All of the above.
+void prepare_map(OsmMap& map, const PrepareOptions& options, IssueLog& log);
+
+/// True for a way that cars may use by its highway tag.
+bool is_car_way(const MapWay& way);
+/// True for a way that only people on foot or on bicycles use by its highway tag.
+bool is_path_way(const MapWay& way);
+
+}  // namespace sumogamma::osm

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "road/road_network.h"
+#include "scene/agent_type.h"
+
+namespace sumogamma {
+
+/// Share of one agent type among the agents alive.
+struct DemandShare {
+  std::string type;
+  double share = 0;
+};
+
+/// 40 % cars, 6 % vans, 4 % buses, 5 % trucks, 10 % motorcycles, 12 % bicycles, 23 % pedestrians.
+std::vector<DemandShare> default_demand_mix();
+
+struct DemandRequest {
+  std::filesystem::path network;  ///< the file that `road` was read from: the router reads it again
+  std::filesystem::path
+      routes;  ///< to write: vTypes, vehicles with explicit routes, persons with explicit walks
+  std::filesystem::path
+      work;  ///< an existing folder for the router's files; they are removed again
+  std::vector<DemandShare> mix = default_demand_mix();
+  std::uint64_t seed = 1;
+  long agents = 100;         ///< to be kept alive
+  double duration = 3600.0;  ///< [s] for which demand is written
+  double warm_up = 30.0;  ///< [s] within which the first `agents` depart, spread over the network
+  double min_distance = 150.0;  ///< [m] of a trip, where the map allows
+  double slowness = 1.3;        ///< mean trip duration over that of the empty road
+  double surplus = 1.15;        ///< departures over those that would just sustain `agents`
+  std::function<bool()> should_stop;
+};
+
+/// What came of one type.
+struct DemandByType {
+  std::string type;
+  double share = 0;          ///< of the agents alive, after types that cannot travel were left out
+  long trips_drawn = 0;      ///< origin-destination pairs given to the router
+  long trips_routable = 0;   ///< that it could route
+  long departures = 0;       ///< written
+  double mean_length = 0;    ///< [m]
+  double mean_duration = 0;  ///< [s], with `slowness`
+  std::string problem;       ///< why it cannot travel here, else empty
+};
+
+struct DemandReport {
+  std::vector<DemandByType> types;
+  long departures = 0;
+  long initial = 0;      ///< of these, in the warm-up, started in the middle of their trips
+  bool stopped = false;  ///< should_stop ended it; nothing was written
+  std::string router;    ///< its messages, for the log
+};
+
+/// Draws trips, has SUMO's duarouter route them, and writes demand that keeps `agents` alive: first
+/// `agents` departures on the way (so that the mix of trip ages is that of a running city, not a
+/// wave that ends all at once), then each type at agents * share / mean duration * surplus. Trips
+/// run between the edges of the network's rim where it has one, are drawn by edge length, and are
+/// at least min_distance long (less where no such trip exists). Deterministic in the seed. A type
+/// that no edge lets travel is left out and reported, its share going to the others. Throws Error
+/// where nothing at all can travel, where the router is missing or fails, or where writing fails.
+DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& types,
+                             const DemandRequest& request);
+
+}  // namespace sumogamma
