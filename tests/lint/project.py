@@ -6,15 +6,23 @@ import sys
 SKIPPED = 77  # ctest's SKIP_RETURN_CODE for these tests
 
 
+def committed_files(root):
+    """What git lists (ignored files left out), or None where root is no checkout or there is no git."""
+    git = ["git", "-C", root, "-c", "safe.directory=*"]
+    try:
+        top = subprocess.run(git + ["rev-parse", "--show-toplevel"], capture_output=True, text=True, check=True)
+        listed = subprocess.run(git + ["ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+                                capture_output=True, text=True, check=True)
+    except (OSError, subprocess.CalledProcessError):
+        return None
+    same = os.path.realpath(top.stdout.strip()) == os.path.realpath(root)
+    return listed.stdout.split("\0") if same else None
+
+
 def project_files(root):
     """Paths relative to root of every file that is or would be committed; every file where git has no say."""
-    listed = subprocess.run(
-        ["git", "-C", root, "-c", "safe.directory=*", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-        capture_output=True, check=False)
-    top = subprocess.run(["git", "-C", root, "-c", "safe.directory=*", "rev-parse", "--show-toplevel"],
-                         capture_output=True, text=True, check=False)
-    if listed.returncode == 0 and os.path.realpath(top.stdout.strip()) == os.path.realpath(root):
-        names = listed.stdout.decode().split("\0")
+    names = committed_files(root)
+    if names is not None:
         return sorted(name for name in names if name and os.path.isfile(os.path.join(root, name)))
     found = []
     for folder, folders, names in os.walk(root):
