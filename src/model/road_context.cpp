@@ -18,7 +18,7 @@ struct Course {
   std::size_t row;
   double along, offset;
   double half_length;
-  double speed;  ///< along the path [m/s]
+  double speed;  ///< on foot along the path, on wheels along the heading [m/s]
 };
 
 /// Distance to the look-ahead sub-goal [m] (III-D): a body length and some, growing with speed.
@@ -130,7 +130,7 @@ void update_road_contexts(const Model& model, const RoadState& road, const Spati
         const Vec2 tangent = path->line.direction_at(along);
         const Course course{*path, type_of(model.types, scene.type[row]), row, along,
                             cross(tangent, scene.position[row] - path->line.point_at(along)),
-                            half_extent(scene, row, tangent), std::max(0.0, scene.velocity[row].dot(tangent))};
+                            half_extent(scene, row, tangent), path->walking ? std::max(0.0, scene.velocity[row].dot(tangent)) : scene.speed[row]};
         context.active = true;
         context.speed_limit = std::min(path->profile_at(along), scene.preferred_speed[row]);
         set_geometry(scene, course, context);

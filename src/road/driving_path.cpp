@@ -141,6 +141,7 @@ class Builder {
 
   Path finish() {
     path_.line = Polyline(std::move(points_));
+    round_corners(request_.turning_radius, path_);
     path_.arrival = path_.line.length();
     if (path_.stretches.empty()) path_.stretches.push_back({});
     path_.stretches.back().to = path_.arrival;

@@ -62,6 +62,7 @@ struct PathRequest {
   double comfortable_deceleration = 2.5;  ///< [m/s^2]
   double max_speed = 50;                  ///< [m/s]
   double speed_factor = 1;                ///< of the lane limits
+  double turning_radius = 0;              ///< tightest that the body can drive [m]; bends are rounded to about it
 };
 
 /// Path of a vehicle along its route: the lanes that need the fewest lane changes, changes spread over the edge.

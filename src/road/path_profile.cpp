@@ -36,6 +36,43 @@ void compute_speed_profile(const PathRequest& request, Path& path) {
   }
 }
 
+void round_corners(double turning_radius, Path& path) {
+  constexpr double kSample = 0.5;
+  const double length = path.line.length();
+  if (turning_radius <= 0.0 || length < 2.0) return;
+  const auto count = static_cast<std::size_t>(length / kSample) + 1;
+  const double step = length / static_cast<double>(count);
+  std::vector<Vec2> samples(count + 1);
+  for (std::size_t i = 0; i <= count; ++i) samples[i] = path.line.point_at(static_cast<double>(i) * step);
+
+  // mean over a window that shrinks towards the ends, by running sums
+  std::vector<Vec2> sums(count + 2, Vec2::Zero());
+  for (std::size_t i = 0; i <= count; ++i) sums[i + 1] = sums[i] + samples[i];
+  const auto half = static_cast<std::size_t>(0.9 * turning_radius / step);
+  std::vector<Vec2> rounded(count + 1);
+  std::vector<double> along(count + 1, 0.0);
+  for (std::size_t i = 0; i <= count; ++i) {
+    const std::size_t window = std::min({half, i, count - i});
+    rounded[i] = (sums[i + window + 1] - sums[i - window]) / static_cast<double>(2 * window + 1);
+    if (i > 0) along[i] = along[i - 1] + (rounded[i] - rounded[i - 1]).norm();
+  }
+  auto carried = [&](double& place) {
+    const double index = std::clamp(place / step, 0.0, static_cast<double>(count));
+    const auto i = std::min(static_cast<std::size_t>(index), count - 1);
+    place = along[i] + (index - static_cast<double>(i)) * (along[i + 1] - along[i]);
+  };
+  for (PathStretch& stretch : path.stretches) {
+    carried(stretch.from);
+    carried(stretch.to);
+  }
+  for (PathLink& link : path.links) {
+    carried(link.stop_line);
+    carried(link.end);
+  }
+  for (PathStop& stop : path.stops) carried(stop.along);
+  path.line = Polyline(std::move(rounded));
+}
+
 void append_span(const Polyline& line, double from, double to, std::vector<Vec2>& points) {
   points.push_back(line.point_at(from));
   const auto& vertices = line.points();
