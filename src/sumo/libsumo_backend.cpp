@@ -111,7 +111,11 @@ class LibsumoBackend final : public SumoBackend {
   void set_speed(const std::string& vehicle, double speed) override;
   void override_detectors(std::span<const std::pair<std::string, double>> detectors) override;
   const std::vector<Detector>& detectors() const override { return detectors_; }
-  std::vector<std::string> take_warnings() override { return std::exchange(warnings_, {}); }
+  std::vector<std::string> take_warnings() override {
+    std::vector<std::string> all = std::exchange(warnings_, {});
+    for (const std::string& line : output_.take_first_warnings()) all.push_back("SUMO: " + line);
+    return all;
+  }
   long sumo_warnings() const override { return output_.warnings(); }
   void close() override { shut(); }
 
@@ -189,7 +193,11 @@ std::string LibsumoBackend::scenario() const {
 
 void LibsumoBackend::report_failure(const std::string& what) {
   shut();
-  const std::string words = output_.first_error().empty() ? what : output_.first_error();
+  // SUMO's texts may go over several lines; ours is one
+  SumoOutput one_line;
+  one_line.append("Error: " + what + "\n");
+  const std::string words =
+      output_.first_error().empty() ? one_line.first_error() : output_.first_error();
   if (!started_) throw Error(scenario(), "SUMO can't run it: " + words);
   throw SumoError("libsumo", words + " (at " + std::to_string(time_) + " s of simulation)");
 }

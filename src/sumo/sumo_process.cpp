@@ -28,6 +28,7 @@ namespace {
 
 constexpr std::size_t kKeptLines = 40;
 constexpr std::size_t kLongestLine = 4096;
+constexpr long kWarningsTold = 10;
 constexpr const char* kDebianSumoHome = "/usr/share/sumo";
 
 // the environment of the child: ours, with SUMO_HOME (its tools and schemas) where the user has not
@@ -115,10 +116,13 @@ void SumoOutput::append(std::string_view text) {
 }
 
 void SumoOutput::add_line(std::string line) {
-  constexpr std::string_view kError = "Error:";
+  constexpr std::string_view kError = "Error:", kWarning = "Warning:";
   const bool indented = line.front() == ' ' || line.front() == '\t';
   const std::size_t begin = line.find_first_not_of(" \t");
-  if (line.rfind("Warning:", 0) == 0) ++warnings_;
+  if (line.rfind(kWarning, 0) == 0 && ++warnings_ <= kWarningsTold) {
+    const std::size_t text = line.find_first_not_of(' ', kWarning.size());
+    first_warnings_.push_back(text == std::string::npos ? line : line.substr(text));
+  }
   if (error_open_ && indented && begin != std::string::npos && first_error_.size() < kLongestLine) {
     first_error_ += " " + line.substr(begin);
   } else {

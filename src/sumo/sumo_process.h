@@ -5,6 +5,8 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sumogamma {
@@ -26,7 +28,10 @@ class SumoOutput {
   const std::string& first_error() const { return first_error_; }
   /// The last few lines, joined.
   std::string tail() const;
+  /// Lines of warning so far.
   long warnings() const { return warnings_; }
+  /// The first few warnings of a run, without "Warning: ", each handed out once.
+  std::vector<std::string> take_first_warnings() { return std::exchange(first_warnings_, {}); }
   bool contains(std::string_view text) const;
 
  private:
@@ -37,6 +42,7 @@ class SumoOutput {
   std::string first_error_;
   bool error_open_ = false;  // the next indented line belongs to first_error_
   long warnings_ = 0;
+  std::vector<std::string> first_warnings_;
 };
 
 /// A child process in its own process group (so that Ctrl-C in the terminal reaches us alone), its
@@ -69,6 +75,7 @@ class SumoProcess {
   /// Reads what is there without waiting.
   void drain();
   const SumoOutput& output() const { return output_; }
+  SumoOutput& output() { return output_; }
 
  private:
   pid_t pid_ = -1;

@@ -208,7 +208,7 @@ class TraciBackend final : public SumoBackend {
       queued_.set_double(traci::kInductionLoop, traci::kVirtualDetection, id, age);
   }
   const std::vector<Detector>& detectors() const override { return detectors_; }
-  std::vector<std::string> take_warnings() override { return std::exchange(warnings_, {}); }
+  std::vector<std::string> take_warnings() override;
   long sumo_warnings() const override { return process_ ? process_->output().warnings() : -1; }
   void close() override;
 
@@ -608,6 +608,16 @@ std::vector<SumoAgentDetails> TraciBackend::details(std::span<const std::string>
     for (const std::string& id : persons) all.push_back(read_details(reply, id, true, time_));
     return all;
   });
+}
+
+std::vector<std::string> TraciBackend::take_warnings() {
+  std::vector<std::string> all = std::exchange(warnings_, {});
+  if (process_) {
+    process_->drain();
+    for (const std::string& line : process_->output().take_first_warnings())
+      all.push_back("SUMO: " + line);
+  }
+  return all;
 }
 
 void TraciBackend::watch(const std::string& id, bool is_person) {
