@@ -27,11 +27,12 @@ Occupation occupation(const AgentType& type, const Approach& who, double begin, 
           time_to_cover(end + who.length - who.front, who.speed, std::max(who.speed, 0.6 * top_speed), a)};
 }
 
-/// True where a foe that stands and waits lets `row` go first: it waits for a signal, or it came later.
+/// True where a foe that stands and waits lets `row` go first: it waits for a signal or in a queue, or it came later.
 bool waits_behind(const Scene& scene, const Approach& foe, std::size_t row) {
   switch (foe.waits_for) {
     case LimitReason::Signal:
     case LimitReason::Stop:
+    case LimitReason::Leader:  // it stands in a queue: what holds its leader holds it
       return true;
     case LimitReason::Yield:
     case LimitReason::Crossing:
@@ -56,7 +57,7 @@ struct Judge {
     if (foe.row == traveller.row) return false;
     const AgentType& foe_type = type_of(model.types, scene.type[foe.row]);
     const AgentType& own_type = type_of(model.types, scene.type[traveller.row]);
-    const bool foe_inside = foe.front > zone.foe_begin - 0.5;
+    const bool foe_inside = foe.front > std::max(zone.foe_begin, 0.0) + 0.3;
     const Connection& foe_link = model.road.connection(zone.foe);
     if (!foe_inside && foe.front < 0.0 && is_red(road.signal(foe_link))) return false;
 
