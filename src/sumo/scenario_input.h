@@ -7,7 +7,7 @@
 namespace sumogamma {
 
 /// Where the parts of a scenario lie: a folder made by `sumo-gamma import`, or any user's .sumocfg.
-struct ScenarioFiles {
+struct ScenarioInput {
   std::string name;                                ///< folder or config name without extension
   std::filesystem::path config;                    ///< the .sumocfg
   std::filesystem::path settings;                  ///< scenario.toml beside it; empty where there is none
@@ -18,6 +18,6 @@ struct ScenarioFiles {
 
 /// Resolves SCENARIO (a folder with scenario.sumocfg, or a .sumocfg file). Throws Error naming the file where it, the network
 /// or a route or additional file is missing, or the config is not XML.
-ScenarioFiles find_scenario(const std::filesystem::path& scenario);
+ScenarioInput find_scenario(const std::filesystem::path& scenario);
 
 }  // namespace sumogamma

@@ -1,4 +1,4 @@
-#include "sumo/scenario_files.h"
+#include "sumo/scenario_input.h"
 
 #include <pugixml.hpp>
 
@@ -34,8 +34,8 @@ std::vector<fs::path> files_of(const fs::path& config, const pugi::xml_node& roo
 
 }  // namespace
 
-ScenarioFiles find_scenario(const fs::path& scenario) {
-  ScenarioFiles files;
+ScenarioInput find_scenario(const fs::path& scenario) {
+  ScenarioInput files;
   if (!fs::exists(scenario))
     throw Error(scenario.string(), "no such scenario; give a folder made by 'sumo-gamma import' or a .sumocfg file");
   if (fs::is_directory(scenario)) {
