@@ -11,6 +11,7 @@ find_package(BZip2 REQUIRED)
 find_package(EXPAT REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(PROJ REQUIRED IMPORTED_TARGET proj)
+pkg_check_modules(POLYCLIPPING REQUIRED IMPORTED_TARGET polyclipping)
 
 # Debian's SUMO ships headers and libraries without a CMake package
 find_path(LIBSUMO_INCLUDE_DIR libsumo/libsumo.h)
@@ -29,7 +30,7 @@ target_include_directories(libosmium SYSTEM INTERFACE ${OSMIUM_INCLUDE_DIR})
 target_link_libraries(libosmium INTERFACE ZLIB::ZLIB BZip2::BZip2 EXPAT::EXPAT Threads::Threads)
 
 set(SUMOGAMMA_LIBS_road pugixml::pugixml ZLIB::ZLIB)
-set(SUMOGAMMA_LIBS_osm libosmium PkgConfig::PROJ nlohmann_json::nlohmann_json pugixml::pugixml)
+set(SUMOGAMMA_LIBS_osm libosmium PkgConfig::PROJ PkgConfig::POLYCLIPPING nlohmann_json::nlohmann_json pugixml::pugixml)
 set(SUMOGAMMA_LIBS_sumo libsumo pugixml::pugixml spdlog::spdlog)
 set(SUMOGAMMA_LIBS_study nlohmann_json::nlohmann_json pugixml::pugixml)
 set(SUMOGAMMA_LIBS_prediction nlohmann_json::nlohmann_json)

@@ -11,7 +11,8 @@ build_packages=(g++ cmake ninja-build pkg-config)
 # SUMO with its headers and libraries (package sumo), netconvert's type maps and SUMO's own tools (sumo-tools)
 build_packages+=(sumo sumo-tools)
 # OpenStreetMap reading (libosmium, protozero, their zlib, bzip2, expat and lz4), projection
-build_packages+=(libosmium2-dev libprotozero-dev zlib1g-dev libbz2-dev libexpat1-dev liblz4-dev libproj-dev)
+build_packages+=(libosmium2-dev libprotozero-dev zlib1g-dev libbz2-dev libexpat1-dev liblz4-dev libproj-dev
+  libpolyclipping-dev)
 # linear algebra, command line, configuration, logging, XML
 build_packages+=(libeigen3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
   libpugixml-dev)

@@ -76,7 +76,7 @@ void print_summary(const osm::BuildResult& built, const DemandReport& demand,
   std::printf(
       "%s: %ld edges, %ld lanes, %ld signals, %ld crossings, %ld buildings, traffic on the %s\n",
       folder.c_str(), count("edges"), count("lanes"), count("signals"), count("crossings"),
-      built.obstacles.at("buildings") + built.obstacles.at("buildings_opened"),
+      built.obstacles.at("buildings") + built.obstacles.at("buildings_cut"),
       built.left_hand ? "left" : "right");
   for (const DemandByType& type : demand.types) {
     if (type.problem.empty())

@@ -34,6 +34,27 @@ void merge(std::vector<Stretch>& stretches) {
   stretches = std::move(merged);
 }
 
+/// Even-odd rule.
+bool inside_ring(const std::vector<Vec2>& ring, const Vec2& point) {
+  bool inside = false;
+  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+    const Vec2 &a = ring[i], &b = ring[j];
+    if ((a.y() > point.y()) != (b.y() > point.y()) &&
+        point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+      inside = !inside;
+  }
+  return inside;
+}
+
+bool boxes_meet(const std::vector<Vec2>& ring, const Vec2& low, const Vec2& high) {
+  Vec2 ring_low = ring[0], ring_high = ring[0];
+  for (const Vec2& p : ring) {
+    ring_low = ring_low.cwiseMin(p);
+    ring_high = ring_high.cwiseMax(p);
+  }
+  return (ring_low.array() <= high.array()).all() && (low.array() <= ring_high.array()).all();
+}
+
 /// Stretches of a-b within a ring: cut at each crossing, then each part asked by its middle.
 void append_within_ring(const std::vector<Vec2>& ring, const Vec2& a, const Vec2& b,
                         std::vector<Stretch>& stretches) {
@@ -49,23 +70,11 @@ void append_within_ring(const std::vector<Vec2>& ring, const Vec2& a, const Vec2
   }
   std::sort(cuts.begin(), cuts.end());
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-    if (cuts[i] < cuts[i + 1] && inside_rings({ring}, a + (cuts[i] + cuts[i + 1]) / 2 * d))
+    if (cuts[i] < cuts[i + 1] && inside_ring(ring, a + (cuts[i] + cuts[i + 1]) / 2 * d))
       stretches.push_back({cuts[i], cuts[i + 1]});
 }
 
 }  // namespace
-
-bool inside_rings(const std::vector<std::vector<Vec2>>& rings, const Vec2& point) {
-  bool inside = false;
-  for (const std::vector<Vec2>& ring : rings)
-    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-      const Vec2 &a = ring[i], &b = ring[j];
-      if ((a.y() > point.y()) != (b.y() > point.y()) &&
-          point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-        inside = !inside;
-    }
-  return inside;
-}
 
 template <typename Visit>
 void LaneClearing::visit_cells(const Vec2& low, const Vec2& high, Visit visit) const {
@@ -137,30 +146,24 @@ std::vector<Stretch> LaneClearing::stretches_on_lanes(const Vec2& from, const Ve
   }
   const Vec2 low = from.cwiseMin(to), high = from.cwiseMax(to);
   for (const std::vector<Vec2>& ring : walking_areas_) {
-    Vec2 ring_low = ring[0], ring_high = ring[0];
-    for (const Vec2& p : ring) {
-      ring_low = ring_low.cwiseMin(p);
-      ring_high = ring_high.cwiseMax(p);
-    }
-    if ((ring_low.array() <= high.array()).all() && (low.array() <= ring_high.array()).all())
-      append_within_ring(ring, from, to, stretches);
+    if (boxes_meet(ring, low, high)) append_within_ring(ring, from, to, stretches);
   }
   merge(stretches);
   return stretches;
 }
 
-bool LaneClearing::any_lane_within(const std::vector<std::vector<Vec2>>& rings) const {
-  Vec2 low = rings[0][0], high = low;
-  for (const Vec2& p : rings[0]) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
+std::vector<std::vector<Vec2>> LaneClearing::polygons_near(const Vec2& low,
+                                                           const Vec2& high) const {
+  std::vector<std::vector<Vec2>> polygons;
   for (const std::uint32_t index : pieces_near(low, high)) {
     const Piece& piece = pieces_[index];
-    for (const double share : {0.1, 0.5, 0.9})
-      if (inside_rings(rings, piece.from + share * piece.length * piece.direction)) return true;
+    const Vec2 side = piece.half_width * Vec2(-piece.direction.y(), piece.direction.x());
+    const Vec2 end = piece.from + piece.length * piece.direction;
+    polygons.push_back({piece.from - side, end - side, end + side, piece.from + side});
   }
-  return false;
+  for (const std::vector<Vec2>& ring : walking_areas_)
+    if (boxes_meet(ring, low, high)) polygons.push_back(ring);
+  return polygons;
 }
 
 bool LaneClearing::touches_lane(const Vec2& center, double radius) const {

@@ -23,8 +23,8 @@ class LaneClearing {
 
   /// The stretches of the segment that lie on lanes: sorted, disjoint.
   std::vector<Stretch> stretches_on_lanes(const Vec2& from, const Vec2& to) const;
-  /// True where a lane's middle line runs through the region within the rings (even-odd rule).
-  bool any_lane_within(const std::vector<std::vector<Vec2>>& rings) const;
+  /// Polygons that together cover the ground of the lanes near the box; they overlap.
+  std::vector<std::vector<Vec2>> polygons_near(const Vec2& low, const Vec2& high) const;
   /// True where the disc touches a lane.
   bool touches_lane(const Vec2& center, double radius) const;
 
@@ -44,8 +44,5 @@ class LaneClearing {
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>
       cells_;  ///< looked up only, never iterated
 };
-
-/// Even-odd rule.
-bool inside_rings(const std::vector<std::vector<Vec2>>& rings, const Vec2& point);
 
 }  // namespace sumogamma::osm

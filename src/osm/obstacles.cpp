@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <clipper.hpp>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <pugixml.hpp>
@@ -15,7 +17,9 @@ namespace {
 
 using Ring = std::vector<Vec2>;
 
-constexpr double kLeastWall = 0.5;  // [m]: shorter remains of a cut wall are left out
+constexpr double kLeastWall = 0.5;        // [m]: shorter remains of a cut wall are left out
+constexpr double kLeastArea = 1.0;        // [m^2]: smaller remains of a cut building are left out
+constexpr double kClipperScale = 1000.0;  // Clipper works on whole numbers: millimetres
 constexpr std::string_view kWalls[] = {"wall",           "fence",        "hedge",
                                        "retaining_wall", "guard_rail",   "city_wall",
                                        "jersey_barrier", "cable_barrier"};
@@ -114,6 +118,66 @@ std::vector<Ring> off_lanes(const LaneClearing& clearing, const Ring& chain, boo
   return parts;
 }
 
+ClipperLib::Path to_clipper(const Ring& ring) {
+  ClipperLib::Path path;
+  for (const Vec2& p : ring)
+    path.emplace_back(std::llround(p.x() * kClipperScale), std::llround(p.y() * kClipperScale));
+  return path;
+}
+
+Ring from_clipper(const ClipperLib::Path& path) {
+  Ring ring;
+  for (const ClipperLib::IntPoint& p : path)
+    ring.emplace_back(static_cast<double>(p.X) / kClipperScale,
+                      static_cast<double>(p.Y) / kClipperScale);
+  return ring;
+}
+
+/// What remains of a polygon (outer ring, then courtyards) off all lanes: polygons of the same
+/// form. `whole` tells whether nothing was cut.
+std::vector<std::vector<Ring>> cut_out_lanes(const LaneClearing& clearing,
+                                             const std::vector<Ring>& rings, bool& whole) {
+  Vec2 low = rings[0][0], high = low;
+  ClipperLib::Clipper clipper;
+  double area_before = 0;
+  for (const Ring& ring : rings) {
+    const ClipperLib::Path path = to_clipper(ring);
+    area_before += (&ring == &rings[0] ? 1.0 : -1.0) * std::abs(ClipperLib::Area(path));
+    clipper.AddPath(path, ClipperLib::ptSubject, true);
+    for (const Vec2& p : ring) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  }
+  for (const Ring& ring : clearing.polygons_near(low, high)) {
+    ClipperLib::Path path = to_clipper(ring);
+    if (!ClipperLib::Orientation(path))
+      ClipperLib::ReversePath(path);  // filled by winding: all must turn one way
+    clipper.AddPath(path, ClipperLib::ptClip, true);
+  }
+  ClipperLib::PolyTree tree;
+  clipper.Execute(ClipperLib::ctDifference, tree, ClipperLib::pftEvenOdd, ClipperLib::pftNonZero);
+
+  std::vector<std::vector<Ring>> polygons;
+  double area_after = 0;
+  for (const ClipperLib::PolyNode* node = tree.GetFirst(); node != nullptr;
+       node = node->GetNext()) {
+    if (node->IsHole()) continue;
+    const double area = std::abs(ClipperLib::Area(node->Contour));
+    area_after += area;
+    std::vector<Ring> polygon = {from_clipper(node->Contour)};
+    for (const ClipperLib::PolyNode* hole : node->Childs) {
+      area_after -= std::abs(ClipperLib::Area(hole->Contour));
+      polygon.push_back(from_clipper(hole->Contour));
+    }
+    if (area > kLeastArea * kClipperScale * kClipperScale && polygon[0].size() >= 3)
+      polygons.push_back(std::move(polygon));
+  }
+  whole = area_before - area_after < 0.1 * kClipperScale * kClipperScale;
+  if (whole) return {rings};
+  return polygons;
+}
+
 /// Outer ring and courtyards as one ring: each courtyard is reached through a slit of no width.
 Ring join_courtyards(Ring outer, std::vector<Ring> courtyards) {
   for (Ring& inner : courtyards) {
@@ -140,7 +204,7 @@ class ObstacleWriter {
   ObstacleWriter(const OsmMap& map, const GeoProjection& projection, const RoadNetwork& road,
                  const GeoBox& box, IssueLog& log)
       : map_(map), projection_(projection), clearing_(road), box_(box), log_(log) {
-    for (const char* name : {"buildings", "buildings_opened", "barriers", "furniture",
+    for (const char* name : {"buildings", "buildings_cut", "barriers", "furniture",
                              "left_out_level", "left_out_on_lane"})
       counts_[name] = 0;
   }
@@ -236,32 +300,19 @@ class ObstacleWriter {
     for (const MapArea::Ring& inner : part.inner)
       if (inner.size() >= 3) rings.push_back(project(inner));
 
-    bool all_whole = !clearing_.any_lane_within(rings);
-    std::vector<Ring> walls;
-    for (const Ring& ring : rings) {
-      Ring closed = ring;
-      closed.push_back(ring[0]);
-      bool whole = true;
-      for (Ring& wall : off_lanes(clearing_, closed, whole)) walls.push_back(std::move(wall));
-      all_whole = all_whole && whole;
-    }
     std::string id = area.id;
     std::replace(id.begin(), id.end(), '/', '_');
     id += "_" + std::to_string(index);
-    if (all_whole) {
-      const Ring outer = rings[0];
-      file_.add("building_" + id, "building", "179,168,154", true,
-                join_courtyards(outer, {rings.begin() + 1, rings.end()}));
-      ++counts_["buildings"];
-      return;
-    }
-    int wall_index = 0;
-    for (const Ring& wall : walls)
-      file_.add("building_" + id + "_wall" + std::to_string(wall_index++), "barrier", "179,168,154",
-                false, wall);
-    ++counts_[wall_index > 0 ? "buildings_opened" : "left_out_on_lane"];
-    log_.add(Severity::Note, "building_opened",
-             "buildings over or into lanes: only their walls off the lanes remain", area.id);
+    bool whole = true;
+    int piece = 0;
+    for (const std::vector<Ring>& polygon : cut_out_lanes(clearing_, rings, whole))
+      file_.add("building_" + id + (piece++ == 0 ? "" : "_" + std::to_string(piece)), "building",
+                "179,168,154", true,
+                join_courtyards(polygon[0], {polygon.begin() + 1, polygon.end()}));
+    ++counts_[piece == 0 ? "left_out_on_lane" : whole ? "buildings" : "buildings_cut"];
+    if (!whole)
+      log_.add(Severity::Note, "building_cut",
+               "buildings over or into lanes: the ground of the lanes was cut out", area.id);
   }
 
   const OsmMap& map_;

@@ -15,12 +15,11 @@ namespace sumogamma::osm {
 /// chain), and "furniture" (small closed ring). sumo-gui draws the file, read_obstacles() reads it.
 ///
 /// Left out: what is not at street level (layer > 0, roofs, underground, indoor, min_level > 0).
-/// What stands on a lane is cut there: a building over or into a lane becomes the open chain of
-/// those of its walls that are off all lanes; people keep a metre on sidewalks and paths. Posts and
-/// trees on a lane are left out.
+/// The ground of lanes is cut out of what stands on it (LaneClearing), so that nothing solid is
+/// ever on a lane; a building with a passage becomes two. Posts and trees on a lane are left out.
 ///
-/// Returns counts by name: "buildings", "buildings_opened", "barriers", "furniture",
-/// "left_out_level", "left_out_on_lane". Throws Error where the file cannot be written.
+/// Returns counts by name: "buildings", "buildings_cut", "barriers", "furniture", "left_out_level",
+/// "left_out_on_lane". Throws Error where the file cannot be written.
 std::map<std::string, long> write_obstacles(const OsmMap& map, const GeoProjection& projection,
                                             const RoadNetwork& road, const GeoBox& box,
                                             const std::filesystem::path& file, IssueLog& log);

@@ -478,7 +478,8 @@ void read_obstacles(const std::filesystem::path& file, RoadNetwork& network) {
   for (const pugi::xml_node node : root.children("poly")) {
     const std::string_view type = node.attribute("type").value();
     const bool building = type.substr(0, 8) == "building", barrier = type.substr(0, 7) == "barrier";
-    if (!building && !barrier) continue;
+    const bool furniture = type.substr(0, 9) == "furniture", closed = building || furniture;
+    if (!closed && !barrier) continue;
     if (node.attribute("geo").as_bool())
       continue;  // longitude and latitude: not in the network's metres
     Shape shape;
@@ -487,10 +488,12 @@ void read_obstacles(const std::filesystem::path& file, RoadNetwork& network) {
                                      std::string(node.attribute("id").value()) +
                                      "' is not a list of points x,y");
     std::vector<Vec2>& points = shape.points;
-    if (building && points.size() > 1 && points.front() == points.back()) points.pop_back();
-    if (points.size() < (building ? 3u : 2u)) continue;
-    network.obstacles.push_back(
-        {building ? ObstacleKind::Building : ObstacleKind::Barrier, std::move(points)});
+    if (closed && points.size() > 1 && points.front() == points.back()) points.pop_back();
+    if (points.size() < (closed ? 3u : 2u)) continue;
+    network.obstacles.push_back({building    ? ObstacleKind::Building
+                                 : furniture ? ObstacleKind::Furniture
+                                             : ObstacleKind::Barrier,
+                                 std::move(points)});
   }
 }
 

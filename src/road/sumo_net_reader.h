@@ -10,8 +10,8 @@ namespace sumogamma {
 /// Throws Error naming the file where it is missing, unreadable, not a network, or inconsistent.
 RoadNetwork read_sumo_net(const std::filesystem::path& file);
 
-/// Appends the polygons of a SUMO additional file (<poly>) as obstacles: type "building*" closed, "barrier*" open
-/// chains, anything else ignored. Throws Error as above.
+/// Appends the polygons of a SUMO additional file (<poly>) as obstacles: type "building*" and
+/// "furniture*" closed, "barrier*" open chains, anything else ignored. Throws Error as above.
 void read_obstacles(const std::filesystem::path& file, RoadNetwork& network);
 
 }  // namespace sumogamma
