@@ -270,7 +270,7 @@ void TraciBackend::report_failure(const std::string& what) {
   if (client_) client_->close();
   if (!process_) throw SumoError(what, "at " + std::to_string(time_) + " s of simulation");
   // a closed socket means that it is ending: give it the time to say why; one that hangs is killed
-  process_->wait(kLastWords);
+  if (client_ && !client_->timed_out()) process_->wait(kLastWords);
   const bool hangs = process_->running();
   if (hangs) process_->terminate(0);
   process_->drain();
@@ -302,6 +302,7 @@ void TraciBackend::spawn() {
     const int port = free_port();
     std::vector<std::string> arguments = start_.arguments;
     arguments.insert(arguments.end(), {"--remote-port", std::to_string(port)});
+    client_.reset();
     process_ = std::make_unique<SumoProcess>(binary, arguments);
     try {
       client_ =
@@ -310,11 +311,10 @@ void TraciBackend::spawn() {
       return;
     } catch (const SumoError& error) {
       // somebody else took the port between our look and SUMO's
-      process_->wait(kLastWords);
+      if (client_ && !client_->timed_out()) process_->wait(kLastWords);
       const bool port_taken = process_->output().contains("listening socket") ||
                               process_->output().contains("Address already in use");
       if (!port_taken || trial >= kPortTrials) report_failure(error.what());
-      client_.reset();
     }
   }
 }
@@ -429,7 +429,9 @@ void TraciBackend::read_step(std::span<const SumoPose> vehicles, std::span<const
   if (stepped.command != traci::kSimulationStep)
     throw SumoError("SUMO", "an answer to another command over TraCI");
   if (!stepped.ok()) throw SumoError("SUMO", "can't make a step: " + stepped.text);
+  result.time = std::nan("");
   for (std::int32_t left = reply.integer(); left > 0; --left) read_subscriptions(reply, result);
+  if (!std::isfinite(result.time)) throw SumoError("SUMO", "a step without its time over TraCI");
 }
 
 void TraciBackend::read_subscriptions(TraciReader& reply, SumoStep& result) {

@@ -105,7 +105,8 @@ void TraciClient::fail(const std::string& what) {
 void TraciClient::wait_for(short events, double deadline) {
   while (true) {
     const double left = deadline - now();
-    if (left <= 0) fail("no answer within the time limit; it hangs or is stopped");
+    timed_out_ = left <= 0;
+    if (timed_out_) fail("no answer within the time limit; it hangs or is stopped");
     pollfd fds[2] = {{fd_, events, 0}, {child_ != nullptr ? child_->output_fd() : -1, POLLIN, 0}};
     const int ready = poll(fds, 2, std::min(kSliceMs, static_cast<int>(left * 1000) + 1));
     if (ready > 0 && fds[1].revents != 0) child_->drain();

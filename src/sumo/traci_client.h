@@ -27,6 +27,8 @@ class TraciClient {
   std::span<const std::uint8_t> exchange(TraciWriter& message, double timeout);
 
   bool connected() const { return fd_ >= 0; }
+  /// The last failure was an answer that did not come in time.
+  bool timed_out() const { return timed_out_; }
   void close();
 
  private:
@@ -37,6 +39,7 @@ class TraciClient {
   [[noreturn]] void fail(const std::string& what);
 
   int fd_ = -1;
+  bool timed_out_ = false;
   std::string where_;
   SumoProcess* child_;
   std::vector<std::uint8_t> reply_;
