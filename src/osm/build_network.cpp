@@ -137,10 +137,12 @@ void check_network(BuildResult& result) {
                    "traffic lights in the map, none in the network", "", wanted->second);
 }
 
+/// Objects as the file holds them; signs and lights within the box.
 void count_read(const OsmMap& map, BuildResult& result) {
   result.read = map.counts;
   long signals = 0, crossings = 0, roads = 0, paths = 0, mini = 0, give_way = 0;
   for (const auto& [id, node] : map.nodes) {
+    if (!result.box.contains(node.place)) continue;
     signals += tag_is(node.tags, "highway", {"traffic_signals"});
     crossings += tag_is(node.tags, "highway", {"crossing"});
     mini += tag_is(node.tags, "highway", {"mini_roundabout"});
@@ -172,8 +174,8 @@ BuildResult build_network(const BuildRequest& request) {
   std::optional<GeoBox> keep;
   if (request.bbox) keep = request.bbox->grown(kReadMargin);
   OsmMap map = read_osm(request.map, keep);
-  count_read(map, result);
   choose_box(map, request, result);
+  count_read(map, result);
   check_roads(map, request);
   choose_side(map, request, result);
   result.projection = local_projection(result.box.center());

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
 #include <set>
 
 #include "base/units.h"
@@ -429,18 +429,33 @@ class TrafficGraph {
       distance += LocalMetric(a).distance(a, b);
       if (distance > reach || !seen.insert(there).second) return 0;
       if (is_junction(there)) return there;
-      std::vector<Step> on;
-      for (const Step& exit : exits(there)) {
-        const std::size_t after = exit.direction > 0 ? exit.index + 1 : exit.index - 1;
-        if (exit.way->nodes[after] != here) on.push_back(exit);
-      }
-      if (on.size() != 1) return 0;
-      step = on[0];
+      const std::optional<Step> on = straightest_exit(there, here);
+      if (!on) return 0;
+      step = *on;
     }
     return 0;
   }
 
  private:
+  /// The way on from a node that is no junction: where a slip lane leaves, the one straight ahead.
+  std::optional<Step> straightest_exit(std::int64_t node, std::int64_t came_from) const {
+    std::optional<Step> best;
+    double least = kPi / 4;
+    const GeoPoint here = map_.nodes.at(node).place;
+    const LocalMetric metric(here);
+    const double before = metric.bearing(map_.nodes.at(came_from).place, here);
+    for (const Step& exit : exits(node)) {
+      const std::size_t after = exit.direction > 0 ? exit.index + 1 : exit.index - 1;
+      const std::int64_t next = exit.way->nodes[after];
+      if (next == came_from) continue;
+      const double turn =
+          std::abs(wrap_angle(metric.bearing(here, map_.nodes.at(next).place) - before));
+      if (turn >= least) continue;
+      least = turn;
+      best = exit;
+    }
+    return best;
+  }
   static bool may_go(const MapWay& way, int direction) {
     return !is_one_way(way) || (is_reversed(way) ? direction < 0 : direction > 0);
   }

@@ -205,7 +205,7 @@ class TripDraw {
     Origin origin{edge, {}, {}};
     double total = 0;
     for (const std::size_t target : graph_.edges) {
-      if (target == edge || graph_.length[target] < least_edge_) continue;
+      if (graph_.length[target] < least_edge_ || (target == edge && walks_)) continue;
       if (!(distance[target] >= min_distance) || distance[target] == kInfinity) continue;
       const bool rim = graph_.next[target].empty();
       total += graph_.length[target] * (rim ? kRimPreference : 1.0);
@@ -217,6 +217,7 @@ class TripDraw {
     if (!origin.targets.empty()) origins_.push_back(std::move(origin));
   }
   const ClassGraph& graph_;
+  bool walks_;
   Draws draws_;
   double least_edge_;
   std::vector<Origin> origins_;
@@ -229,12 +230,16 @@ std::string number(double value, int decimals = 2) {
   return text;
 }
 
+bool has_own_pace(const AgentType& type) {
+  return type.sumo_class == "pedestrian" || type.sumo_class == "bicycle";
+}
+
 void append_vehicle_type(pugi::xml_node root, const AgentType& type) {
   pugi::xml_node element = root.append_child("vType");
   auto set = [&](const char* key, const std::string& value) {
     element.append_attribute(key) = value.c_str();
   };
-  const bool slow = type.sumo_class == "pedestrian" || type.sumo_class == "bicycle";
+  const bool slow = has_own_pace(type);
   set("id", type.name);
   set("vClass", type.sumo_class);
   set("length", number(type.length));
@@ -269,13 +274,38 @@ std::vector<std::string> words(std::string_view text) {
   return result;
 }
 
-/// Length and duration of a route on the empty road.
+/// At the road's limit, which drivers keep; people on foot and on bicycles at their own speed.
+double edge_duration(const TypeWork& work, std::size_t edge) {
+  const double own = has_own_pace(*work.type) ? work.type->preferred_speed : work.type->max_speed;
+  return work.graph.length[edge] / std::max(0.5, std::min(work.graph.speed[edge], own));
+}
+
+/// Seconds lost at the junction between two edges: at a signal half a red of a usual program, where
+/// the way must be given some of a gap.
+double junction_delay(const RoadNetwork& road, const Edge& from, const Edge& to,
+                      VehicleClassMask mask) {
+  for (const LaneId lane : from.lanes)
+    for (const ConnectionId id : road.lane(lane).outgoing) {
+      const Connection& connection = road.connection(id);
+      if (road.lane(connection.to).edge != road.lane(to.lanes[0]).edge) continue;
+      if ((road.lane(connection.to).allowed & mask) == 0) continue;
+      if (connection.signal != kNoSignal) return 12.0;
+      return connection.state == 'M' ? 0.0 : 1.5;
+    }
+  return 0;
+}
+
+/// Length of a route, and how long it takes with nobody else on the road.
 void measure(const RoadNetwork& road, const TypeWork& work, Trip& trip) {
+  const VehicleClassMask mask = vehicle_class_from_name(work.type->sumo_class);
+  const Edge* before = nullptr;
   for (const std::string& name : trip.edges) {
     const std::size_t edge = index_of(road.edge_by_name.at(name));
     trip.length += work.graph.length[edge];
-    trip.duration += work.graph.length[edge] /
-                     std::max(0.5, std::min(work.graph.speed[edge], work.type->preferred_speed));
+    trip.duration += edge_duration(work, edge);
+    if (before && !work.walks)
+      trip.duration += junction_delay(road, *before, road.edges[edge], mask);
+    before = &road.edges[edge];
   }
 }
 
@@ -298,7 +328,7 @@ void take_routes(const RoadNetwork& road, const std::filesystem::path& file,
     const bool known =
         std::all_of(trip.edges.begin(), trip.edges.end(),
                     [&](const std::string& edge) { return road.edge_by_name.contains(edge); });
-    if (trip.edges.size() < 2 || !known) continue;
+    if (trip.edges.size() < (work.walks ? 2u : 1u) || !known) continue;
     measure(road, work, trip);
     work.routed.push_back(std::move(trip));
   }
@@ -415,8 +445,7 @@ std::size_t edge_on_the_way(const RoadNetwork& road, const TypeWork& work, const
     const std::size_t edge = index_of(road.edge_by_name.at(trip.edges[i]));
     if (left < 60.0 && i > 0) break;  // it should stay for a while
     if (work.graph.length[edge] >= work.type->length + 8.0 || work.walks) best = i;
-    seconds -= work.graph.length[edge] /
-               std::max(0.5, std::min(work.graph.speed[edge], work.type->preferred_speed));
+    seconds -= edge_duration(work, edge);
     left -= work.graph.length[edge];
     if (seconds < 0) break;
   }
