@@ -284,17 +284,36 @@ void SumoWorld::update_external(Scene& scene, RoadState& road) {
     }
     const auto external = external_ids_.find(seen.id);
     if (external == external_ids_.end()) continue;
-    const std::size_t row = find_row(scene, external->second);
+    const AgentId id = external->second;
+    const std::size_t row = find_row(scene, id);
     if (row == scene.size()) continue;
     const Vec2 velocity = seen.speed * direction_of(heading);
     scene.acceleration[row] = (velocity - scene.velocity[row]) / options_.dt;
-    scene.position[row] = reference_point(seen.position, heading, -known_[external->second.value].length);
+    scene.position[row] = reference_point(seen.position, heading, -known_[id.value].length);
     scene.heading[row] = heading;
     scene.velocity[row] = velocity;
     scene.speed[row] = seen.speed;
-    if (scene.path[row] != kNoPath && scene.path_along[row] == 0.0)
-      if (const Path* path = road.path(scene.path[row])) scene.path_along[row] = path->line.project(scene.position[row]).along;
+    const Path* path = road.path(scene.path[row]);
+    if (path != nullptr && scene.path_along[row] == 0.0) scene.path_along[row] = path->line.project(scene.position[row]).along;
+    if (path != nullptr && in_region(scene.position[row])) take_over(id, scene, row);
   }
+}
+
+bool SumoWorld::in_region(const Vec2& position) const {
+  const ControlChoice& control = options_.control;
+  return control.has_region && (position.array() >= control.region_low.array()).all() &&
+         (position.array() <= control.region_high.array()).all();
+}
+
+/// From SUMO to us, in motion: the pose stays, only who decides on the next one changes. It stays ours until it arrives.
+void SumoWorld::take_over(AgentId id, Scene& scene, std::size_t row) {
+  Known& known = known_[id.value];
+  backend_.unwatch(known.sumo_id, known.is_person);
+  if (known.speed_held) backend_.set_speed(known.sumo_id, -1.0);
+  known.external = known.speed_held = false;
+  scene.control[row] = Control::Gamma;
+  scene.steering[row] = 0.0;
+  external_ids_.erase(known.sumo_id);
 }
 
 /// SUMO is blind to ghosts: a vehicle that it drives is slowed by us where a ghost binds it, and given back after.
@@ -315,14 +334,12 @@ void SumoWorld::hold_followers(const Scene& scene) {
   }
 }
 
-void SumoWorld::compare_poses(const Scene& scene) {
+void SumoWorld::compare_poses() {
   for (const SumoAgent& seen : step_.agents) {
     const auto sent = written_.find(seen.id);
-    if (sent == written_.end() || !coupling_.position_error) continue;
-    const double error = (seen.position - sent->second.second).norm();
-    if (std::isfinite(error)) coupling_.position_error(error);
+    if (sent != written_.end() && coupling_.compare && sent->second.second.allFinite())
+      coupling_.compare(sent->second.second, seen.position);
   }
-  static_cast<void>(scene);
 }
 
 void SumoWorld::advance(const Scene& scene) {
@@ -348,7 +365,7 @@ void SumoWorld::advance(const Scene& scene) {
   coupling_.teleports += step_.teleports;
   coupling_.emergency_stops += step_.emergency_stops;
   coupling_.sumo_collisions += step_.collisions;
-  compare_poses(scene);
+  compare_poses();
 }
 
 bool SumoWorld::finished() const { return false; }

@@ -47,7 +47,7 @@ struct LifeCycle {
 
 /// What SUMO reported against what was written.
 struct CouplingCheck {
-  std::function<void(double error)> position_error;  ///< called for each compared pose [m]
+  std::function<void(const Vec2& written, const Vec2& reported)> compare;  ///< called for each pose read back
   int teleports = 0, emergency_stops = 0, sumo_collisions = 0;
 };
 
@@ -93,7 +93,9 @@ class SumoWorld : public World {
   bool insert(const Pending& pending, Scene& scene, RoadState& road);
   AgentId register_agent(const SumoAgentDetails& details, bool external, double time);
   void forget(AgentId id, Scene& scene, RoadState& road, std::vector<bool>& removed, std::size_t row);
-  void compare_poses(const Scene& scene);
+  void compare_poses();
+  bool in_region(const Vec2& position) const;
+  void take_over(AgentId id, Scene& scene, std::size_t row);
 
   const Model& model_;
   SumoBackend& backend_;
