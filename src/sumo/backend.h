@@ -10,7 +10,8 @@
 
 namespace sumogamma {
 
-/// Pose in SUMO's words: vehicles by front bumper, persons by centre; angle in degrees clockwise from north.
+/// Pose in SUMO's words: vehicles by front bumper, persons by centre; angle in degrees clockwise
+/// from north.
 struct SumoPose {
   const std::string* id = nullptr;
   Vec2 position = Vec2::Zero();  ///< [m]
@@ -31,54 +32,61 @@ struct SumoAgentDetails {
   std::string id;
   bool is_person = false;
   std::string type_id;
-  std::string vehicle_class;           ///< "passenger", "pedestrian", ...
+  std::string vehicle_class;                 ///< "passenger", "pedestrian", ...
   double length = 0, width = 0, height = 0;  ///< [m]
-  double max_speed = 0;                ///< of the vType, [m/s]
+  double max_speed = 0;                      ///< of the vType, [m/s]
   double speed_factor = 1;
-  std::string lane;                    ///< at departure, may be empty
-  double lane_position = 0;            ///< front bumper along that lane [m]
-  std::vector<std::string> route;      ///< edges: the vehicle's whole route, or the edges of the person's current walk
-  double arrival_position = -1;        ///< along the last edge [m], < 0: its end
-  struct Stop { std::string lane; double start = 0, end = 0, duration = 0; };
-  std::vector<Stop> stops;             ///< vehicles: in order
+  std::string lane;          ///< at departure, may be empty
+  double lane_position = 0;  ///< front bumper along that lane [m]
+  std::vector<std::string>
+      route;  ///< edges: the vehicle's whole route, or the edges of the person's current walk
+  double arrival_position = -1;  ///< along the last edge [m], < 0: its end
+  struct Stop {
+    std::string lane;
+    double start = 0, end = 0, duration = 0;
+  };
+  std::vector<Stop> stops;  ///< vehicles: in order
 };
 
 /// What happened during a step.
 struct SumoStep {
-  double time = 0;                          ///< after the step [s]
+  double time = 0;  ///< after the step [s]
   std::vector<std::string> departed_vehicles, departed_persons;
   std::vector<std::string> arrived_vehicles, arrived_persons;
-  std::vector<std::string> lost;            ///< ids whose pose SUMO refused (vanished between read and write)
-  std::vector<SumoAgent> agents;            ///< poses of the agents asked for with watch(), after the step
-  std::vector<std::string> signal_states;   ///< one a signal, in the order of signal_ids()
+  std::vector<std::string> lost;  ///< ids whose pose SUMO refused (vanished between read and write)
+  std::vector<SumoAgent> agents;  ///< poses of the agents asked for with watch(), after the step
+  std::vector<std::string> signal_states;  ///< one a signal, in the order of signal_ids()
   int teleports = 0, emergency_stops = 0, collisions = 0;
-  int waiting_to_insert = 0;                ///< SUMO's own insertion backlog
+  int waiting_to_insert = 0;  ///< SUMO's own insertion backlog
 };
 
-/// The seam to SUMO. One exchange a step: all poses in, everything that a tick needs out. Every call throws SumoError
-/// (never crashes or hangs: each wait has a time limit) where SUMO fails or goes away.
+/// The seam to SUMO. One exchange a step: all poses in, everything that a tick needs out. Every
+/// call throws SumoError (never crashes or hangs: each wait has a time limit) where SUMO fails or
+/// goes away.
 class SumoBackend {
  public:
   virtual ~SumoBackend() = default;
 
   /// Ready to step: version string such as "SUMO 1.15.0".
   virtual std::string version() const = 0;
-  /// Path of the network file and the additional files that SUMO loaded, as options gave them; begin time; step length.
+  /// Path of the network file and the additional files that SUMO loaded, as options gave them;
+  /// begin time; step length.
   virtual std::string option(const std::string& name) = 0;
   virtual const std::vector<std::string>& signal_ids() const = 0;
   virtual double time() const = 0;
 
   /// Moves every ghost and advances one step. A ghost left out for one step is forgotten by SUMO.
-  virtual void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons, SumoStep& result) = 0;
+  virtual void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
+                    SumoStep& result) = 0;
   /// Details of newcomers, in the order of ids.
   virtual std::vector<SumoAgentDetails> details(std::span<const std::string> vehicles,
                                                 std::span<const std::string> persons) = 0;
-  /// Reported after each step from now on (agents that SUMO drives, or all for the coupling error). An agent that is
-  /// gone is dropped silently.
+  /// Reported after each step from now on (agents that SUMO drives, or all for the coupling error).
+  /// An agent that is gone is dropped silently.
   virtual void watch(const std::string& id, bool is_person) = 0;
   virtual void unwatch(const std::string& id, bool is_person) = 0;
-  /// Takes a vehicle out as arrived, or ends a person's current stage: the next stage's walk, if it is one, is
-  /// returned as details; empty where the person has finished or rides.
+  /// Takes a vehicle out as arrived, or ends a person's current stage: the next stage's walk, if it
+  /// is one, is returned as details; empty where the person has finished or rides.
   virtual void remove_vehicle(const std::string& id) = 0;
   virtual std::vector<std::string> finish_stage(const std::string& person) = 0;
   /// SUMO-driven vehicle: hold this speed [m/s]; negative gives it back to SUMO.
@@ -86,7 +94,10 @@ class SumoBackend {
   /// Tells actuated signals that a vehicle passed `age` seconds ago, for each listed detector.
   virtual void override_detectors(std::span<const std::pair<std::string, double>> detectors) = 0;
   /// Ids, lanes and positions of the induction loops (those of actuated signals included).
-  struct Detector { std::string id, lane; double position = 0; };
+  struct Detector {
+    std::string id, lane;
+    double position = 0;
+  };
   virtual const std::vector<Detector>& detectors() const = 0;
   /// What the user should know, ours and SUMO's own complaints, since the last call; few and short.
   virtual std::vector<std::string> take_warnings() { return {}; }
@@ -97,11 +108,11 @@ class SumoBackend {
 };
 
 struct SumoStart {
-  std::string binary = "sumo";             ///< or sumo-gui; looked up in $SUMO_HOME/bin, then PATH
-  std::vector<std::string> arguments;      ///< without the binary; remote-port is added by the back end
-  double start_timeout = 60;               ///< [s] to load the network
-  double step_timeout = 120;               ///< [s] for one exchange
-  std::string connect_host;                ///< not empty: join a SUMO that the user started, instead of a child
+  std::string binary = "sumo";         ///< or sumo-gui; looked up in $SUMO_HOME/bin, then PATH
+  std::vector<std::string> arguments;  ///< without the binary; remote-port is added by the back end
+  double start_timeout = 60;           ///< [s] to load the network
+  double step_timeout = 120;           ///< [s] for one exchange
+  std::string connect_host;  ///< not empty: join a SUMO that the user started, instead of a child
   int connect_port = 0;
 };
 

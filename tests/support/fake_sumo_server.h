@@ -35,7 +35,9 @@ class FakeSumoServer {
 
   std::int32_t protocol = 20;
   std::vector<std::string> signals;
-  std::set<std::string> refused;  ///< ids whose commands are answered with an error status
+  std::set<std::string> refused;     ///< ids whose commands are answered with an error status
+  std::string lane;                  ///< that every vehicle says to be on
+  std::atomic<int> keep_route = -1;  ///< of the last ghost
 
   explicit FakeSumoServer(Spoil spoil = nullptr) : spoil_(std::move(spoil)) {
     listener_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -128,7 +130,7 @@ class FakeSumoServer {
     put_integer(reply, static_cast<std::int32_t>(body.size() + 5));
     reply.insert(reply.end(), body.begin(), body.end());
   }
-  void value(Bytes& body, std::uint8_t domain, std::uint8_t variable, const std::string& id) const {
+  void value(Bytes& body, std::uint8_t domain, std::uint8_t variable) const {
     using namespace traci;
     if (variable == kIdList || (domain == kSimulation && variable >= 0x25 && variable <= 0x27) ||
         (domain == kSimulation && (variable == kDepartedVehicles || variable == kArrivedVehicles ||
@@ -143,7 +145,7 @@ class FakeSumoServer {
       put_integer(body, 0);
     } else if (domain == kTrafficLight || variable == kOption || variable == kLane) {
       body.push_back(kTypeString);
-      put_string(body, domain == kTrafficLight ? "rG" : "");
+      put_string(body, domain == kTrafficLight ? "rG" : lane);
     } else if (variable == kEdges) {
       body.push_back(kTypeStringList);
       put_integer(body, 0);
@@ -155,7 +157,6 @@ class FakeSumoServer {
       body.push_back(kTypeDouble);
       put_double(body, domain == kSimulation ? time_ : ghost_angle_);
     }
-    (void)id;
   }
   void subscription(Bytes& reply, std::uint8_t domain, const std::string& id,
                     const std::vector<std::uint8_t>& variables) const {
@@ -165,7 +166,7 @@ class FakeSumoServer {
     for (const std::uint8_t variable : variables) {
       body.push_back(variable);
       body.push_back(traci::kOk);
-      value(body, domain, variable, id);
+      value(body, domain, variable);
     }
     block(reply, body);
   }
@@ -231,7 +232,7 @@ class FakeSumoServer {
     }
     Bytes answer_body = {traci::get_response(id), variable};
     put_string(answer_body, object);
-    value(answer_body, id, variable, object);
+    value(answer_body, id, variable);
     block(reply, answer_body);
   }
   void remember_ghost(TraciReader& body, bool is_person) {
@@ -241,6 +242,8 @@ class FakeSumoServer {
     ghost_x_ = body.typed_double();
     ghost_y_ = body.typed_double();
     ghost_angle_ = body.typed_double();
+    body.byte();
+    keep_route = body.byte();
   }
 
   struct Subscribed {

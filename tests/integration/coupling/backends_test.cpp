@@ -130,6 +130,22 @@ TEST_P(Backends, ShowsGhostsAtTheirExactPose) {
   EXPECT_EQ(sumo->details(ids, {}).at(0).lane, "");
 }
 
+// this pedestrian model accepts poses and ignores them: the self-test must find it out
+TEST_P(Backends, APedestrianModelThatIgnoresPosesIsTold) {
+  const auto sumo = start(scenario().config(), {"--pedestrian.model", "nonInteracting"});
+  SumoStep step;
+  const std::string walker = "walker";
+  ASSERT_TRUE(run_until(*sumo, step, 5, [&] { return has(step.departed_persons, walker); }));
+  const SumoPose pose{&walker, Vec2(20, 20), 0};
+  try {
+    for (int i = 0; i < 5; ++i) sumo->step({}, {&pose, 1}, step);
+    FAIL() << "nobody noticed";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("--pedestrian.model"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_P(Backends, APoseThatIsNotFiniteIsOurBug) {
   const auto sumo = start();
   SumoStep step;

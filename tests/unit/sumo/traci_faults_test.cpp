@@ -94,6 +94,24 @@ TEST(TraciFaults, AStepIsOneMessage) {
   EXPECT_EQ(server.messages() - before, 10);
 }
 
+// a SUMO that maps ghosts onto lanes all the same is driven the other way, and the user is told
+// once
+TEST(TraciFaults, ASumoThatKeepsGhostsOnLanesGetsTheFallback) {
+  FakeSumoServer server;
+  server.lane = "a_0";
+  server.serve();
+  const auto sumo = start_traci_backend(joining(server.port()));
+  SumoStep step;
+  const std::string id = "v";
+  const SumoPose pose{&id, Vec2(3, 4), 5};
+  sumo->step({&pose, 1}, {}, step);
+  EXPECT_EQ(server.keep_route, 2);
+  EXPECT_EQ(sumo->take_warnings().size(), 1u);
+  for (int i = 0; i < 3; ++i) sumo->step({&pose, 1}, {}, step);
+  EXPECT_EQ(server.keep_route, 3);
+  EXPECT_TRUE(sumo->take_warnings().empty());
+}
+
 TEST(TraciFaults, NobodyListens) {
   const SumoStart start = joining(free_port());
   try {
