@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "io/output_file.h"
-#include "io/replay_assets.h"
+#include "io/page_assets.h"
 #include "io/replay_map.h"
 
 namespace sumogamma {

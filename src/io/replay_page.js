@@ -249,7 +249,11 @@ function drawLevel(ctx, level, scale) {
   ctx.lineCap = 'butt';
   ctx.lineJoin = 'round';
   if (level > 0) for (const look of [kLook.walk, kLook.cycle, kLook.road, kLook.inside]) stroke(look, css.bridge, 0.9);
-  if (looks.has(kLook.area)) { ctx.fillStyle = css.area; ctx.fill(looks.get(kLook.area).get(0)); }
+  if (looks.has(kLook.area)) {
+    ctx.fillStyle = ctx.strokeStyle = css.area;
+    ctx.lineWidth = 0.12;
+    ctx.fill(looks.get(kLook.area).get(0)); ctx.stroke(looks.get(kLook.area).get(0));
+  }
   stroke(kLook.rail, css.rail);
   stroke(kLook.walk, css.walk, 0.02);
   stroke(kLook.cycle, css.cycle, 0.02);
@@ -275,7 +279,11 @@ function drawMap(ctx, scale) {
   for (const level of levels) {
     ctx.globalAlpha = level < 0 ? 0.45 : 1;
     // junction grounds lie under the lanes of the ground level
-    if (level === 0) { ctx.fillStyle = css.road; ctx.fill(junctions); }
+    if (level === 0) {
+      ctx.fillStyle = ctx.strokeStyle = css.road;
+      ctx.lineWidth = 0.12;  // no hairlines between grounds that touch
+      ctx.fill(junctions); ctx.stroke(junctions);
+    }
     drawLevel(ctx, level, scale);
   }
   ctx.globalAlpha = 1;
@@ -452,7 +460,7 @@ function drawWalker(agent) {
 
 function drawTwoWheeler(agent) {
   const w = agent.left - agent.right, l = agent.front - agent.back;
-  screen.globalAlpha = 0.35;
+  screen.globalAlpha = 0.5;
   outlinePath(agent); screen.fill();
   screen.globalAlpha = 1;
   screen.beginPath();
@@ -480,7 +488,7 @@ function drawCar(agent, name, detailed) {
   };
   if (name === 'bus') {
     band(0.25, 1.0, 0.2, 0);
-    if (detailed) { screen.globalAlpha = 0.35; for (let x = 2.2; x < l - 1.2; x += 2.6) band(x, x + 1.5, 0.42, 0); }
+    if (detailed) { screen.globalAlpha = 0.22; for (let x = 2.2; x < l - 1.2; x += 2.6) band(x, x + 1.5, 0.42, 0); }
   } else if (name === 'truck') {
     band(0.2, 0.8, 0.25, 0.05);
     band(1.9, 2.12, 0, 0);
@@ -507,8 +515,8 @@ function drawAgent(agent) {
   const l = agent.front - agent.back;
   const colour = colourOf(agent);
   // small bodies stay visible from afar
-  const least = type.walks ? 4.2 : 6.5;
-  const s = Math.max(view.scale, least / Math.max(l, 0.5));
+  const w = agent.left - agent.right;
+  const s = Math.max(view.scale, (type.walks ? 4.8 : 8) / Math.max(l, 0.4), (type.walks ? 4.8 : 3.6) / Math.max(w, 0.4));
   const cos = Math.cos(pose.h) * s * dpr, sin = Math.sin(pose.h) * s * dpr;
   screen.setTransform(cos, -sin, -sin, -cos, sx * dpr, sy * dpr);
   screen.fillStyle = colour;

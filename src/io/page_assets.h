@@ -8,5 +8,6 @@ namespace sumogamma {
 extern const std::string_view kReplayPageHtml;
 extern const std::string_view kReplayPageCss;
 extern const std::string_view kReplayPageJs;
+extern const std::string_view kReportPageHtml;
 
 }  // namespace sumogamma

@@ -1,0 +1,38 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+#include "io/output_file.h"
+#include "io/report.h"
+
+namespace sumogamma {
+
+CommandRunner add_report_command(CLI::App& parent) {
+  CLI::App* command =
+      parent.add_subcommand("report", "compare runs side by side: a table on stdout, and a page");
+  struct Options {
+    std::vector<std::string> folders;
+    std::string output;
+    bool csv = false;
+  };
+  auto options = std::make_shared<Options>();
+  command
+      ->add_option("DIR", options->folders,
+                   "output folders of `run`, the first is what others are compared with")
+      ->required();
+  command->add_option("-o,--output", options->output, "write an HTML page too");
+  command->add_flag("--csv", options->csv, "CSV on stdout instead of Markdown");
+  return [options](const CommonOptions&) {
+    const std::vector<std::filesystem::path> folders(options->folders.begin(),
+                                                     options->folders.end());
+    const std::vector<RunColumn> runs = read_runs(folders);
+    if (!options->output.empty()) write_file(options->output, report_html(runs));
+    std::fputs((options->csv ? report_csv(runs) : report_markdown(runs)).c_str(), stdout);
+    return kExitDone;
+  };
+}
+
+}  // namespace sumogamma
