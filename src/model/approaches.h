@@ -15,15 +15,23 @@ struct Approach {
   double front = 0;    ///< of the agent's front past the link's begin [m]; negative before it
   double length = 0;   ///< of the agent along its path [m]
   double speed = 0;    ///< along its path, >= 0 [m/s]
-  LimitReason waits_for = LimitReason::None;  ///< what stops it now, if it stands
+  bool stands = false;
 };
 
-/// Who approaches which link, from the frozen scene.
+/// What held an agent at the last tick.
+struct Waiting {
+  LimitReason reason = LimitReason::None;
+  std::int64_t foe = -1;
+};
+
+/// Who approaches which link, and who waits for whom, from the frozen scene.
 class ApproachTable {
  public:
   /// Registers every agent with a path for the links within its stopping distance and some seconds. Serial, O(n log n).
   void rebuild(const Model& model, const RoadState& road, const Scene& scene);
   std::span<const Approach> of(ConnectionId id) const;
+  /// Frozen copy of what the contexts said at the last tick: rows may read each other's.
+  const Waiting& waiting(std::size_t row) const { return waiting_[row]; }
 
  private:
   struct Range {
@@ -31,6 +39,7 @@ class ApproachTable {
   };
   std::vector<Approach> approaches_;  ///< sorted by connection, then row
   std::vector<Range> ranges_;         ///< by connection
+  std::vector<Waiting> waiting_;      ///< by row
 };
 
 /// Half the extent of a row's footprint along a unit direction [m].

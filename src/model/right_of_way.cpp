@@ -27,13 +27,18 @@ Occupation occupation(const AgentType& type, const Approach& who, double begin, 
           time_to_cover(end + who.length - who.front, who.speed, std::max(who.speed, 0.6 * top_speed), a)};
 }
 
-/// True where a foe that stands and waits lets `row` go first: it waits for a signal or in a queue, or it came later.
-bool waits_behind(const Scene& scene, const Approach& foe, std::size_t row) {
-  switch (foe.waits_for) {
+/// True where a foe that stands and waits lets `row` go first: it waits for a signal or in a queue, for this very agent, or
+/// it came later. Of two that wait for each other exactly one goes: who is on foot, else who has stood longer.
+bool waits_behind(const Model& model, const Scene& scene, const ApproachTable& approaches, const Approach& foe, std::size_t row) {
+  if (!foe.stands) return false;
+  const Waiting& waiting = approaches.waiting(foe.row);
+  switch (waiting.reason) {
     case LimitReason::Signal:
     case LimitReason::Stop:
-    case LimitReason::Leader:  // it stands in a queue: what holds its leader holds it
       return true;
+    case LimitReason::Leader:  // it stands in a queue: what holds its leader holds it
+      if (waiting.foe != scene.id[row].value) return true;
+      break;
     case LimitReason::Yield:
     case LimitReason::Crossing:
     case LimitReason::BlockedJunction:
@@ -41,6 +46,8 @@ bool waits_behind(const Scene& scene, const Approach& foe, std::size_t row) {
     default:
       return false;
   }
+  auto on_foot = [&](std::size_t r) { return type_of(model.types, scene.type[r]).kinematics == Kinematics::Holonomic; };
+  if (waiting.foe == scene.id[row].value && on_foot(row) != on_foot(foe.row)) return on_foot(row);
   const double own = scene.standing_time[row], other = scene.standing_time[foe.row];
   return own > other || (own == other && scene.id[row] < scene.id[foe.row]);
 }
@@ -49,6 +56,7 @@ struct Judge {
   const Model& model;
   const RoadState& road;
   const Scene& scene;
+  const ApproachTable& approaches;
   const Traveller& traveller;
   const PathLink& link;
 
@@ -65,7 +73,7 @@ struct Judge {
     const double foe_top = std::min(foe_path->profile_at(scene.path_along[foe.row]), foe_type.max_speed);
     const Occupation theirs = occupation(foe_type, foe, zone.foe_begin, zone.foe_end, foe_top);
     if (theirs.begin == kNever) return false;
-    const Approach own{link.connection, 0, traveller.front - link.stop_line, traveller.length, traveller.speed, {}};
+    const Approach own{link.connection, 0, traveller.front - link.stop_line, traveller.length, traveller.speed, false};
     const Occupation ours = occupation(own_type, own, zone.begin, zone.end, traveller.top_speed);
     const bool overlap = ours.begin < theirs.end + kTimeMargin && theirs.begin < ours.end + kTimeMargin;
     if (!overlap) return false;
@@ -76,7 +84,7 @@ struct Judge {
       const bool unstoppable = deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) > 0.7 * foe_type.max_deceleration;
       return vulnerable && unstoppable && foe_type.kinematics != Kinematics::Holonomic;
     }
-    return !waits_behind(scene, foe, traveller.row);
+    return !waits_behind(model, scene, approaches, foe, traveller.row);
   }
 };
 
@@ -103,7 +111,7 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
   }
 
   const bool free_green = signal == 'G';
-  const Judge judge{model, road, scene, traveller, link};
+  const Judge judge{model, road, scene, approaches, traveller, link};
   for (const ConflictZone& zone_of_table : model.conflicts[index_of(link.connection)]) {
     ConflictZone zone = zone_of_table;
     if (free_green) zone.yields = false;
