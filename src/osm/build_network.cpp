@@ -21,7 +21,8 @@ namespace {
 
 constexpr double kReadMargin =
     200.0;  // [m] read beyond the box, so that stop lines and squares at its edge are seen
-constexpr double kLargest = 100e3;  // [m] side of a map that one plane and one netconvert can bear
+constexpr double kStopReach = 30.0;  // [m] from a stop sign to the junction it guards
+constexpr double kLargest = 100e3;   // [m] side of a map that one plane and one netconvert can bear
 
 std::string box_text(const GeoBox& box) {
   char text[128];
@@ -112,12 +113,18 @@ bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result
   write_prepared_osm(map, netconvert.prepared);
   result.command = run_netconvert(netconvert);
   if (result.command.empty()) return false;
-  const auto rings = unmarked_roundabouts(netconvert.network, map);
-  if (!rings.empty()) {
-    if (mark_roundabouts(netconvert, rings).empty()) return false;
-    result.log.add(Severity::Note, "roundabout_marked",
-                   "roundabouts by tag that netconvert had not seen", rings[0][0],
-                   static_cast<long>(rings.size()));
+  NetworkPatch patch;
+  patch.roundabouts = unmarked_roundabouts(netconvert.network, map);
+  patch.stop_types = stop_types(netconvert.network, find_stop_signs(map, kStopReach));
+  if (!patch.empty()) {
+    if (patch_network(netconvert, patch).empty()) return false;
+    for (const auto& ring : patch.roundabouts)
+      result.log.add(Severity::Note, "roundabout_marked",
+                     "roundabouts by tag that netconvert had not seen", ring[0]);
+    for (const auto& [junction, type] : patch.stop_types)
+      result.log.add(Severity::Note, "stop_signs",
+                     "junctions with stop signs, which netconvert does not read",
+                     junction + " " + type);
   }
   result.netconvert_messages = count_message_kinds(read_text(netconvert.log));
   return true;

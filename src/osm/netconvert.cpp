@@ -108,38 +108,57 @@ std::vector<std::string> run_netconvert(const NetconvertRequest& request) {
   return run(request, std::move(arguments));
 }
 
-std::vector<std::string> mark_roundabouts(const NetconvertRequest& request,
-                                          const std::vector<std::vector<std::string>>& rings) {
-  pugi::xml_document network;
-  if (!network.load_file(request.network.c_str()))
-    throw Error(request.network.string(), "not a network");
+namespace {
+
+void write_patch(const std::filesystem::path& network_file, const NetworkPatch& patch,
+                 const std::filesystem::path& edge_file, const std::filesystem::path& node_file) {
+  pugi::xml_document network, edge_document, node_document;
+  if (!network.load_file(network_file.c_str())) throw Error(network_file.string(), "not a network");
   std::map<std::string, std::string> start;
   for (const pugi::xml_node edge : network.child("net").children("edge"))
     start[edge.attribute("id").value()] = edge.attribute("from").value();
 
-  pugi::xml_document patch;
-  pugi::xml_node edges = patch.append_child("edges");
-  for (const auto& ring : rings) {
-    std::string nodes, names;
+  pugi::xml_node edges = edge_document.append_child("edges"),
+                 nodes = node_document.append_child("nodes");
+  for (const auto& ring : patch.roundabouts) {
+    std::string node_names, edge_names;
     for (const std::string& edge : ring) {
-      nodes += (nodes.empty() ? "" : " ") + start[edge];
-      names += (names.empty() ? "" : " ") + edge;
+      node_names += (node_names.empty() ? "" : " ") + start[edge];
+      edge_names += (edge_names.empty() ? "" : " ") + edge;
     }
     pugi::xml_node roundabout = edges.append_child("roundabout");
-    roundabout.append_attribute("nodes") = nodes.c_str();
-    roundabout.append_attribute("edges") = names.c_str();
+    roundabout.append_attribute("nodes") = node_names.c_str();
+    roundabout.append_attribute("edges") = edge_names.c_str();
   }
-  const std::filesystem::path patch_file = request.network.string() + ".roundabouts.edg.xml";
-  const std::filesystem::path unpatched = request.network.string() + ".unpatched.net.xml";
-  if (!patch.save_file(patch_file.c_str()))
-    throw Error(patch_file.string(), "cannot be written: is the disk full?");
+  for (const auto& [junction, type] : patch.stop_types) {
+    pugi::xml_node node = nodes.append_child("node");
+    node.append_attribute("id") = junction.c_str();
+    node.append_attribute("type") = type.c_str();
+  }
+  for (const auto& [file, document] :
+       {std::pair(&edge_file, &edge_document), std::pair(&node_file, &node_document)})
+    if (!document->save_file(file->c_str()))
+      throw Error(file->string(), "cannot be written: is the disk full?");
+}
+
+}  // namespace
+
+std::vector<std::string> patch_network(const NetconvertRequest& request,
+                                       const NetworkPatch& patch) {
+  const std::filesystem::path folder = request.prepared.parent_path();
+  const std::filesystem::path edge_file = folder / "patch.edg.xml",
+                              node_file = folder / "patch.nod.xml";
+  const std::filesystem::path unpatched = folder / "unpatched.net.xml";
+  write_patch(request.network, patch, edge_file, node_file);
   std::filesystem::rename(request.network, unpatched);
   std::vector<std::string> arguments = {"--xml-validation",
                                         "never",
                                         "-s",
                                         unpatched.string(),
+                                        "-n",
+                                        node_file.string(),
                                         "-e",
-                                        patch_file.string(),
+                                        edge_file.string(),
                                         "-o",
                                         request.network.string(),
                                         "--offset.disable-normalization",
@@ -151,10 +170,7 @@ std::vector<std::string> mark_roundabouts(const NetconvertRequest& request,
                                         "--output.street-names",
                                         "--output.original-names"};
   if (request.left_hand) arguments.push_back("--lefthand");
-  std::vector<std::string> command = run(request, std::move(arguments));
-  std::filesystem::remove(patch_file);
-  std::filesystem::remove(unpatched);
-  return command;
+  return run(request, std::move(arguments));
 }
 
 std::map<std::string, long> count_message_kinds(const std::string& log_text) {

@@ -31,11 +31,20 @@ std::filesystem::path sumo_home();
 /// returns an empty command where should_stop ended it.
 std::vector<std::string> run_netconvert(const NetconvertRequest& request);
 
-/// Second pass that only marks roundabouts which netconvert 1.15 does not see (it takes
-/// junction=roundabout for a one-way road and guesses from geometry). Each is a ring of edges in
-/// driving order. Same errors.
-std::vector<std::string> mark_roundabouts(const NetconvertRequest& request,
-                                          const std::vector<std::vector<std::string>>& rings);
+/// What netconvert 1.15 does not take from OSM, for a second pass over the finished network.
+struct NetworkPatch {
+  /// Roundabouts by tag that it did not recognise (it guesses them from geometry): edges in driving
+  /// order.
+  std::vector<std::vector<std::string>> roundabouts;
+  /// Junctions where traffic must stop: SUMO's type "priority_stop" or "allway_stop" by junction
+  /// id.
+  std::map<std::string, std::string> stop_types;
+
+  bool empty() const { return roundabouts.empty() && stop_types.empty(); }
+};
+
+/// Applies the patch to request.network. Same returns and errors as run_netconvert().
+std::vector<std::string> patch_network(const NetconvertRequest& request, const NetworkPatch& patch);
 
 /// netconvert's messages by kind: ids and numbers replaced, then counted.
 std::map<std::string, long> count_message_kinds(const std::string& log_text);

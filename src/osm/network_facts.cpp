@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "road/sumo_net_reader.h"
 
 namespace sumogamma::osm {
 namespace {
@@ -116,6 +117,29 @@ std::vector<std::vector<std::string>> unmarked_roundabouts(const std::filesystem
     if (at == start && ring.size() >= 2 && !known) rings.push_back(ring);
   }
   return rings;
+}
+
+std::map<std::string, std::string> stop_types(const std::filesystem::path& network,
+                                              const std::map<std::int64_t, int>& stop_signs) {
+  std::map<std::string, std::string> types;
+  if (stop_signs.empty()) return types;
+  const RoadNetwork road = read_sumo_net(network);
+  std::map<JunctionId, int> approaches;
+  for (const Edge& edge : road.edges)
+    if (edge.kind == LaneKind::Normal &&
+        std::any_of(edge.lanes.begin(), edge.lanes.end(), [&](LaneId lane) {
+          return (road.lane(lane).allowed & vehicle_class::kPassenger) != 0;
+        }))
+      ++approaches[edge.to];
+  for (const auto& [node, signs] : stop_signs) {
+    const auto junction = road.junction_by_name.find(std::to_string(node));
+    if (junction == road.junction_by_name.end()) continue;
+    const std::string& type = road.junction(junction->second).type;
+    const bool everywhere = signs >= approaches[junction->second];
+    if (type == "priority" || (type == "right_before_left" && everywhere))
+      types[std::to_string(node)] = everywhere ? "allway_stop" : "priority_stop";
+  }
+  return types;
 }
 
 }  // namespace sumogamma::osm

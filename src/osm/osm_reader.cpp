@@ -17,7 +17,6 @@
 #include <osmium/handler/node_locations_for_ways.hpp>
 #include <osmium/index/map/flex_mem.hpp>
 #include <osmium/io/any_input.hpp>
-#include <osmium/io/any_output.hpp>
 #include <osmium/object_pointer_collection.hpp>
 #include <osmium/osm/object_comparisons.hpp>
 #include <osmium/version.hpp>
@@ -398,20 +397,6 @@ OsmMap read_osm(const std::filesystem::path& file, const std::optional<GeoBox>& 
     throw Error(file.string(),
                 "holds no OpenStreetMap objects; expected nodes and ways (an empty download?)");
   return map;
-}
-
-void convert_osm(const std::filesystem::path& from, const std::filesystem::path& to) {
-  check_readable(from);
-  try {
-    osmium::io::Reader reader{osmium::io::File(from.string())};
-    osmium::io::Header header = reader.header();
-    osmium::io::Writer writer(osmium::io::File(to.string()), header, osmium::io::overwrite::allow);
-    while (osmium::memory::Buffer buffer = reader.read()) writer(std::move(buffer));
-    writer.close();
-    reader.close();
-  } catch (const std::exception& error) {
-    throw Error(from.string(), std::string("cannot be converted: ") + error.what());
-  }
 }
 
 std::string osmium_version() { return LIBOSMIUM_VERSION_STRING; }

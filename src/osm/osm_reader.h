@@ -20,10 +20,6 @@ namespace sumogamma::osm {
 OsmMap read_osm(const std::filesystem::path& file,
                 const std::optional<GeoBox>& keep = std::nullopt);
 
-/// Writes a map's XML again as PBF, XML or any other format that its suffix names; all objects.
-/// Throws Error.
-void convert_osm(const std::filesystem::path& from, const std::filesystem::path& to);
-
 /// Libosmium's version, for `sumo-gamma version` and import.json.
 std::string osmium_version();
 

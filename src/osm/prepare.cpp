@@ -436,6 +436,27 @@ class TrafficGraph {
     return 0;
   }
 
+  bool known(std::int64_t node) const { return arms_.contains(node); }
+  std::size_t arm_count(std::int64_t node) const { return arms_.at(node).size(); }
+  const std::vector<Step>& arms(std::int64_t node) const { return arms_.at(node); }
+  /// True where a junction lies within reach along any arm, whatever the direction of traffic.
+  bool junction_within(std::int64_t node, double reach) const {
+    for (const Step& arm : arms_.at(node)) {
+      double distance = 0;
+      for (std::size_t i = arm.index;;) {
+        if (arm.direction < 0 ? i == 0 : i + 1 == arm.way->nodes.size()) break;
+        const std::size_t next = arm.direction > 0 ? i + 1 : i - 1;
+        const GeoPoint a = map_.nodes.at(arm.way->nodes[i]).place,
+                       b = map_.nodes.at(arm.way->nodes[next]).place;
+        distance += LocalMetric(a).distance(a, b);
+        if (distance > reach) break;
+        if (arm_count(arm.way->nodes[next]) >= 3) return true;
+        i = next;
+      }
+    }
+    return false;
+  }
+
  private:
   /// The way on from a node that is no junction: where a slip lane leaves, the one straight ahead.
   std::optional<Step> straightest_exit(std::int64_t node, std::int64_t came_from) const {
@@ -519,6 +540,65 @@ void snap_signals(OsmMap& map, double reach, IssueLog& log) {
   }
 }
 
+void add_footways_at_crossings(OsmMap& map, IssueLog& log) {
+  constexpr double kNearJunction = 15.0,
+                   kStub = 9.0;  // [m]; the stub reaches over half a road and its sidewalk
+  const TrafficGraph graph(map);
+  const Uses uses = count_node_uses(map);
+  std::vector<MapWay> added;
+  std::vector<std::int64_t> crossings;
+  for (const auto& [id, node] : map.nodes) {
+    const bool crossing =
+        tag_is(node.tags, "highway", {"crossing"}) ||
+        (tag_is(node.tags, "highway", {"traffic_signals"}) && node.tags.contains("crossing"));
+    if (!crossing || tag_is(node.tags, "crossing", {"no"}) || !graph.known(id)) continue;
+    // two arms that are all of its uses: in the middle of a road, and no footway there
+    const auto& arms = graph.arms(id);
+    if (arms.size() != 2 || uses.at(id) != (arms[0].way == arms[1].way ? 1 : 2)) continue;
+    if (tag_is(arms[0].way->tags, "highway", {"motorway", "motorway_link", "service"})) continue;
+    if (!graph.junction_within(id, kNearJunction)) crossings.push_back(id);
+  }
+  for (const std::int64_t id : crossings) {
+    const auto& arms = graph.arms(id);
+    const auto beside = [&](const Step& arm) {
+      return map.nodes.at(arm.way->nodes[arm.direction > 0 ? arm.index + 1 : arm.index - 1]).place;
+    };
+    const GeoPoint here = map.nodes.at(id).place;
+    const LocalMetric metric(here);
+    const double along = metric.bearing(beside(arms[0]), beside(arms[1]));
+    for (const double side : {kPi / 2, -kPi / 2}) {
+      const std::int64_t end = map.new_id();
+      map.nodes[end].place = {here.lon + kStub * std::cos(along + side) / metric.meters_per_lon,
+                              here.lat + kStub * std::sin(along + side) / metric.meters_per_lat};
+      added.push_back({map.new_id(), {end, id}, {{"highway", "footway"}}});
+    }
+    log.add(Severity::Note, "crossing_kept",
+            "crossings half way along a road, given footways so that SUMO builds them",
+            "node/" + std::to_string(id));
+  }
+  map.ways.insert(map.ways.end(), added.begin(), added.end());
+}
+
+std::map<std::int64_t, int> find_stop_signs(const OsmMap& map, double reach) {
+  const TrafficGraph graph(map);
+  std::map<std::int64_t, int> junctions;
+  for (const auto& [id, node] : map.nodes) {
+    if (!tag_is(node.tags, "highway", {"stop"}) || !graph.known(id)) continue;
+    std::int64_t target = 0;
+    double nearest = reach;
+    for (const Step& exit : graph.exits(id)) {
+      double distance = 0;
+      if (!signal_faces(node.tags, exit.direction)) continue;
+      const std::int64_t junction = graph.junction_ahead(exit, reach, distance);
+      if (junction == 0 || distance > nearest) continue;
+      target = junction;
+      nearest = distance;
+    }
+    if (target != 0) ++junctions[target];
+  }
+  return junctions;
+}
+
 void filter_restrictions(OsmMap& map, IssueLog& log) {
   std::map<std::int64_t, const MapWay*> ways;
   for (const MapWay& way : map.ways)
@@ -557,6 +637,7 @@ void prepare_map(OsmMap& map, const PrepareOptions& options, IssueLog& log) {
     split_carriageway_ends(map, options.box, log);
   }
   snap_signals(map, options.signal_reach, log);
+  add_footways_at_crossings(map, log);
   filter_restrictions(map, log);
 }
 

@@ -35,6 +35,15 @@ void split_carriageway_ends(OsmMap& map, const GeoBox& box, IssueLog& log);
 /// mid-block crossings stay.
 void snap_signals(OsmMap& map, double reach, IssueLog& log);
 
+/// netconvert 1.15 loses a crossing half way along a road unless a footway shares its node: gives
+/// such nodes a short footway to either side, so that a crossing is built between the sidewalks.
+/// Nodes within 15 m of a junction are left to the crossings that it gets anyway.
+void add_footways_at_crossings(OsmMap& map, IssueLog& log);
+
+/// Junctions (by node) with a stop sign on an approach at most `reach` before them, and how many
+/// approaches have one. netconvert 1.15 does not read highway=stop; see NetworkPatch.
+std::map<std::int64_t, int> find_stop_signs(const OsmMap& map, double reach);
+
 /// Drops turn restrictions that lost a member or no longer join at their via node.
 void filter_restrictions(OsmMap& map, IssueLog& log);
 

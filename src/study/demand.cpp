@@ -108,7 +108,7 @@ ClassGraph class_graph(const RoadNetwork& road, VehicleClassMask mask) {
     const Edge& edge = road.edges[i];
     if (edge.kind != LaneKind::Normal || edge.lanes.empty() || !allows(road, edge, mask)) continue;
     graph.edges.push_back(i);
-    graph.length[i] = road.lane(edge.lanes[0]).centerline.length();
+    graph.length[i] = road.lane(edge.lanes[0]).length;
     for (const LaneId lane : edge.lanes)
       if ((road.lane(lane).allowed & mask) != 0)
         graph.speed[i] = std::max(graph.speed[i], road.lane(lane).speed_limit);
@@ -309,6 +309,17 @@ void measure(const RoadNetwork& road, const TypeWork& work, Trip& trip) {
   }
 }
 
+/// A walk that turns back on its own road: SUMO finds no way across the dead end, and nobody walks
+/// so.
+bool turns_back(const RoadNetwork& road, const std::vector<std::string>& edges) {
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const Edge &a = road.edge(road.edge_by_name.at(edges[i])),
+               &b = road.edge(road.edge_by_name.at(edges[i + 1]));
+    if (a.from == b.to && a.to == b.from) return true;
+  }
+  return false;
+}
+
 void take_routes(const RoadNetwork& road, const std::filesystem::path& file,
                  std::vector<TypeWork>& works) {
   pugi::xml_document document;
@@ -329,6 +340,7 @@ void take_routes(const RoadNetwork& road, const std::filesystem::path& file,
         std::all_of(trip.edges.begin(), trip.edges.end(),
                     [&](const std::string& edge) { return road.edge_by_name.contains(edge); });
     if (trip.edges.size() < (work.walks ? 2u : 1u) || !known) continue;
+    if (work.walks && turns_back(road, trip.edges)) continue;
     measure(road, work, trip);
     work.routed.push_back(std::move(trip));
   }
@@ -452,6 +464,16 @@ std::size_t edge_on_the_way(const RoadNetwork& road, const TypeWork& work, const
   return best;
 }
 
+void measure_mean(const DemandRequest& request, TypeWork& work) {
+  // those who keep their own pace lose little to others
+  const double slowness =
+      has_own_pace(*work.type) ? 1 + (request.slowness - 1) / 3 : request.slowness;
+  for (const Trip& trip : work.routed) {
+    work.report.mean_length += trip.length / static_cast<double>(work.routed.size());
+    work.report.mean_duration += trip.duration * slowness / static_cast<double>(work.routed.size());
+  }
+}
+
 std::vector<Departure> schedule(const RoadNetwork& road, const DemandRequest& request,
                                 std::vector<TypeWork>& works, DemandReport& report) {
   double total_share = 0;
@@ -466,11 +488,7 @@ std::vector<Departure> schedule(const RoadNetwork& road, const DemandRequest& re
     owed += alive;
     const long initial = std::lround(std::floor(owed + 1e-9));
     owed -= static_cast<double>(initial);
-    for (const Trip& trip : work.routed) {
-      work.report.mean_length += trip.length / static_cast<double>(work.routed.size());
-      work.report.mean_duration +=
-          trip.duration * request.slowness / static_cast<double>(work.routed.size());
-    }
+    measure_mean(request, work);
     // a running city holds long trips more often than short ones: by duration, uniformly along it
     std::vector<double> by_duration;
     for (const Trip& trip : work.routed)
