@@ -34,7 +34,8 @@ struct SumoAgentDetails {
   std::string type_id;
   std::string vehicle_class;                 ///< "passenger", "pedestrian", ...
   double length = 0, width = 0, height = 0;  ///< [m]
-  double max_speed = 0;                      ///< of the vType, [m/s]
+  double max_speed =
+      0;  ///< of the vType; persons: at most SUMO's walking speed, before the factor [m/s]
   double speed_factor = 1;
   std::string lane;          ///< at departure, may be empty
   double lane_position = 0;  ///< front bumper along that lane [m]

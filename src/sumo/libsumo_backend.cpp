@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "sumo/backend.h"
 #include "sumo/ghost.h"
+#include "sumo/sumo_defaults.h"
 #include "sumo/sumo_process.h"
 #include "sumo/watch_list.h"
 
@@ -81,6 +82,7 @@ SumoAgentDetails vehicle_details(const std::string& id, double time) {
 
 SumoAgentDetails person_details(const std::string& id) {
   SumoAgentDetails details = common_details<libsumo::Person>(id);
+  details.max_speed = walking_speed(details.max_speed);
   const auto stage = value_or(libsumo::TraCIStage(), [&] { return libsumo::Person::getStage(id); });
   if (stage.type == libsumo::STAGE_WALKING) {
     details.route = stage.edges;
@@ -156,6 +158,7 @@ LibsumoBackend::LibsumoBackend(const SumoStart& start) : start_(start) {
         "libsumo",
         "holds one simulation a process, and none after a failed step; use the traci back end");
   open_ = true;
+  set_default_sumo_home();
   try {
     std::vector<std::string> words = start.arguments;
     words.insert(words.begin(), "sumo");

@@ -89,6 +89,10 @@ std::string find_sumo_binary(const std::string& name) {
   return found.string();
 }
 
+void set_default_sumo_home() {
+  if (std::filesystem::is_directory(kDebianSumoHome)) setenv("SUMO_HOME", kDebianSumoHome, 0);
+}
+
 int free_port() {
   const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};

@@ -15,6 +15,10 @@ namespace sumogamma {
 /// else the first in PATH. Throws Error where there is none.
 std::string find_sumo_binary(const std::string& name);
 
+/// Sets SUMO_HOME for this process to where Debian puts it, unless the user has set it; for SUMO in
+/// process.
+void set_default_sumo_home();
+
 /// A TCP port on 127.0.0.1 that nobody used a moment ago.
 int free_port();
 

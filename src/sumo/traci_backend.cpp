@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "sumo/backend.h"
 #include "sumo/ghost.h"
+#include "sumo/sumo_defaults.h"
 #include "sumo/sumo_process.h"
 #include "sumo/traci_client.h"
 #include "sumo/traci_message.h"
@@ -155,6 +156,7 @@ SumoAgentDetails read_details(TraciReader& reply, const std::string& id, bool is
   details.lane = read_text(reply, domain, traci::kLane);
   details.lane_position = read_number(reply, domain, traci::kLanePosition, 0);
   if (is_person) {
+    details.max_speed = walking_speed(details.max_speed);
     if (std::optional<TraciReader> value = read_answer(reply, domain, traci::kStage)) {
       const Stage stage = read_stage(*value);
       if (stage.type == traci::kStageWalking) {

@@ -88,6 +88,22 @@ TEST_P(Backends, TellsWhoDepartsAndWhatItIs) {
   EXPECT_NEAR(details[2].arrival_position, 30, 1e-6);
 }
 
+// what is told as a person's speed is what SUMO lets it walk at
+TEST_P(Backends, TellsTheSpeedThatAPersonWalksAt) {
+  const auto sumo = start();
+  SumoStep step;
+  const std::string walker = "walker";
+  ASSERT_TRUE(run_until(*sumo, step, 5, [&] { return has(step.departed_persons, walker); }));
+  const SumoAgentDetails details = sumo->details({}, {&walker, 1}).at(0);
+  sumo->watch(walker, true);
+  double fastest = 0;
+  for (int i = 0; i < 200; ++i) {
+    sumo->step({}, {}, step);
+    fastest = std::max(fastest, step.agents.at(0).speed);
+  }
+  EXPECT_NEAR(fastest, details.max_speed * details.speed_factor, 0.02);
+}
+
 TEST_P(Backends, TellsTheStopsOfAVehicle) {
   const auto sumo = start();
   SumoStep step;
@@ -267,6 +283,31 @@ TEST_P(Backends, SignalsChange) {
   EXPECT_GT(seen.size(), 2u);
   for (const std::string& state : seen)
     EXPECT_EQ(state.find_first_not_of("rRyYgGsuoO"), std::string::npos) << state;
+}
+
+// ghosts pass no detector, so an actuated signal sees an empty road until it is told otherwise
+TEST_P(Backends, DetectorsThatAreToldOfTrafficExtendTheGreen) {
+  auto changes = [&](bool told) {
+    const auto sumo = start();
+    const auto& ids = sumo->signal_ids();
+    const auto at = static_cast<std::size_t>(std::find(ids.begin(), ids.end(), "B1") - ids.begin());
+    SumoStep step;
+    int count = 0;
+    std::string last;
+    for (int i = 0; i < 1200; ++i) {
+      if (told) {
+        std::vector<std::pair<std::string, double>> ages;
+        for (const auto& detector : sumo->detectors())
+          ages.emplace_back(detector.id, 0.1 * (i % 10));
+        sumo->override_detectors(ages);
+      }
+      sumo->step({}, {}, step);
+      if (step.signal_states.at(at) != last) ++count;
+      last = step.signal_states[at];
+    }
+    return count;
+  };
+  EXPECT_LT(changes(true), changes(false));
 }
 
 TEST_P(Backends, WatchesInOrderUntilToldOtherwise) {
