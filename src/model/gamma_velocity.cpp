@@ -6,6 +6,7 @@
 #include "model/geometric_constraints.h"
 #include "model/kinematic_set.h"
 #include "model/preferred_velocity.h"
+#include "model/stopping_guard.h"
 
 namespace sumogamma {
 
@@ -14,8 +15,7 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
   const AgentType& type = type_of(model.types, scene.type[row]);
   work.preferred = preferred_velocity(model, scene, row, behavior.intention);
   if (!work.preferred.allFinite()) work.preferred = Vec2::Zero();
-  find_attended(scene, geometry, row, behavior.attention, work.preferred, type.horizon,
-                work.attended);
+  find_attended(geometry, row, behavior.attention, work.preferred, type.horizon, work.attended);
 
   work.constraints.clear();
   append_kinematic_constraints(model, scene, row, work.constraints);   // K, III-A
@@ -31,6 +31,9 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
     fastest = std::min(fastest, std::max(scene.context[row].allowed_speed, 0.0));
   work.result = closest_point(work.constraints.planes, work.constraints.hard_count, work.preferred,
                               fastest, work.program);
+  if (model.options.use_guard)
+    work.result.point =
+        guarded_velocity(model, scene, geometry, row, work.result.point, work.guard);
   return work.result.point;
 }
 

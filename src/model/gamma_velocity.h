@@ -6,6 +6,7 @@
 #include "model/attention.h"
 #include "model/constraints.h"
 #include "model/model.h"
+#include "model/stopping_guard.h"
 #include "model/tick_geometry.h"
 
 namespace sumogamma {
@@ -16,6 +17,7 @@ struct Workspace {
   std::vector<Attended> attended;
   ConstraintSet constraints;
   ProgramScratch program;
+  GuardScratch guard;
   Vec2 preferred = Vec2::Zero();  ///< v_pref [m/s]
   ProgramResult result;           ///< of Eq. 7; result.binding is an index into constraints
 

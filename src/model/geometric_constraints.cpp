@@ -8,19 +8,53 @@ namespace sumogamma {
 
 namespace {
 
+/// Horizon of a pair [s].
+double pair_horizon(const ModelOptions& options, const AgentType& own, const AgentType& their) {
+  switch (options.pair_horizon) {
+    case PairHorizon::Own:
+      return own.horizon;
+    case PairHorizon::Longest:
+      return std::max(own.horizon, their.horizon);
+    case PairHorizon::Shortest:
+      break;
+  }
+  return std::min(own.horizon, their.horizon);
+}
+
 /// Horizon of a pair on the road [s].
-/// differs from the paper: who follows a lane bends with it, so that straight lines over the whole horizon see collisions with
-/// oncoming traffic in every curve; leaders, signals and right of way look far ahead instead (C). Avoidance is what is left:
-/// the near term. People on foot follow no lane and keep the full horizon.
-double road_horizon(const Model& model, const Scene& scene, std::size_t row, std::size_t other, double horizon) {
+/// differs from the paper: who follows a lane bends with it, so that straight lines over the whole
+/// horizon see collisions with oncoming traffic in every curve; leaders, signals and right of way
+/// look far ahead instead (C). Avoidance is what is left: the near term. People on foot follow no
+/// lane and keep the full horizon.
+double road_horizon(const RoadContext& context, const AgentGeometry& own,
+                    const AgentGeometry& other, std::int64_t foe, double horizon) {
   constexpr double kLanes = 1.5, kLeader = 0.7;
-  const RoadContext& context = scene.context[row];
-  if (!context.active) return horizon;
-  const bool walker = type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic ||
-                      type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic;
-  if (walker) return horizon;
-  const bool leader = context.reason == LimitReason::Leader && context.foe == scene.id[other].value;
+  if (!context.active || !own.on_wheels || !other.on_wheels) return horizon;
+  const bool leader = context.reason == LimitReason::Leader && context.foe == foe;
   return std::min(horizon, leader ? kLeader : kLanes);
+}
+
+/// The velocity that an agent would have if nobody were in its way [m/s]: onwards at the speed it
+/// likes.
+Vec2 intended_velocity(const Scene& scene, const AgentGeometry& agent, std::size_t row) {
+  if (scene.control[row] == Control::External) return agent.velocity;
+  const RoadContext& context = scene.context[row];
+  double speed = scene.preferred_speed[row];
+  if (context.active) speed = std::min({speed, context.speed_limit, context.allowed_speed});
+  return std::max(speed, 0.0) * agent.forward;
+}
+
+PolygonDifference difference_of(const Model& model, const Scene& scene,
+                                const TickGeometry& geometry, std::size_t row, std::size_t other) {
+  const AgentGeometry &own = geometry.agent[row], &their = geometry.agent[other];
+  if (own.is_box && their.is_box) {
+    const OrientedBox a = own.guarded_box();
+    PolygonDifference difference = box_difference(their.guarded_box(), a);
+    return difference;
+  }
+  return minkowski_difference(guarded_polygon(model, scene, geometry, other),
+                              guarded_polygon(model, scene, geometry, row),
+                              their.position - own.position);
 }
 
 }  // namespace
@@ -30,7 +64,8 @@ double responsibility_share(const Model& model, const Scene& scene, const TickGe
   if (!model.options.share_responsibility) return behavior.responsibility;
   // SUMO's drivers and those who don't look this way do nothing for this pair
   if (scene.control[other] == Control::External) return 1.0;
-  if (!attends(geometry, scene, other, row, scene.behavior[other].attention)) return 1.0;
+  const AgentGeometry& their = geometry.agent[other];
+  if (!attends(their, geometry.agent[row], their.attention)) return 1.0;
   const double own = std::max(behavior.responsibility, 0.0);
   const double theirs = std::max(scene.behavior[other].responsibility, 0.0);
   return own + theirs > 0 ? own / (own + theirs) : 0.5;
@@ -43,27 +78,32 @@ void append_geometric_constraints(const Model& model, const Scene& scene,
   if (!model.options.use_avoidance) return;
   const ModelOptions& options = model.options;
   const PassingSide side = options.keep_left ? PassingSide::Left : PassingSide::Right;
-  const double own_horizon = type_of(model.types, scene.type[row]).horizon;
+  const AgentGeometry& own = geometry.agent[row];
+  const AgentType& type = type_of(model.types, own.type);
+  const Vec2 intended = intended_velocity(scene, own, row);
   for (const Attended& neighbour : attended) {
     const std::size_t other = neighbour.row;
-    const double their_horizon = type_of(model.types, scene.type[other]).horizon;
-    const double pair_horizon = options.pair_horizon == PairHorizon::Own ? own_horizon
-                                : options.pair_horizon == PairHorizon::Shortest
-                                    ? std::min(own_horizon, their_horizon)
-                                    : std::max(own_horizon, their_horizon);
-    const double horizon = road_horizon(model, scene, row, other, pair_horizon);
-    const PolygonDifference difference =
-        minkowski_difference(geometry.guarded[other], geometry.guarded[row],
-                             scene.position[other] - scene.position[row]);
-    const Escape escape = nearest_escape(difference, scene.velocity[row] - scene.velocity[other],
-                                         horizon, options.separation_time, side);
+    const AgentGeometry& their = geometry.agent[other];
+    const std::int64_t foe = scene.id[other].value;
+    const double horizon =
+        road_horizon(scene.context[row], own, their, foe,
+                     pair_horizon(options, type, type_of(model.types, their.type)));
+    const PolygonDifference difference = difference_of(model, scene, geometry, row, other);
+    const Vec2 relative = own.velocity - their.velocity;
+    // differs from the paper: the side on which to pass follows from where both want to go, so that
+    // two who stand face to face go round each other instead of waiting
+    const Escape escape =
+        options.pass_as_intended
+            ? intended_escape(difference, relative,
+                              intended - intended_velocity(scene, their, other), horizon,
+                              options.separation_time, side)
+            : nearest_escape(difference, relative, horizon, options.separation_time, side);
     // differs from the paper: a safe pair is held to its safety (as ORCA does) unless the option
     // says otherwise
     if (!escape.colliding && !options.constrain_safe_pairs) continue;
     const double share = responsibility_share(model, scene, geometry, row, other, behavior);
-    constraints.append(
-        {scene.velocity[row] + share * escape.change, escape.normal},
-        {ConstraintKind::Neighbour, static_cast<std::int64_t>(scene.id[other].value)});
+    constraints.append({own.velocity + share * escape.change, escape.normal},
+                       {ConstraintKind::Neighbour, foe});
   }
 }
 

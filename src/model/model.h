@@ -16,16 +16,23 @@ enum class PairHorizon : std::uint8_t { Own, Shortest, Longest };
 
 /// The choices where the paper leaves room; each is explained and measured in docs/model.md.
 struct ModelOptions {
-  bool use_kinematics = true;   ///< ablation: false leaves K out
-  bool use_polygons = true;     ///< ablation: false replaces footprints by their circumscribed discs
-  bool use_avoidance = true;    ///< ablation: false leaves G out
-  bool keep_left = false;       ///< tie-break side: left-hand traffic
+  bool use_kinematics = true;  ///< ablation: false leaves K out
+  bool use_polygons = true;    ///< ablation: false replaces footprints by their circumscribed discs
+  bool use_avoidance = true;   ///< ablation: false leaves G out
+  bool keep_left = false;      ///< tie-break side: left-hand traffic
   bool constrain_safe_pairs = true;  ///< a half-plane for a pair outside its velocity obstacle, too
   PairHorizon pair_horizon = PairHorizon::Shortest;
-  bool share_responsibility = true;  ///< shares of a pair are made to add up to 1; false: Eq. 5 with the row's own, as it stands
-  double separation_time = 1.0;  ///< bodies that overlap come apart within about this [s]
-  double front_margin = 0.2, rear_margin = 0.1, side_margin = 0.15;  ///< kept around wheeled bodies [m]
-  double walker_margin = 0.05;   ///< kept around people on foot [m]
+  bool pass_as_intended = true;  ///< on which side to pass follows from where both want to go, not
+                                 ///< from how they move now
+  bool share_responsibility = true;  ///< shares of a pair are made to add up to 1; false: Eq. 5
+                                     ///< with the row's own, as it stands
+  bool use_guard = true;             ///< ablation: false leaves the stopping guard out
+  double guard_margin = 0.03;        ///< room that the guard keeps between bodies that brake [m]
+  double step = 0.05;                ///< length of a tick, which the guard reckons with [s]
+  double separation_time = 1.0;      ///< bodies that overlap come apart within about this [s]
+  double front_margin = 0.1, rear_margin = 0.05,
+         side_margin = 0.05;    ///< kept around wheeled bodies [m]
+  double walker_margin = 0.03;  ///< kept around people on foot [m]
 };
 
 /// Constant for a run, shared by every thread.

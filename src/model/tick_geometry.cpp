@@ -1,6 +1,9 @@
 #include "model/tick_geometry.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
 
 namespace sumogamma {
 
@@ -9,27 +12,56 @@ namespace {
 // what a driver needs before the brakes bite [s]
 constexpr double kReactionTime = 0.5;
 
-Margins margins_of(const ModelOptions& options, const AgentType& type) {
-  if (type.kinematics == Kinematics::Holonomic)
-    return {options.walker_margin, options.walker_margin, options.walker_margin};
-  return {options.front_margin, options.rear_margin, options.side_margin};
+Margins margins_of(const ModelOptions& options, bool on_wheels) {
+  if (on_wheels) return {options.front_margin, options.rear_margin, options.side_margin};
+  return {options.walker_margin, options.walker_margin, options.walker_margin};
 }
 
-/// Circumscribed disc as an octagon of the same reach along its normals: the ablation without
-/// polygons.
-ConvexPolygon disc_outline(double radius) {
+/// The octagon around the circumscribed disc: the ablation without polygons.
+ConvexPolygon disc_polygon(double radius) {
   std::array<Vec2, 8> vertices;
-  const double corner = radius / std::cos(M_PI / 8);
+  const double corner = radius / std::cos(kPi / 8);
   for (std::size_t k = 0; k < vertices.size(); ++k)
-    vertices[k] = corner * direction_of(M_PI / 8 + static_cast<double>(k) * (M_PI / 4));
+    vertices[k] = corner * direction_of(kPi / 8 + static_cast<double>(k) * (kPi / 4));
   return place_polygon(vertices, Vec2(1, 0));
 }
 
-double outline_radius(const ConvexPolygon& polygon) {
-  double square = 0;
-  for (std::uint32_t k = 0; k < polygon.count; ++k)
-    square = std::max(square, polygon.vertices[k].squaredNorm());
-  return std::sqrt(square);
+void fill_outline(const ModelOptions& options, const Footprint& footprint, AgentGeometry& agent) {
+  const std::optional<OrientedBox> box =
+      options.use_polygons ? as_box(footprint.outline()) : std::nullopt;
+  const Margins margins = margins_of(options, agent.on_wheels);
+  agent.is_box = box && std::abs(box->center.y()) == 0.0;
+  if (!agent.is_box) {
+    const double widest = std::max({margins.front, margins.rear, margins.side});
+    agent.radius = (options.use_polygons ? footprint.radius + 1.5 * widest
+                                         : footprint.radius / std::cos(kPi / 8));
+    return;
+  }
+  agent.half = box->half;
+  agent.shift = box->center.x();
+  agent.guarded_half = box->half + Vec2(0.5 * (margins.front + margins.rear), margins.side);
+  agent.guarded_shift = agent.shift + 0.5 * (margins.front - margins.rear);
+  agent.radius =
+      Vec2(agent.guarded_half.x() + std::abs(agent.guarded_shift), agent.guarded_half.y()).norm();
+}
+
+AgentGeometry describe(const Model& model, const Scene& scene, std::size_t row) {
+  const AgentType& type = type_of(model.types, scene.type[row]);
+  AgentGeometry agent;
+  agent.position = scene.position[row];
+  agent.velocity = scene.velocity[row];
+  agent.forward = direction_of(scene.heading[row]);
+  agent.on_wheels = type.kinematics != Kinematics::Holonomic;
+  agent.speed = agent.on_wheels ? scene.speed[row] : agent.velocity.norm();
+  agent.curvature = agent.on_wheels ? std::tan(scene.steering[row]) / type.wheelbase : 0.0;
+  agent.type = scene.type[row];
+  agent.attention = scene.behavior[row].attention;
+  fill_outline(model.options, scene.footprint[row], agent);
+  const double square = agent.speed * agent.speed;
+  agent.stopping = kReactionTime * agent.speed + square / (2.0 * type.comfortable_deceleration);
+  agent.reach =
+      agent.radius + model.options.step * agent.speed + square / (2.0 * type.max_deceleration);
+  return agent;
 }
 
 }  // namespace
@@ -38,34 +70,37 @@ void prepare_tick(const Model& model, const Scene& scene, Workers& workers,
                   TickGeometry& geometry) {
   const std::size_t rows = scene.size();
   geometry.grid.rebuild(scene.position);
-  geometry.forward.resize(rows);
-  geometry.body.resize(rows);
-  geometry.guarded.resize(rows);
-  geometry.radius.resize(rows);
-  geometry.stopping.resize(rows);
+  geometry.agent.resize(rows);
   workers.for_each_range(rows, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      const AgentType& type = type_of(model.types, scene.type[row]);
-      const Footprint& footprint = scene.footprint[row];
-      const Vec2 forward = direction_of(scene.heading[row]);
-      geometry.forward[row] = forward;
-      geometry.body[row] = place_polygon(footprint.outline(), forward);
-      geometry.guarded[row] =
-          model.options.use_polygons
-              ? place_polygon(footprint.outline(), forward, margins_of(model.options, type))
-              : disc_outline(footprint.radius);
-      geometry.radius[row] = outline_radius(geometry.guarded[row]);
-      const double speed = scene.speed[row];
-      geometry.stopping[row] =
-          kReactionTime * speed + speed * speed / (2.0 * type.comfortable_deceleration);
-    }
+    for (std::size_t row = begin; row < end; ++row)
+      geometry.agent[row] = describe(model, scene, row);
   });
   geometry.longest_stopping = 0;
   geometry.largest_radius = 0;
-  for (std::size_t row = 0; row < rows; ++row) {
-    geometry.longest_stopping = std::max(geometry.longest_stopping, geometry.stopping[row]);
-    geometry.largest_radius = std::max(geometry.largest_radius, geometry.radius[row]);
+  geometry.largest_reach = 0;
+  for (const AgentGeometry& agent : geometry.agent) {
+    geometry.longest_stopping = std::max(geometry.longest_stopping, agent.stopping);
+    geometry.largest_radius = std::max(geometry.largest_radius, agent.radius);
+    geometry.largest_reach = std::max(geometry.largest_reach, agent.reach);
   }
+}
+
+ConvexPolygon guarded_polygon(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                              std::size_t row) {
+  const AgentGeometry& agent = geometry.agent[row];
+  const Footprint& footprint = scene.footprint[row];
+  if (!model.options.use_polygons) return disc_polygon(footprint.radius);
+  return place_polygon(footprint.outline(), agent.forward,
+                       margins_of(model.options, agent.on_wheels));
+}
+
+double overlap_depth(const Scene& scene, const TickGeometry& geometry, std::size_t row,
+                     std::size_t other) {
+  const AgentGeometry &a = geometry.agent[row], &b = geometry.agent[other];
+  if (a.is_box && b.is_box) return -separation(a.box(), b.box());
+  return overlap_depth(place_polygon(scene.footprint[row].outline(), a.forward),
+                       place_polygon(scene.footprint[other].outline(), b.forward),
+                       b.position - a.position);
 }
 
 }  // namespace sumogamma

@@ -1,30 +1,60 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/parallel.h"
 #include "geometry/convex_polygon.h"
+#include "geometry/oriented_box.h"
 #include "geometry/spatial_grid.h"
 #include "model/model.h"
 #include "scene/scene.h"
 
 namespace sumogamma {
 
-/// What every pair needs of each agent, computed once a tick from the frozen scene and only read
-/// afterwards.
+/// What every pair needs to know of an agent, together in memory.
+struct AgentGeometry {
+  Vec2 position, velocity;
+  Vec2 forward;              ///< unit heading
+  Vec2 half, guarded_half;   ///< half extents of the box, bare and with the margins that avoidance
+                             ///< keeps [m]
+  double shift = 0;          ///< the bare box's centre lies this far ahead of the position [m]
+  double guarded_shift = 0;  ///< likewise the guarded one's
+  double radius = 0;         ///< about the position, holds the guarded outline [m]
+  double stopping = 0;       ///< way of reacting and braking comfortably [m]
+  double reach = 0;          ///< radius and the shortest way to a stop [m]
+  double speed = 0;          ///< [m/s]
+  double curvature = 0;      ///< of the rear axle's way, positive left [1/m]
+  AttentionRange attention;
+  AgentTypeId type{};
+  bool is_box = true;
+  bool on_wheels = true;
+
+  OrientedBox box() const { return {position + shift * forward, forward, half}; }
+  OrientedBox guarded_box() const {
+    return {position + guarded_shift * forward, forward, guarded_half};
+  }
+};
+
+/// Computed once a tick from the frozen scene and only read afterwards.
 struct TickGeometry {
   SpatialGrid grid;
-  std::vector<Vec2> forward;           ///< unit heading
-  std::vector<ConvexPolygon> body;     ///< outline in world axes about the centre [m]
-  std::vector<ConvexPolygon> guarded;  ///< the same with the margins that avoidance keeps
-  std::vector<double> radius;          ///< of the guarded outline's circumscribed disc [m]
-  std::vector<double> stopping;        ///< reaction and braking distance [m]
-  double longest_stopping = 0;         ///< largest of these
+  std::vector<AgentGeometry> agent;
+  double longest_stopping = 0;  ///< largest of these [m]
   double largest_radius = 0;
+  double largest_reach = 0;
 };
 
 /// Fills `geometry` for the scene. No allocation while the number of agents stays within what was
 /// seen before.
 void prepare_tick(const Model& model, const Scene& scene, Workers& workers, TickGeometry& geometry);
+
+/// The row's outline about its position in world axes, with the margins that avoidance keeps.
+ConvexPolygon guarded_polygon(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                              std::size_t row);
+
+/// Depth of the overlap of two rows' bare outlines [m]; <= 0 where they are apart.
+double overlap_depth(const Scene& scene, const TickGeometry& geometry, std::size_t row,
+                     std::size_t other);
 
 }  // namespace sumogamma

@@ -22,8 +22,7 @@ void OverlapRecord::update(const Scene& scene, const TickGeometry& geometry, Wor
           scene.position[row], own + largest, [&](std::uint32_t other, double square) {
             const double reach = own + scene.footprint[other].radius;
             if (other <= row || square > reach * reach) return;
-            const double depth = overlap_depth(geometry.body[row], geometry.body[other],
-                                               scene.position[other] - scene.position[row]);
+            const double depth = overlap_depth(scene, geometry, row, other);
             if (depth > kTouching)
               found_[worker].push_back({static_cast<std::uint32_t>(row), other, depth});
           });

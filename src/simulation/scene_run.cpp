@@ -105,6 +105,18 @@ struct Standstill {
   std::vector<char> stuck;
 
   explicit Standstill(std::size_t rows) : time(rows, 0.0), stuck(rows, 0) {}
+
+  /// Share of those that want to move at all: a parked agent isn't stuck.
+  double share_of_movers(const Scene& scene) const {
+    std::size_t movers = 0, held = 0;
+    for (std::size_t row = 0; row < scene.size(); ++row) {
+      if (scene.preferred_speed[row] < kStuckSpeed) continue;
+      ++movers;
+      held += stuck[row] != 0;
+    }
+    return movers > 0 ? static_cast<double>(held) / static_cast<double>(movers) : 0.0;
+  }
+
   void update(const Scene& scene, double dt) {
     for (std::size_t row = 0; row < scene.size(); ++row) {
       time[row] = scene.velocity[row].norm() < kStuckSpeed ? time[row] + dt : 0.0;
@@ -135,6 +147,7 @@ SceneReport run_scene(const SceneFile& file, const ModelOptions& options, std::s
   model.types = file.types;
   model.kinematics = build_kinematic_tables(file.types, workers);
   model.options = options;
+  model.options.step = dt;
   Scene scene = file.scene;
   const std::size_t rows = scene.size();
 
@@ -186,8 +199,7 @@ SceneReport run_scene(const SceneFile& file, const ModelOptions& options, std::s
   report.overlap_share_of_agent_steps =
       share(static_cast<double>(overlaps.agent_steps()), agent_steps);
   report.progress_mean = mean_progress(file, scene, dt * static_cast<double>(steps));
-  report.stuck_share = share(
-      static_cast<double>(std::count(standstill.stuck.begin(), standstill.stuck.end(), 1)), agents);
+  report.stuck_share = standstill.share_of_movers(scene);
   report.infeasible_share = share(static_cast<double>(total.infeasible), agent_steps);
   report.reversal_share = share(static_cast<double>(total.reversals), wheeled);
   report.kinematics_violation_share = share(static_cast<double>(total.outside_kinematics), wheeled);
