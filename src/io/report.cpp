@@ -123,12 +123,14 @@ std::string html_row(std::span<const RunColumn> runs, const std::string& key,
     if (const RunColumn::Value* value = find_value(run, key); value && value->is_number)
       largest = std::max(largest, std::abs(value->number));
   const RunColumn::Value* first = find_value(runs.front(), key);
+  // seed, step and the like are settings: nothing to compare
+  const bool compared = key.find('.') != std::string::npos;
   std::string row = "<tr><th title=\"" + escape_html(key) + "\">" + escape_html(label) + "</th>";
   for (const RunColumn& run : runs) {
     const RunColumn::Value* value = find_value(run, key);
     if (!value)
       row += "<td class=\"none\" colspan=\"2\">–</td>";
-    else if (value->is_number)
+    else if (value->is_number && compared)
       row += number_cell(*value, largest, value == first ? nullptr : first);
     else
       row += "<td class=\"text\" colspan=\"2\">" + escape_html(value->text) + "</td>";
@@ -197,14 +199,17 @@ std::string report_csv(std::span<const RunColumn> runs) {
 }
 
 std::string report_html(std::span<const RunColumn> runs) {
+  std::string columns = "<col class=\"key\">";
+  for (std::size_t i = 0; i < runs.size(); ++i) columns += "<col><col class=\"bars\">";
   std::string head = "<tr><th></th>";
   for (const RunColumn& run : runs) head += "<th colspan=\"2\">" + escape_html(run.name) + "</th>";
   head += "</tr>\n";
   std::string sections, section = "run", rows;
   auto close_section = [&] {
     if (!rows.empty())
-      sections += "<section>\n<h2>" + escape_html(section) + "</h2>\n<table>\n<thead>" + head +
-                  "</thead>\n<tbody>\n" + rows + "</tbody>\n</table>\n</section>\n";
+      sections += "<section>\n<h2>" + escape_html(section) + "</h2>\n<table>\n" + columns +
+                  "<thead>" + head + "</thead>\n<tbody>\n" + rows +
+                  "</tbody>\n</table>\n</section>\n";
     rows.clear();
   };
   for (const std::string& key : all_keys(runs)) {

@@ -34,7 +34,7 @@ void SmoothnessMonitor::add_agent(const Scene& scene, std::size_t row, const Age
   next.ticks = std::min(state.ticks + 1, 3);
   next.position = scene.position[row];
   next.heading = scene.heading[row];
-  next.speed = speed;
+  next.speed = state.ticks > 0 ? speed : 0.0;
   next.backward = state.backward;
   if (state.ticks >= 1) {
     const bool moving = std::abs(speed) > kMoving || std::abs(state.speed) > kMoving;

@@ -1,0 +1,125 @@
+#include "io/config.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+
+namespace sumogamma {
+namespace {
+
+class Config : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    file_ = std::filesystem::temp_directory_path() /
+            ("sumogamma_config_" + std::to_string(getpid()) + ".toml");
+  }
+  void TearDown() override { std::filesystem::remove(file_); }
+
+  ScenarioConfig read(const std::string& content, const std::vector<std::string>& overrides = {}) {
+    std::ofstream(file_) << content;
+    return read_config(file_, overrides);
+  }
+  std::string complaint(const std::string& content,
+                        const std::vector<std::string>& overrides = {}) {
+    try {
+      read(content, overrides);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  static const AgentType& type(const ScenarioConfig& config, const char* name) {
+    return type_of(config.types, find_agent_type(config.types, name));
+  }
+
+  std::filesystem::path file_;
+};
+
+TEST_F(Config, DefaultsWithoutAFile) {
+  const ScenarioConfig config = read_config("");
+  EXPECT_EQ(config.agents, 100);
+  EXPECT_EQ(config.types.size(), default_agent_types().size());
+}
+
+TEST_F(Config, ReadsEverySection) {
+  const ScenarioConfig config = read(R"(
+[scenario]
+name = "Monaco"
+[run]
+agents = 250
+duration = 90
+step = 0.1
+[model]
+use_polygons = false
+pair_horizon = "longest"
+[types.car]
+headway = 1.5
+)");
+  EXPECT_EQ(config.name, "Monaco");
+  EXPECT_EQ(config.agents, 250);
+  EXPECT_DOUBLE_EQ(config.duration, 90);
+  EXPECT_FALSE(config.model.use_polygons);
+  EXPECT_EQ(config.model.pair_horizon, PairHorizon::Longest);
+  EXPECT_DOUBLE_EQ(type(config, "car").headway, 1.5);
+  EXPECT_DOUBLE_EQ(type(config, "car").length, 4.5);
+}
+
+TEST_F(Config, AddsATypeFromABase) {
+  const ScenarioConfig config =
+      read("[types.rickshaw]\nbase = \"electric_tricycle\"\nlength = 2.9\n");
+  EXPECT_EQ(config.types.size(), default_agent_types().size() + 1);
+  EXPECT_DOUBLE_EQ(type(config, "rickshaw").length, 2.9);
+  EXPECT_EQ(type(config, "rickshaw").sumo_class, type(config, "electric_tricycle").sumo_class);
+}
+
+TEST_F(Config, OverridesWinInOrder) {
+  const ScenarioConfig config =
+      read("[run]\nagents = 10\n",
+           {"run.agents=20", "run.agents=30", "types.car.min_gap=2", "run.control=none"});
+  EXPECT_EQ(config.agents, 30);
+  EXPECT_DOUBLE_EQ(type(config, "car").min_gap, 2.0);
+  EXPECT_EQ(config.control, "none");
+}
+
+TEST_F(Config, UnknownKeysNameFileLineAndNearest) {
+  const std::string what = complaint("[run]\nagents = 10\n\n[types.car]\nheadwy = 1\n");
+  EXPECT_NE(what.find(file_.string() + ":5"), std::string::npos) << what;
+  EXPECT_NE(what.find("'types.car.headwy'"), std::string::npos) << what;
+  EXPECT_NE(what.find("'types.car.headway'"), std::string::npos) << what;
+  EXPECT_NE(complaint("", {"run.agent=3"}).find("'run.agents'"), std::string::npos);
+  EXPECT_NE(complaint("agents = 3").find("'run.agents'"), std::string::npos);
+}
+
+TEST_F(Config, WrongValuesAreRefused) {
+  EXPECT_NE(complaint("[run]\nagents = \"many\"").find("whole number"), std::string::npos);
+  EXPECT_NE(complaint("[run]\nagents = 0").find("at least 1"), std::string::npos);
+  EXPECT_NE(complaint("[run]\nstep = 0").find("above 0"), std::string::npos);
+  EXPECT_NE(complaint("[run]\nstep = nan").find("above 0"), std::string::npos);
+  EXPECT_NE(complaint("[run]\nstep = inf").find("above 0"), std::string::npos);
+  EXPECT_NE(complaint("[model]\nuse_polygons = 1").find("true or false"), std::string::npos);
+  EXPECT_NE(
+      complaint("[model]\npair_horizon = \"middle\"").find("\"own\", \"shortest\", \"longest\""),
+      std::string::npos);
+  EXPECT_NE(complaint("[scenario]\nname = 3").find("text"), std::string::npos);
+  EXPECT_NE(complaint("[types.car]\nlength = -4").find("above 0"), std::string::npos);
+  EXPECT_NE(complaint("[types.tank]\nlength = 7").find("base"), std::string::npos);
+  EXPECT_NE(complaint("[types.tank]\nbase = \"lorry\"").find("lorry"), std::string::npos);
+  EXPECT_NE(complaint("[types.car]\nbase = \"van\"").find("exists already"), std::string::npos);
+  EXPECT_NE(complaint("types = 3").find("table"), std::string::npos);
+  EXPECT_NE(complaint("run = 3").find("unknown key 'run'"), std::string::npos);
+}
+
+TEST_F(Config, BrokenTomlNamesItsLine) {
+  EXPECT_NE(complaint("[run]\nagents = = 3\n").find(":2: not TOML"), std::string::npos);
+  EXPECT_THROW(read_config(file_.string() + ".absent"), Error);
+  EXPECT_THROW(read("", {"run.agents"}), Error);
+  EXPECT_THROW(read("", {"=3"}), Error);
+  EXPECT_THROW(read("", {"a b c=3"}), Error);
+}
+
+}  // namespace
+}  // namespace sumogamma

@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+
+#include "study/flow_metrics.h"
+#include "support/small_net.h"
+
+namespace sumogamma {
+namespace {
+
+constexpr double kStep = 0.1;
+
+class Flow : public ::testing::Test {
+ protected:
+  Flow() { road_.signal_states = {"Gr"}; }
+
+  std::size_t add(const char* type, const Vec2& position, const char* lane = nullptr,
+                  double along = 0) {
+    AgentState agent;
+    agent.id = AgentId{next_++};
+    agent.type = find_agent_type(types_, type);
+    agent.footprint = box_footprint(4, 2);
+    agent.position = position;
+    append_agent(scene_, agent);
+    if (lane) scene_.lane.back() = {net_.lane_by_name.at(lane), along, 0};
+    return scene_.size() - 1;
+  }
+  void run(double seconds) {
+    for (int tick = 0; tick < static_cast<int>(seconds / kStep + 0.5); ++tick) {
+      scene_.time += kStep;
+      for (std::size_t row = 0; row < scene_.size(); ++row)
+        scene_.position[row] += kStep * scene_.velocity[row];
+      monitor_.add(scene_, types_, road_);
+    }
+  }
+
+  RoadNetwork net_ = testing::small_net();
+  AgentTypeTable types_ = default_agent_types();
+  RoadState road_;
+  Scene scene_;
+  FlowMonitor monitor_{kStep, net_};
+  std::uint32_t next_ = 0;
+};
+
+TEST_F(Flow, SpeedAndDistance) {
+  const std::size_t row = add("car", {0, 0});
+  scene_.velocity[row] = {10, 0};
+  add("pedestrian", {0, 5});
+  run(20);
+  const FlowResult result = monitor_.result(types_);
+  EXPECT_NEAR(result.mean_speed, 5.0, 1e-9);
+  EXPECT_NEAR(result.mean_speed_by_type.at("car"), 10.0, 1e-9);
+  EXPECT_NEAR(result.distance_km, 0.199, 1e-9);  // the first tick has no predecessor
+  EXPECT_NEAR(result.waiting_time_mean_s, 0, 1e-9);
+}
+
+TEST_F(Flow, WaitingTimeIsPerVehicle) {
+  add("car", {0, 0});
+  const std::size_t row = add("car", {50, 0});
+  scene_.velocity[row] = {5, 0};
+  add("pedestrian", {0, 5});
+  run(10);
+  EXPECT_NEAR(monitor_.result(types_).waiting_time_mean_s, 5.0, 1e-6);
+}
+
+TEST_F(Flow, StuckAfterAMinute) {
+  add("car", {50, 0}, "out_0", 30);
+  run(59);
+  EXPECT_EQ(monitor_.result(types_).stuck_agents, 0u);
+  run(2);
+  EXPECT_EQ(monitor_.result(types_).stuck_agents, 1u);
+  ASSERT_EQ(monitor_.stuck().size(), 1u);
+  EXPECT_NEAR(monitor_.stuck()[0].since, 0, 1e-6);
+  EXPECT_EQ(monitor_.stuck()[0].lane, net_.lane_by_name.at("out_0"));
+  EXPECT_FALSE(monitor_.stuck()[0].moved_on);
+  EXPECT_EQ(monitor_.stuck_now(), 1u);
+  scene_.velocity[0] = {3, 0};
+  run(1);
+  EXPECT_TRUE(monitor_.stuck()[0].moved_on);
+  EXPECT_EQ(monitor_.stuck_now(), 0u);
+  scene_.velocity[0] = {0, 0};
+  run(70);
+  EXPECT_EQ(monitor_.result(types_).stuck_agents, 1u) << "an agent is counted once";
+  EXPECT_EQ(monitor_.stuck().size(), 2u) << "each standstill is listed";
+}
+
+TEST_F(Flow, ARedLightSuspendsTheCountButDoesNotResetIt) {
+  add("car", {50, 0}, "in_1", 50);
+  road_.signal_states = {"rr"};
+  run(300);
+  EXPECT_EQ(monitor_.result(types_).stuck_agents, 0u);
+  EXPECT_EQ(monitor_.result(types_).longest_standstill_s, 0);
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    road_.signal_states = {"Gr"};
+    run(25);
+    road_.signal_states = {"rr"};
+    run(30);
+  }
+  EXPECT_EQ(monitor_.result(types_).stuck_agents, 1u) << "75 s of green without moving";
+}
+
+TEST_F(Flow, PlannedHaltsAndSignalsOfTheModelExcuse) {
+  const std::size_t row = add("bus", {50, 0}, "out_0", 30);
+  scene_.context[row].active = true;
+  scene_.context[row].reason = LimitReason::Stop;
+  run(120);
+  EXPECT_EQ(monitor_.result(types_).stuck_agents, 0u);
+  scene_.context[row].reason = LimitReason::Leader;
+  scene_.context[row].foe = 7;
+  run(61);
+  ASSERT_EQ(monitor_.stuck().size(), 1u);
+  EXPECT_EQ(monitor_.stuck()[0].reason, LimitReason::Leader);
+  EXPECT_EQ(monitor_.stuck()[0].foe, 7);
+}
+
+TEST_F(Flow, PedestriansWaitWhereAllTheirCrossingsAreRed) {
+  add("pedestrian", {99, 3}, ":C_w0_0", 0);
+  road_.signal_states = {"Gr"};
+  run(100);
+  EXPECT_EQ(monitor_.result(types_).stuck_agents, 0u);
+  road_.signal_states = {"rG"};
+  run(61);
+  EXPECT_EQ(monitor_.result(types_).stuck_agents, 1u);
+}
+
+TEST_F(Flow, LeavingAgentsAreForgotten) {
+  add("car", {50, 0}, "out_0", 30);
+  run(50);
+  remove_agents(scene_, {true});
+  add("car", {50, 0}, "out_0", 30);
+  run(50);
+  EXPECT_EQ(monitor_.result(types_).stuck_agents, 0u);
+}
+
+TEST(RedLights, LookThroughUnsignalledLanes) {
+  // in -> C shows red; a lane before it would see it, the lane behind the junction doesn't
+  const RoadNetwork net = testing::small_net();
+  RedLights lights(net);
+  RoadState road;
+  road.signal_states = {"rr"};
+  lights.update(road);
+  EXPECT_TRUE(lights.ahead(net.lane_by_name.at("in_1")));
+  EXPECT_FALSE(lights.ahead(net.lane_by_name.at(":C_0_0")));
+  EXPECT_FALSE(lights.ahead(net.lane_by_name.at("back_in_0")));
+  EXPECT_FALSE(lights.ahead(kNoLane));
+  road.signal_states = {"Gr"};
+  lights.update(road);
+  EXPECT_FALSE(lights.ahead(net.lane_by_name.at("in_1")));
+}
+
+}  // namespace
+}  // namespace sumogamma

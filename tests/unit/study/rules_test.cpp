@@ -1,0 +1,224 @@
+#include <gtest/gtest.h>
+
+#include "base/units.h"
+#include "study/rule_metrics.h"
+#include "support/small_net.h"
+
+namespace sumogamma {
+namespace {
+
+constexpr double kStep = 0.1;
+
+class Rules : public ::testing::Test {
+ protected:
+  Rules() { road_.signal_states = {"Gr"}; }
+
+  void add(const char* type, const Vec2& position, const Vec2& velocity) {
+    AgentState agent;
+    agent.id = AgentId{next_++};
+    agent.type = find_agent_type(types_, type);
+    agent.footprint =
+        box_footprint(type_of(types_, agent.type).length, type_of(types_, agent.type).width);
+    agent.position = position;
+    agent.heading = heading_of(velocity);
+    agent.speed = velocity.norm();
+    append_agent(scene_, agent);
+  }
+  void run(double seconds) {
+    for (int tick = 0; tick < static_cast<int>(seconds / kStep + 0.5); ++tick) {
+      scene_.time += kStep;
+      for (std::size_t row = 0; row < scene_.size(); ++row)
+        scene_.position[row] += kStep * scene_.velocity[row];
+      monitor_.add(scene_, types_, road_);
+      events_ += monitor_.new_events().size();
+    }
+  }
+  RuleCounts counts() const { return monitor_.result(types_).all; }
+
+  RoadNetwork net_ = testing::small_net();
+  LaneLocator locator_{net_};
+  AgentTypeTable types_ = default_agent_types();
+  RoadState road_;
+  Scene scene_;
+  RuleMonitor monitor_{kStep, net_, locator_};
+  std::uint32_t next_ = 0;
+  std::size_t events_ = 0;
+};
+
+TEST_F(Rules, PassingGreenIsNoOffence) {
+  add("car", {70, 0}, {10, 0});
+  run(5);
+  EXPECT_EQ(counts().red_light_crossings, 0u);
+  EXPECT_EQ(counts().signal_crossings, 1u);
+}
+
+TEST_F(Rules, PassingRedIsOneOffence) {
+  road_.signal_states = {"rr"};
+  add("car", {70, 0}, {10, 0});
+  run(5);
+  EXPECT_EQ(counts().red_light_crossings, 1u);
+  EXPECT_EQ(monitor_.result(types_).by_type.at("car").red_light_crossings, 1u);
+  EXPECT_EQ(events_, 1u);
+}
+
+TEST_F(Rules, AmberIsNoOffence) {
+  road_.signal_states = {"yr"};
+  add("car", {70, 0}, {10, 0});
+  run(5);
+  EXPECT_EQ(counts().red_light_crossings, 0u);
+}
+
+TEST_F(Rules, StoppingBeforeTheLineIsNoOffence) {
+  road_.signal_states = {"rr"};
+  add("car", {92.0, 0}, {0, 0});
+  run(5);
+  EXPECT_EQ(counts().signal_crossings, 0u);
+}
+
+TEST_F(Rules, TheUnsignalledDirectionIsFree) {
+  road_.signal_states = {"rr"};
+  add("car", {130, -3.2}, {-10, 0});
+  run(5);
+  EXPECT_EQ(counts().signal_crossings, 0u);
+}
+
+TEST_F(Rules, ALightThatTurnsRedWithinTheStepIsNobodysFault) {
+  add("car", {70, 0}, {10, 0});
+  // the front (2.25 m ahead) stands at 94.25 after 2.2 s and at 95.25 after 2.3 s
+  run(2.2);
+  road_.signal_states = {"rr"};
+  run(3);
+  EXPECT_EQ(counts().signal_crossings, 1u);
+  EXPECT_EQ(counts().red_light_crossings, 0u);
+}
+
+TEST_F(Rules, CrossingTheBridgeIsNotRunningTheRed) {
+  road_.signal_states = {"rr"};
+  add("car", {50, -30}, {0, 10});
+  run(6);
+  EXPECT_EQ(counts().signal_crossings, 0u);
+  EXPECT_EQ(counts().wrong_way_s, 0);
+  EXPECT_EQ(counts().off_road_s, 0);
+}
+
+TEST_F(Rules, PedestrianOnRedAndOnGreen) {
+  add("pedestrian", {101, 3.5}, {0, -1.3});
+  run(8);
+  EXPECT_EQ(counts().red_light_crossings, 1u);
+  EXPECT_EQ(counts().signal_crossings, 1u);
+  road_.signal_states = {"rG"};
+  add("pedestrian", {101, 3.5}, {0, -1.3});
+  run(8);
+  EXPECT_EQ(counts().red_light_crossings, 1u);
+  EXPECT_EQ(counts().signal_crossings, 2u);
+}
+
+TEST_F(Rules, PedestrianGrazingTheCornerOfACrossing) {
+  add("pedestrian", {98, 1.8}, {1.3, 0});
+  run(4);
+  EXPECT_EQ(counts().signal_crossings, 0u);
+}
+
+TEST_F(Rules, WrongWayNeedsALaneAgainstAndNoneWith) {
+  add("car", {80, 0}, {-5, 0});
+  run(2);
+  EXPECT_NEAR(counts().wrong_way_s, 2.0, 1e-9);
+  scene_ = Scene{};
+  add("car", {80, -3.2}, {-5, 0});
+  run(2);
+  EXPECT_NEAR(counts().wrong_way_s, 2.0, 1e-9) << "its own lane";
+}
+
+TEST_F(Rules, CrossingALaneSidewaysIsNotWrongWay) {
+  add("car", {20, -6}, {0, 5});
+  run(2);
+  EXPECT_EQ(counts().wrong_way_s, 0);
+  EXPECT_GT(counts().off_road_s, 0);
+}
+
+TEST_F(Rules, CreepingBackIsNotWrongWay) {
+  add("car", {80, 0}, {-0.4, 0});
+  run(2);
+  EXPECT_EQ(counts().wrong_way_s, 0);
+}
+
+TEST_F(Rules, OffRoadAndSidewalk) {
+  add("car", {20, 30}, {0, 0});
+  run(1);
+  EXPECT_NEAR(counts().off_road_s, 1.0, 1e-9);
+  add("car", {20, 2.6}, {0, 0});
+  add("bicycle", {40, 2.6}, {0, 0});
+  add("pedestrian", {60, 2.6}, {0, 0});
+  run(1);
+  EXPECT_NEAR(counts().off_road_s, 2.0, 1e-9);
+  EXPECT_NEAR(counts().sidewalk_by_vehicle_s, 1.0, 1e-9)
+      << "the car alone: a bicycle is no motor vehicle";
+  EXPECT_NEAR(monitor_.result(types_).by_type.at("car").sidewalk_by_vehicle_s, 1.0, 1e-9);
+}
+
+TEST_F(Rules, ACarOnACrossingIsOnTheRoad) {
+  add("car", {101, 0}, {0, 0});
+  run(1);
+  EXPECT_EQ(counts().sidewalk_by_vehicle_s, 0);
+  EXPECT_EQ(counts().off_road_s, 0);
+}
+
+TEST_F(Rules, ATeleportPassesNothing) {
+  road_.signal_states = {"rr"};
+  add("car", {90, 0}, {0, 0});
+  run(0.2);
+  scene_.position[0] = {150, 0};
+  run(0.2);
+  EXPECT_EQ(counts().signal_crossings, 0u);
+}
+
+// T junction: one lane, right turn green, straight on red. Judged by where the car goes.
+constexpr const char* kFork = R"xml(<net version="1.9">
+  <edge id=":J_0" function="internal"><lane id=":J_0_0" index="0" speed="9" length="10" shape="50,0 60,0"/></edge>
+  <edge id=":J_1" function="internal"><lane id=":J_1_0" index="0" speed="9" length="10" shape="50,0 55,-2 55,-10"/></edge>
+  <edge id="a" from="A" to="J"><lane id="a_0" index="0" speed="9" length="50" shape="0,0 50,0"/></edge>
+  <edge id="b" from="J" to="B"><lane id="b_0" index="0" speed="9" length="50" shape="60,0 110,0"/></edge>
+  <edge id="c" from="J" to="D"><lane id="c_0" index="0" speed="9" length="50" shape="55,-10 55,-60"/></edge>
+  <junction id="A" type="dead_end" x="0" y="0" incLanes="" intLanes="" shape="0,0 0,1"/>
+  <junction id="B" type="dead_end" x="110" y="0" incLanes="b_0" intLanes="" shape="0,0 0,1"/>
+  <junction id="D" type="dead_end" x="55" y="-60" incLanes="c_0" intLanes="" shape="0,0 0,1"/>
+  <junction id="J" type="traffic_light" x="55" y="0" incLanes="a_0" intLanes=":J_0_0 :J_1_0" shape="50,2 60,2 60,-10 50,-10">
+    <request index="0" response="00" foes="00" cont="0"/><request index="1" response="00" foes="00" cont="0"/>
+  </junction>
+  <connection from="a" to="b" fromLane="0" toLane="0" via=":J_0_0" tl="J" linkIndex="0" dir="s" state="o"/>
+  <connection from="a" to="c" fromLane="0" toLane="0" via=":J_1_0" tl="J" linkIndex="1" dir="r" state="o"/>
+</net>)xml";
+
+class Fork : public ::testing::TestWithParam<bool> {};
+
+TEST_P(Fork, MixedLightsAreJudgedByTheTurnTaken) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() /
+                                     ("sumogamma_fork_" + std::to_string(getpid()) + ".net.xml");
+  std::ofstream(file) << kFork;
+  const RoadNetwork net = read_sumo_net(file);
+  std::filesystem::remove(file);
+  const LaneLocator locator(net);
+  RuleMonitor monitor(kStep, net, locator);
+  const AgentTypeTable types = default_agent_types();
+  RoadState road;
+  road.signal_states = {"rG"};
+  Scene scene;
+  AgentState agent;
+  agent.type = find_agent_type(types, "car");
+  agent.footprint = box_footprint(4.5, 1.8);
+  append_agent(scene, agent);
+  for (double s = 30; s < 90; s += 1.0) {
+    scene.time += kStep;
+    const bool turned = GetParam() && s > 55;
+    scene.position[0] = turned ? Vec2(55, 55 - s) : Vec2(s, 0);
+    scene.heading[0] = turned ? -kPi / 2 : 0.0;
+    scene.velocity[0] = 10 * direction_of(scene.heading[0]);
+    monitor.add(scene, types, road);
+  }
+  EXPECT_EQ(monitor.result(types).all.signal_crossings, 1u);
+  EXPECT_EQ(monitor.result(types).all.red_light_crossings, GetParam() ? 0u : 1u);
+}
+INSTANTIATE_TEST_SUITE_P(TurnsOrNot, Fork, ::testing::Bool());
+
+}  // namespace
+}  // namespace sumogamma
