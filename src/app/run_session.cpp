@@ -296,7 +296,7 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   const double simulated = static_cast<double>(sim->scene.tick) * plan.step;
   fill_timing(sim->times, seconds_since(start), simulated, results.timing);
   results.sumo_version = backend->version();
-  for (const std::string& warning : backend->take_warnings()) spdlog::warn("{}", warning);
+  for (const std::string& warning : backend->take_warnings()) spdlog::info("{}", warning);
   results.sumo_warnings = static_cast<std::uint64_t>(std::max(backend->sumo_warnings(), 0L));
   try {
     backend->close();

@@ -309,8 +309,8 @@ void measure(const RoadNetwork& road, const TypeWork& work, Trip& trip) {
   }
 }
 
-/// A walk that turns back on its own road: SUMO finds no way across the dead end, and nobody walks
-/// so.
+/// A trip that turns back on its own road. On foot SUMO finds no way across a dead end; on wheels it is a U-turn in a
+/// cut-off street that nobody would drive.
 bool turns_back(const RoadNetwork& road, const std::vector<std::string>& edges) {
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     const Edge &a = road.edge(road.edge_by_name.at(edges[i])),
@@ -340,7 +340,7 @@ void take_routes(const RoadNetwork& road, const std::filesystem::path& file,
         std::all_of(trip.edges.begin(), trip.edges.end(),
                     [&](const std::string& edge) { return road.edge_by_name.contains(edge); });
     if (trip.edges.size() < (work.walks ? 2u : 1u) || !known) continue;
-    if (work.walks && turns_back(road, trip.edges)) continue;
+    if (turns_back(road, trip.edges)) continue;
     measure(road, work, trip);
     work.routed.push_back(std::move(trip));
   }
