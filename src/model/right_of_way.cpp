@@ -77,8 +77,9 @@ struct Judge {
     const Occupation ours = occupation(own_type, own, zone.begin, zone.end, traveller.top_speed);
     const bool overlap = ours.begin < theirs.end + kTimeMargin && theirs.begin < ours.end + kTimeMargin;
     if (!overlap) return false;
-    if (foe_inside) return theirs.end + 0.3 > ours.begin;
-    if (!zone.yields) {
+    const bool waits_for_us = foe.stands && approaches.waiting(foe.row).foe == scene.id[traveller.row].value;
+    if (foe_inside && !waits_for_us) return theirs.end + 0.3 > ours.begin;
+    if (!zone.yields && !foe_inside) {
       // right of way, but nobody steps in front of a vehicle that can no longer stop
       const bool vulnerable = own_type.kinematics == Kinematics::Holonomic;
       const bool unstoppable = deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) > 0.7 * foe_type.max_deceleration;
