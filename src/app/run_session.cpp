@@ -179,6 +179,7 @@ class Observers {
     trajectories_.close();
     const AgentName name = name_of();
     write_file(output_ / "stuck.csv", stuck_csv(flow_.stuck(), sim_.model.types, sim_.model.road, name));
+    write_file(output_ / "offences.csv", offences_csv(rules_.offences(), sim_.model.types, name));
     if (replay_) {
       replay_->close();
       write_replay_page(output_ / "replay.html", output_ / "replay.bin");

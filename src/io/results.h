@@ -69,6 +69,22 @@ template <typename NameOf>
 std::string stuck_csv(const std::vector<StuckAgent>& stuck, const AgentTypeTable& types,
                       const RoadNetwork& network, NameOf&& name_of);
 
+/// offences.csv: one line an offence against a traffic rule.
+template <typename NameOf>
+std::string offences_csv(const std::vector<OffenceSpan>& offences, const AgentTypeTable& types,
+                         NameOf&& name_of) {
+  static constexpr const char* kNames[] = {"red_light", "wrong_way", "off_road", "sidewalk"};
+  std::string text = "agent,type,offence,x,y,since_s,duration_s\n";
+  char line[120];
+  for (const OffenceSpan& offence : offences) {
+    std::snprintf(line, sizeof line, "%s,%.2f,%.2f,%.2f,%.2f\n",
+                  kNames[static_cast<std::size_t>(offence.kind)], offence.position.x(),
+                  offence.position.y(), offence.since, offence.duration);
+    text += std::string(name_of(offence.id)) + ',' + type_of(types, offence.type).name + ',' + line;
+  }
+  return text;
+}
+
 /// Word for a reason: "signal", "leader", ...; "none" for None.
 const char* name_of_reason(LimitReason reason);
 

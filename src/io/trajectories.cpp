@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 
 #include "base/error.h"
@@ -96,7 +97,9 @@ void TrajectoryWriter::add(const Scene& scene, const AgentTypeTable& types,
   next_time_ = started_ ? std::max(next_time_ + period_, scene.time) : scene.time + period_;
   started_ = true;
   text_ += "    <timestep";
-  append_attribute(text_, "time", scene.time);
+  // hundredths as SUMO writes them, thousandths where the step needs them
+  const bool fine = std::llround(scene.time * 1000.0) % 10 != 0;
+  append_attribute(text_, "time", scene.time, fine ? 3 : 2);
   text_ += ">\n";
   for (const bool persons : {false, true})
     for (std::size_t row = 0; row < scene.size(); ++row) {

@@ -51,7 +51,7 @@ void RuleMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
     if (type.kinematics == Kinematics::Holonomic) {
       judge_crossing(agent, state, road);
     } else {
-      judge_ground(agent);
+      judge_ground(agent, state);
       if (state.known) judge_stop_line(agent, state, front, road);
       if (state.passed != kNoLane) judge_turn(agent, state);
     }
@@ -73,12 +73,30 @@ void RuleMonitor::find_lanes(const Row& agent, const Vec2& point,
   });
 }
 
-void RuleMonitor::judge_ground(const Row& agent) {
+void RuleMonitor::extend(Offence kind, const Row& agent, State& state) {
+  std::int32_t& index = state.span[static_cast<std::size_t>(kind)];
+  const double now = agent.scene.time;
+  if (index >= 0) {
+    OffenceSpan& span = offences_[static_cast<std::size_t>(index)];
+    if (now - span.since - span.duration < kPause) {
+      span.duration = now - span.since;
+      return;
+    }
+  }
+  index = static_cast<std::int32_t>(offences_.size());
+  offences_.push_back({kind, agent.scene.id[agent.row], agent.scene.type[agent.row],
+                       agent.scene.position[agent.row], now - step_, step_});
+}
+
+void RuleMonitor::judge_ground(const Row& agent, State& state) {
   const Vec2& center = agent.scene.position[agent.row];
   find_lanes(agent, center, hits_);
   const bool junction = locator_.on_junction(center);
   if (hits_.empty()) {
-    if (!junction) agent.counts.off_road_s += step_;
+    if (!junction) {
+      agent.counts.off_road_s += step_;
+      extend(Offence::OffRoad, agent, state);
+    }
     return;
   }
   const Vec2& velocity = agent.scene.velocity[agent.row];
@@ -98,9 +116,15 @@ void RuleMonitor::judge_ground(const Row& agent) {
         lane.kind != LaneKind::Crossing)
       on_walkway = true;
   }
-  if (against && !explained && !junction && speed > kMoving) agent.counts.wrong_way_s += step_;
+  if (against && !explained && !junction && speed > kMoving) {
+    agent.counts.wrong_way_s += step_;
+    extend(Offence::WrongWay, agent, state);
+  }
   const bool motor = vehicle_class_from_name(agent.type.sumo_class) & kMotor;
-  if (motor && on_walkway && !on_road) agent.counts.sidewalk_by_vehicle_s += step_;
+  if (motor && on_walkway && !on_road) {
+    agent.counts.sidewalk_by_vehicle_s += step_;
+    extend(Offence::Sidewalk, agent, state);
+  }
 }
 
 bool RuleMonitor::was_and_is_red(const Connection& connection, const RoadState& road) const {
@@ -109,6 +133,8 @@ bool RuleMonitor::was_and_is_red(const Connection& connection, const RoadState& 
 
 void RuleMonitor::record_red(const Row& agent, const Vec2& place, ConnectionId connection) {
   ++agent.counts.red_light_crossings;
+  offences_.push_back({Offence::RedLight, agent.scene.id[agent.row], agent.scene.type[agent.row],
+                       place, agent.scene.time, 0});
   new_events_.push_back({agent.scene.time, agent.scene.id[agent.row], place, connection});
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -30,7 +31,20 @@ struct RuleResult {
   std::map<std::string, RuleCounts> by_type;
 };
 
-/// A red light that was run: for the replay and for rules.csv.
+enum class Offence : std::uint8_t { RedLight, WrongWay, OffRoad, Sidewalk };
+
+/// One agent's offence from its beginning to its end, for offences.csv: where to look when a count
+/// surprises.
+struct OffenceSpan {
+  Offence kind = Offence::RedLight;
+  AgentId id;
+  AgentTypeId type{};
+  Vec2 position = Vec2::Zero();  ///< at its beginning [m]
+  double since = 0;              ///< [s]
+  double duration = 0;           ///< 0 for a red light [s]
+};
+
+/// A red light that was run: for the replay.
 struct RedLightEvent {
   double time = 0;
   AgentId id;
@@ -53,6 +67,7 @@ class RuleMonitor {
   static constexpr double kMoving = 0.5;   ///< [m/s]
   static constexpr double kEntered = 0.5;  ///< [m]
   static constexpr double kStorey = 2.5;   ///< [m]
+  static constexpr double kPause = 1.0;    ///< [s]
   static constexpr double kJudgement =
       30.0;  ///< a mixed stop line is dropped unjudged after so long [s]
 
@@ -64,6 +79,9 @@ class RuleMonitor {
   RuleResult result(const AgentTypeTable& types) const;
   /// Red lights run with the last add.
   const std::vector<RedLightEvent>& new_events() const { return new_events_; }
+  /// All offences so far, in order of their beginnings. Interruptions shorter than kPause don't end
+  /// one.
+  const std::vector<OffenceSpan>& offences() const { return offences_; }
 
  private:
   struct State {
@@ -73,7 +91,8 @@ class RuleMonitor {
     LaneId passed = kNoLane;       ///< vehicles: the lane with mixed lights whose end they passed
     double passed_at = 0;
     Vec2 passed_place = Vec2::Zero();
-    std::vector<ConnectionId> was_red;  ///< links of `passed` that showed red then
+    std::vector<ConnectionId> was_red;                 ///< links of `passed` that showed red then
+    std::array<std::int32_t, 4> span{-1, -1, -1, -1};  ///< by Offence: index of its last one
   };
   struct Row {  ///< what the judging of one agent needs
     const Scene& scene;
@@ -81,7 +100,8 @@ class RuleMonitor {
     const AgentType& type;
     RuleCounts& counts;
   };
-  void judge_ground(const Row& agent);
+  void judge_ground(const Row& agent, State& state);
+  void extend(Offence kind, const Row& agent, State& state);
   void judge_stop_line(const Row& agent, State& state, const Vec2& front, const RoadState& road);
   void judge_turn(const Row& agent, State& state);
   void judge_crossing(const Row& agent, State& state, const RoadState& road);
@@ -97,6 +117,7 @@ class RuleMonitor {
   std::vector<RuleCounts> by_type_;
   RoadState before_;  ///< signals of the previous tick
   std::vector<RedLightEvent> new_events_;
+  std::vector<OffenceSpan> offences_;
   std::vector<LaneHit> hits_, front_hits_;
 };
 

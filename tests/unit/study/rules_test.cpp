@@ -123,6 +123,9 @@ TEST_F(Rules, WrongWayNeedsALaneAgainstAndNoneWith) {
   add("car", {80, 0}, {-5, 0});
   run(2);
   EXPECT_NEAR(counts().wrong_way_s, 2.0, 1e-9);
+  ASSERT_EQ(monitor_.offences().size(), 1u);
+  EXPECT_EQ(monitor_.offences()[0].kind, Offence::WrongWay);
+  EXPECT_NEAR(monitor_.offences()[0].duration, 2.0, 1e-9);
   scene_ = Scene{};
   add("car", {80, -3.2}, {-5, 0});
   run(2);
