@@ -24,7 +24,7 @@ struct Course {
 /// Distance to the look-ahead sub-goal [m] (III-D): a body length and some, growing with speed.
 double look_ahead(const Course& course) {
   if (course.path.walking) return 1.2 + 0.6 * course.speed;
-  return course.half_length + 2.0 + 0.55 * course.speed;
+  return 0.6 * course.half_length + 1.8 + 0.5 * course.speed;
 }
 
 void set_geometry(const Scene& scene, const Course& course, RoadContext& context) {

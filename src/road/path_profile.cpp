@@ -48,7 +48,8 @@ void round_corners(double turning_radius, Path& path) {
   // mean over a window that shrinks towards the ends, by running sums
   std::vector<Vec2> sums(count + 2, Vec2::Zero());
   for (std::size_t i = 0; i <= count; ++i) sums[i + 1] = sums[i] + samples[i];
-  const auto half = static_cast<std::size_t>(0.9 * turning_radius / step);
+  // a right angle filtered over +-w turns with radius w / sqrt(2) at its tightest
+  const auto half = static_cast<std::size_t>(std::sqrt(2.0) * turning_radius / step);
   std::vector<Vec2> rounded(count + 1);
   std::vector<double> along(count + 1, 0.0);
   for (std::size_t i = 0; i <= count; ++i) {

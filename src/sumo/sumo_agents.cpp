@@ -45,7 +45,7 @@ std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& detail
   request.comfortable_deceleration = type.comfortable_deceleration;
   request.max_speed = details.max_speed > 0.0 ? std::min(details.max_speed, type.max_speed) : type.max_speed;
   request.speed_factor = details.speed_factor;
-  if (type.kinematics == Kinematics::SingleTrack) request.turning_radius = 1.15 * type.wheelbase / std::tan(type.max_steering);
+  if (type.kinematics == Kinematics::SingleTrack) request.turning_radius = 1.1 * type.wheelbase / std::tan(type.max_steering);
   const auto lane = network.lane_by_name.find(details.lane);
   if (lane != network.lane_by_name.end()) request.start_lane = lane->second;
   request.start_along = std::max(0.0, details.lane_position - (details.is_person ? 0.0 : 0.5 * details.length));
