@@ -24,25 +24,27 @@ struct ImportOptions {
   bool force = false;
 };
 
-double parse_number(const std::string& option, const std::string& text) {
+double parse_number(const std::string& option, const std::string& text,
+                    const std::string& expected) {
   double value = 0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    throw Error(option + " " + text, "is not a number");
+    throw Error(option + (text.empty() ? "" : " ") + text, "must be " + expected);
   return value;
 }
 
 long parse_agents(const std::string& text) {
-  const double value = parse_number("--agents", text);
+  const std::string expected = "a whole number from 1 to 1000000";
+  const double value = parse_number("--agents", text, expected);
   if (value < 1 || value > 1e6 || value != std::floor(value))
-    throw Error("--agents " + text, "must be a whole number from 1 to 1000000");
+    throw Error("--agents " + text, "must be " + expected);
   return static_cast<long>(value);
 }
 
 double parse_duration(const std::string& text) {
-  const double value = parse_number("--duration", text);
-  if (value <= 0 || value > 1e6)
-    throw Error("--duration " + text, "must be more than 0 and at most 1000000 s");
+  const std::string expected = "more than 0 and at most 1000000 s";
+  const double value = parse_number("--duration", text, expected);
+  if (value <= 0 || value > 1e6) throw Error("--duration " + text, "must be " + expected);
   return value;
 }
 
@@ -52,7 +54,8 @@ std::optional<osm::GeoBox> parse_box(const std::string& text) {
   std::vector<double> values;
   for (std::size_t start = 0; start <= text.size();) {
     const std::size_t comma = std::min(text.find(',', start), text.size());
-    values.push_back(parse_number(where + ": part", text.substr(start, comma - start)));
+    values.push_back(
+        parse_number(where + ": part", text.substr(start, comma - start), "a number of degrees"));
     start = comma + 1;
   }
   if (values.size() != 4) throw Error(where, "needs four numbers: W,S,E,N in degrees");
@@ -105,8 +108,6 @@ int run_import(const ImportOptions& options, const CommonOptions& common) {
 
   StagedFolder folder(options.folder, options.force);
   build.folder = folder.path();
-  build.work = folder.path() / "work";
-  std::filesystem::create_directory(build.work);
   const osm::BuildResult built = osm::build_network(build);
   if (built.stopped) return kExitInterrupted;
 
@@ -114,7 +115,8 @@ int run_import(const ImportOptions& options, const CommonOptions& common) {
   DemandRequest demand;
   demand.network = folder.path() / "net.net.xml";
   demand.routes = folder.path() / "demand.rou.xml";
-  demand.work = build.work;
+  demand.work = folder.path() / "work";
+  std::filesystem::create_directory(demand.work);
   demand.seed = common.seed;
   demand.agents = agents;
   demand.duration = duration;
@@ -137,7 +139,7 @@ int run_import(const ImportOptions& options, const CommonOptions& common) {
   report["demand"] = demand_report(made, demand);
   write_file(folder.path() / "import.json", report.dump(2) + "\n");
 
-  std::filesystem::remove_all(build.work);
+  std::filesystem::remove_all(demand.work);
   if (interrupted()) return kExitInterrupted;
   folder.commit();
   print_summary(built, made, options.folder);

@@ -103,19 +103,19 @@ std::string read_text(const std::filesystem::path& file) {
 /// Builds net.net.xml; false where it was stopped.
 bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result) {
   NetconvertRequest netconvert;
-  netconvert.prepared = request.work / "prepared.osm";
-  netconvert.network = request.folder / "net.net.xml";
-  netconvert.log = request.folder / "netconvert.log";
+  netconvert.folder = request.folder;
+  std::filesystem::create_directory(request.folder / "work");
+  const std::filesystem::path network = request.folder / netconvert.network;
   netconvert.projection = result.projection;
   netconvert.left_hand = result.left_hand;
   netconvert.layers = has_layers(map);
   netconvert.should_stop = request.should_stop;
-  write_prepared_osm(map, netconvert.prepared);
+  write_prepared_osm(map, request.folder / netconvert.prepared);
   result.command = run_netconvert(netconvert);
   if (result.command.empty()) return false;
   NetworkPatch patch;
-  patch.roundabouts = unmarked_roundabouts(netconvert.network, map);
-  patch.stop_types = stop_types(netconvert.network, find_stop_signs(map, kStopReach));
+  patch.roundabouts = unmarked_roundabouts(network, map);
+  patch.stop_types = stop_types(network, find_stop_signs(map, kStopReach));
   if (!patch.empty()) {
     if (patch_network(netconvert, patch).empty()) return false;
     for (const auto& ring : patch.roundabouts)
@@ -126,7 +126,8 @@ bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result
                      "junctions with stop signs, which netconvert does not read",
                      junction + " " + type);
   }
-  result.netconvert_messages = count_message_kinds(read_text(netconvert.log));
+  std::filesystem::remove_all(request.folder / "work");
+  result.netconvert_messages = count_message_kinds(read_text(request.folder / netconvert.log));
   return true;
 }
 

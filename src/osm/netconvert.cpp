@@ -1,5 +1,6 @@
 #include "osm/netconvert.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <pugixml.hpp>
@@ -25,6 +26,24 @@ std::string reason_of(const ProcessResult& result) {
   return errors.empty() ? last : errors;
 }
 
+/// Takes out netconvert's comment with the time of day, so that equal input gives equal bytes, and
+/// makes sure that the file is whole: netconvert does not notice a full disk.
+void strip_header(const std::filesystem::path& network) {
+  std::ifstream stream(network, std::ios::binary);
+  std::ostringstream whole;
+  whole << stream.rdbuf();
+  std::string text = whole.str();
+  if (text.find("</net>", text.size() - std::min<std::size_t>(text.size(), 64)) ==
+      std::string::npos)
+    throw Error(network.string(), "was written in part only: is the disk full?");
+  const std::size_t begin = text.find("<!-- generated on"), end = text.find("-->", begin);
+  if (begin != std::string::npos && end != std::string::npos) text.erase(begin, end + 3 - begin);
+  std::ofstream out(network, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw Error(network.string(), "cannot be written: is the disk full?");
+}
+
 std::vector<std::string> run(const NetconvertRequest& request, std::vector<std::string> arguments) {
   const std::filesystem::path program = find_program("netconvert");
   if (program.empty())
@@ -34,20 +53,24 @@ std::vector<std::string> run(const NetconvertRequest& request, std::vector<std::
   ProcessRequest process;
   process.arguments = arguments;
   process.environment = {{"SUMO_HOME", sumo_home().string()}};
+  process.folder = request.folder;
   process.time_limit = request.time_limit;
   process.should_stop = request.should_stop;
   const ProcessResult result = run_process(process);
 
-  std::ofstream log(request.log, std::ios::app | std::ios::binary);
+  const std::filesystem::path log_file = request.folder / request.log,
+                              network = request.folder / request.network;
+  std::ofstream log(log_file, std::ios::app | std::ios::binary);
   log << result.output << result.errors;
   log.close();
   if (result.stopped) return {};
-  if (!log) throw Error(request.log.string(), "cannot be written: is the disk full?");
-  if (!result.ok() || !std::filesystem::exists(request.network)) {
+  if (!result.ok() || !std::filesystem::exists(network)) {
     const std::string reason = reason_of(result);
     throw Error("netconvert",
                 describe_end(result, request.time_limit) + (reason.empty() ? "" : ": " + reason));
   }
+  if (!log) throw Error(log_file.string(), "cannot be written: is the disk full?");
+  strip_header(network);
   return arguments;
 }
 
@@ -69,9 +92,9 @@ std::vector<std::string> run_netconvert(const NetconvertRequest& request) {
       "--xml-validation",
       "never",
       "--osm-files",
-      request.prepared.string(),
+      request.prepared,
       "-o",
-      request.network.string(),
+      request.network,
       "-t",
       typemap + "osmNetconvert.typ.xml," + typemap + "osmNetconvertUrbanDe.typ.xml," + typemap +
           "osmNetconvertPedestrians.typ.xml," + typemap + "osmNetconvertBicycle.typ.xml",
@@ -145,22 +168,21 @@ void write_patch(const std::filesystem::path& network_file, const NetworkPatch& 
 
 std::vector<std::string> patch_network(const NetconvertRequest& request,
                                        const NetworkPatch& patch) {
-  const std::filesystem::path folder = request.prepared.parent_path();
-  const std::filesystem::path edge_file = folder / "patch.edg.xml",
-                              node_file = folder / "patch.nod.xml";
-  const std::filesystem::path unpatched = folder / "unpatched.net.xml";
-  write_patch(request.network, patch, edge_file, node_file);
-  std::filesystem::rename(request.network, unpatched);
+  const std::string edges = "work/patch.edg.xml", nodes = "work/patch.nod.xml",
+                    unpatched = "work/unpatched.net.xml";
+  write_patch(request.folder / request.network, patch, request.folder / edges,
+              request.folder / nodes);
+  std::filesystem::rename(request.folder / request.network, request.folder / unpatched);
   std::vector<std::string> arguments = {"--xml-validation",
                                         "never",
                                         "-s",
-                                        unpatched.string(),
+                                        unpatched,
                                         "-n",
-                                        node_file.string(),
+                                        nodes,
                                         "-e",
-                                        edge_file.string(),
+                                        edges,
                                         "-o",
-                                        request.network.string(),
+                                        request.network,
                                         "--offset.disable-normalization",
                                         "--junctions.corner-detail",
                                         "5",

@@ -11,9 +11,11 @@
 namespace sumogamma::osm {
 
 struct NetconvertRequest {
-  std::filesystem::path prepared;  ///< OSM XML
-  std::filesystem::path network;   ///< to write
-  std::filesystem::path log;       ///< netconvert's own words, appended
+  std::filesystem::path
+      folder;  ///< netconvert runs here: no path of this machine gets into the network
+  std::string prepared = "work/prepared.osm";  ///< OSM XML, within the folder
+  std::string network = "net.net.xml";         ///< to write
+  std::string log = "netconvert.log";          ///< netconvert's own words, appended
   std::string projection;
   bool left_hand = false;
   bool layers = false;  ///< give bridges and tunnels a height of 5 m a layer, so that traffic on

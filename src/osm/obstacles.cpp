@@ -178,9 +178,18 @@ std::vector<std::vector<Ring>> cut_out_lanes(const LaneClearing& clearing,
   return polygons;
 }
 
+bool turns_left(const Ring& ring) {
+  double twice_area = 0;
+  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
+    twice_area += ring[j].x() * ring[i].y() - ring[i].x() * ring[j].y();
+  return twice_area > 0;
+}
+
 /// Outer ring and courtyards as one ring: each courtyard is reached through a slit of no width.
 Ring join_courtyards(Ring outer, std::vector<Ring> courtyards) {
   for (Ring& inner : courtyards) {
+    // against the outer ring's sense, so that the courtyard is a hole by either fill rule
+    if (turns_left(inner) == turns_left(outer)) std::reverse(inner.begin(), inner.end());
     std::size_t from = 0, to = 0;
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < outer.size(); ++i)
