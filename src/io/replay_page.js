@@ -929,11 +929,13 @@ const rateIndex = [...$('rate').options].findIndex(option => option.value === wi
 if (rateIndex >= 0) setRate(rateIndex);
 setPaint(kPaints.includes(wish.get('paint')) ? wish.get('paint') : 'type');
 buildMarks();
-Object.assign(root.dataset, {state: times.length ? 'ready' : 'empty', steps: times.length, agents: agents.length, events: events.length});
-if (!times.length) $('notice').textContent = 'The recording holds no step.';
 if (times.length) {
   setPlaying(wish.get('play') !== '0');
   canvas.focus();
+  drawScene(performance.now());
   requestAnimationFrame(frame);
+} else {
+  $('notice').textContent = 'The recording holds no step.';
 }
+Object.assign(root.dataset, {state: times.length ? 'ready' : 'empty', steps: times.length, agents: agents.length, events: events.length});
 })();

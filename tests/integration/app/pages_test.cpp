@@ -1,0 +1,154 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "base/subprocess.h"
+#include "io/output_file.h"
+#include "io/replay.h"
+#include "io/results.h"
+#include "support/small_net.h"
+#include "support/synthetic_traffic.h"
+
+namespace sumogamma {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Pages : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("sumogamma_pages_" + std::to_string(getpid()));
+    fs::create_directories(folder_ / "run");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  ProcessResult program(std::vector<std::string> arguments) const {
+    ProcessRequest request;
+    request.arguments = std::move(arguments);
+    request.arguments.insert(request.arguments.begin(), SUMOGAMMA_PROGRAM);
+    request.time_limit = 60;
+    return run_process(request);
+  }
+
+  /// Ten seconds of boxes on the small network, with one collision marked.
+  void record() const {
+    const RoadNetwork net = testing::small_net();
+    testing::SyntheticTraffic traffic(net, 30, 0.05);
+    std::map<std::uint32_t, std::string> names;
+    ReplayRecorder recorder(folder_ / "run" / "replay.bin", "Small <town>", net, traffic.types);
+    const AgentName name = [&](AgentId id) -> std::string_view {
+      return names.try_emplace(id.value, testing::SyntheticTraffic::name_of(id)).first->second;
+    };
+    for (int tick = 0; tick < 200; ++tick) {
+      recorder.add(traffic.scene, &traffic.road, name);
+      if (tick == 60)
+        recorder.add_event(ReplayEventKind::Collision, 3.0, {20, 0}, AgentId{1}, AgentId{2});
+      traffic.advance();
+    }
+    recorder.close();
+  }
+
+  /// The page's document as headless Chromium has it after its scripts ran; complaints of the
+  /// scripts in `console`.
+  std::string dom_of(const fs::path& page, const std::string& wish, std::string& console) const {
+    ProcessRequest request;
+    request.arguments = {find_program("chromium").string(),
+                         "--headless",
+                         "--no-sandbox",
+                         "--disable-gpu",
+                         "--no-first-run",
+                         "--disable-background-networking",
+                         "--disable-component-update",
+                         "--disable-sync",
+                         "--user-data-dir=" + (folder_ / "chromium").string(),
+                         "--virtual-time-budget=5000",
+                         "--window-size=1200,800",
+                         "--enable-logging=stderr",
+                         "--dump-dom",
+                         "file://" + page.string() + "#" + wish};
+    request.time_limit = 120;
+    const ProcessResult result = run_process(request);
+    EXPECT_TRUE(result.ok()) << describe_end(result, request.time_limit);
+    for (std::size_t at = 0; (at = result.errors.find("CONSOLE", at)) != std::string::npos; ++at)
+      console += result.errors.substr(at, result.errors.find('\n', at) - at) + "\n";
+    return result.output;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Pages, ReplayPlaysInChromium) {
+  if (find_program("chromium").empty())
+    GTEST_SKIP() << "no chromium in PATH: the replay page was NOT tested in a browser";
+  record();
+  ASSERT_TRUE(program({"replay", (folder_ / "run").string()}).ok());
+  std::string console;
+  const std::string dom =
+      dom_of(folder_ / "run" / "replay.html", "play=0&t=4.5&theme=dark", console);
+  EXPECT_EQ(console, "");
+  EXPECT_NE(dom.find("data-state=\"ready\""), std::string::npos) << dom.substr(0, 400);
+  EXPECT_NE(dom.find("data-steps=\"100\""), std::string::npos) << "every second tick of 200";
+  EXPECT_NE(dom.find("data-agents=\"30\""), std::string::npos);
+  EXPECT_NE(dom.find("data-events=\"1\""), std::string::npos);
+  EXPECT_NE(dom.find("<b id=\"time\">0:04.5</b>"), std::string::npos) << "the link's time is shown";
+  EXPECT_NE(dom.find("Small &lt;town&gt;"), std::string::npos);
+  EXPECT_NE(dom.find("collision ›"), std::string::npos);
+}
+
+TEST_F(Pages, AnInterruptedRecordingPlaysToWhereItGot) {
+  if (find_program("chromium").empty())
+    GTEST_SKIP() << "no chromium in PATH: the replay page was NOT tested in a browser";
+  record();
+  const fs::path recording = folder_ / "run" / "replay.bin";
+  fs::resize_file(recording, fs::file_size(recording) * 3 / 4);
+  ASSERT_TRUE(program({"replay", (folder_ / "run").string()}).ok());
+  std::string console;
+  const std::string dom = dom_of(folder_ / "run" / "replay.html", "play=0", console);
+  EXPECT_NE(dom.find("data-state=\"ready\""), std::string::npos);
+  EXPECT_EQ(dom.find("data-steps=\"100\""), std::string::npos);
+}
+
+TEST_F(Pages, ReplayOfNothingIsBadInput) {
+  const ProcessResult result = program({"replay", (folder_ / "run").string()});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.errors.rfind("sumo-gamma: ", 0), 0u) << result.errors;
+  EXPECT_NE(result.errors.find("replay.bin"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "run" / "replay.html"));
+}
+
+TEST_F(Pages, ReportComparesRuns) {
+  write_results(folder_ / "run" / "results.json", RunResults{});
+  const std::string run = (folder_ / "run").string(), page = (folder_ / "report.html").string();
+  const ProcessResult result = program({"report", run, run, "-o", page});
+  EXPECT_TRUE(result.ok()) << result.errors;
+  EXPECT_NE(result.output.find("| flow.stuck_agents | 0 | 0 |"), std::string::npos);
+  EXPECT_NE(read_file(page).find("<h2>collisions</h2>"), std::string::npos);
+  EXPECT_NE(program({"report", run, "--csv"}).output.find("flow.stuck_agents,0\n"),
+            std::string::npos);
+  EXPECT_EQ(program({"report", (folder_ / "absent").string()}).exit_code, 2);
+  EXPECT_EQ(program({"report", run, "-o", "/dev/null/page.html"}).exit_code, 2);
+}
+
+TEST_F(Pages, VersionNamesEverything) {
+  const ProcessResult result = program({"version"});
+  EXPECT_TRUE(result.ok());
+  for (const char* name : {"sumo-gamma", "commit", "SUMO", "libosmium", "Eigen", "zlib"})
+    EXPECT_NE(result.output.find(name), std::string::npos) << name;
+}
+
+TEST_F(Pages, UsageErrorsAreOneLineAndTwo) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{}, {"fly"}, {"replay"}, {"report"}, {"version", "--nonsense"}}) {
+    const ProcessResult result = program(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.errors.rfind("sumo-gamma: ", 0), 0u) << result.errors;
+    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+  }
+}
+
+}  // namespace
+}  // namespace sumogamma
