@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -39,6 +40,17 @@ class CapturedErrors {
   std::ostringstream text_;
   std::streambuf* before_;
 };
+
+// SUMO's moveToXY (1.15, Vehicle.cpp) leaves its lane position uninitialised where no lane is
+// matched, as for a ghost, and then asserts that it is no NaN. What it finds there is what lay on
+// the stack, so zeros are laid there first: about 450 bytes below the caller's frame. The pointers
+// keep the dynamic linker's resolver from running in between.
+[[gnu::noinline, gnu::no_sanitize("address", "undefined")]] void clear_stack_below() {
+  volatile std::uint64_t zeros[128];
+  for (volatile std::uint64_t& word : zeros) word = 0;
+}
+auto* volatile move_vehicle = &libsumo::Vehicle::moveToXY;
+auto* volatile move_person = &libsumo::Person::moveToXY;
 
 // a getter of an agent that may have left: its value, or `otherwise`
 template <typename Value, typename Getter>
@@ -234,13 +246,16 @@ void LibsumoBackend::move(std::span<const SumoPose> poses, bool is_person, SumoS
   static const std::string kNoHint;
   for (const SumoPose& pose : poses) {
     const double angle = wrapped_degrees(pose.angle);
+    auto* const to_vehicle = move_vehicle;
+    auto* const to_person = move_person;
     try {
+      clear_stack_below();
       if (is_person) {
-        libsumo::Person::moveToXY(*pose.id, kNoHint, pose.position.x(), pose.position.y(), angle,
-                                  arguments.keep_route, arguments.match_threshold);
+        to_person(*pose.id, kNoHint, pose.position.x(), pose.position.y(), angle,
+                  arguments.keep_route, arguments.match_threshold);
       } else {
-        libsumo::Vehicle::moveToXY(*pose.id, kNoHint, -1, pose.position.x(), pose.position.y(),
-                                   angle, arguments.keep_route, arguments.match_threshold);
+        to_vehicle(*pose.id, kNoHint, 0, pose.position.x(), pose.position.y(), angle,
+                   arguments.keep_route, arguments.match_threshold);
       }
     } catch (const std::exception&) {
       result.lost.push_back(*pose.id);

@@ -45,8 +45,8 @@ void append_ghost(TraciWriter& message, const SumoPose& pose, bool is_person, Gh
   message.raw_byte(traci::kMoveToXy);
   message.raw_string(id);
   message.compound(is_person ? 6 : 7);
-  message.typed_string("");  // no hint of an edge
-  if (!is_person) message.typed_integer(-1);
+  message.typed_string("");                  // no hint of an edge
+  if (!is_person) message.typed_integer(0);  // its lane: of no edge
   message.typed_double(pose.position.x());
   message.typed_double(pose.position.y());
   message.typed_double(wrapped_degrees(pose.angle));
@@ -412,21 +412,23 @@ void TraciBackend::compose_step(std::span<const SumoPose> vehicles,
   for (const SumoPose& pose : vehicles) require_finite_pose(*pose.id, pose.position, pose.angle);
   for (const SumoPose& pose : persons) require_finite_pose(*pose.id, pose.position, pose.angle);
   message_.clear();
-  message_.append(queued_);
+  // ghosts first: what other commands leave on SUMO's stack is best not below them
+  // (docs/coupling.md, hazards)
   for (const SumoPose& pose : vehicles) append_ghost(message_, pose, false, vehicle_test_.mode());
   for (const SumoPose& pose : persons) append_ghost(message_, pose, true, person_test_.mode());
+  message_.append(queued_);
   message_.simulation_step();  // last: SUMO does not process what stands behind it reliably
 }
 
 void TraciBackend::read_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
                              SumoStep& result) {
   TraciReader reply = exchange(message_);
-  // what was queued concerned agents that may have left meanwhile: a refusal means nothing
-  for (std::size_t left = queued_.command_count(); left > 0; --left) reply.status();
-  queued_.clear();
   for (const std::span<const SumoPose> poses : {vehicles, persons})
     for (const SumoPose& pose : poses)
       if (!reply.status().ok()) result.lost.push_back(*pose.id);
+  // what was queued concerned agents that may have left meanwhile: a refusal means nothing
+  for (std::size_t left = queued_.command_count(); left > 0; --left) reply.status();
+  queued_.clear();
   const TraciStatus stepped = reply.status();
   if (stepped.command != traci::kSimulationStep)
     throw SumoError("SUMO", "an answer to another command over TraCI");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <set>
 
 #include "base/error.h"
@@ -169,7 +170,7 @@ TEST_P(Backends, APoseThatIsNotFiniteIsOurBug) {
   const std::string id = "v0";
   SumoPose pose{&id, Vec2(std::nan(""), 0), 0};
   EXPECT_THROW(sumo->step({&pose, 1}, {}, step), std::logic_error);
-  pose = {&id, Vec2(0, 0), INFINITY};
+  pose = {&id, Vec2(0, 0), std::numeric_limits<double>::infinity()};
   EXPECT_THROW(sumo->step({&pose, 1}, {}, step), std::logic_error);
   sumo->step({}, {}, step);  // nothing of it reached SUMO
 }
