@@ -20,7 +20,8 @@ namespace sumogamma {
 namespace {
 
 struct ImportOptions {
-  std::string map, folder, bbox, agents = "100", duration = "3600", side = "auto";
+  std::string map, folder, agents = "100", duration = "3600", side = "auto";
+  std::optional<std::string> bbox;
   bool force = false;
 };
 
@@ -48,9 +49,8 @@ double parse_duration(const std::string& text) {
   return value;
 }
 
-std::optional<osm::GeoBox> parse_box(const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  const std::string where = "--bbox " + text;
+osm::GeoBox parse_box(const std::string& text) {
+  const std::string where = text.empty() ? "--bbox" : "--bbox " + text;
   std::vector<double> values;
   for (std::size_t start = 0; start <= text.size();) {
     const std::size_t comma = std::min(text.find(',', start), text.size());
@@ -98,7 +98,7 @@ int run_import(const ImportOptions& options, const CommonOptions& common) {
   const double duration = parse_duration(options.duration);
   osm::BuildRequest build;
   build.map = options.map;
-  build.bbox = parse_box(options.bbox);
+  if (options.bbox) build.bbox = parse_box(*options.bbox);
   build.side = parse_side(options.side);
   build.should_stop = interrupted;
   if (!common.quiet)

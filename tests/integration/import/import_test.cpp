@@ -1,0 +1,364 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/random.h"
+#include "base/subprocess.h"
+#include "io/config.h"
+#include "road/sumo_net_reader.h"
+
+namespace sumogamma {
+namespace {
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const fs::path kFixtures = fs::path(SUMOGAMMA_SOURCE_DIR) / "tests/support/osm";
+const fs::path kMaps = fs::path(SUMOGAMMA_SOURCE_DIR) / "osm_maps";
+const fs::path kSharedMaps = fs::path(SUMOGAMMA_SHARED_DIR) / "data/maps";
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class ImportTest : public testing::Test {
+ protected:
+  ImportTest() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ =
+        fs::temp_directory_path() / ("import_" + std::to_string(getpid()) + "_" + info->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~ImportTest() override {
+    fs::permissions(folder_, fs::perms::owner_all);
+    fs::remove_all(folder_);
+  }
+
+  ProcessRequest request(std::vector<std::string> arguments) const {
+    ProcessRequest request;
+    request.arguments = {SUMOGAMMA_PROGRAM, "import"};
+    request.arguments.insert(request.arguments.end(), arguments.begin(), arguments.end());
+    request.time_limit = 300.0;
+    return request;
+  }
+  ProcessResult import(const fs::path& map, std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments = {map.string(), "-o", out().string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_process(request(arguments));
+  }
+  fs::path out() const { return folder_ / "out"; }
+  fs::path put(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+  /// Exit code 2, one line, nothing left behind.
+  void expect_refused(const ProcessResult& result, const std::string& words) const {
+    EXPECT_EQ(result.exit_code, 2) << describe_end(result, 0) << "\n" << result.errors;
+    EXPECT_EQ(result.signal, 0);
+    EXPECT_THAT(result.errors, HasSubstr("sumo-gamma: "));
+    EXPECT_THAT(result.errors, HasSubstr(words));
+    expect_nothing_left();
+  }
+  void expect_nothing_left() const {
+    for (const auto& entry : fs::directory_iterator(folder_))
+      EXPECT_FALSE(entry.is_directory()) << entry.path() << " was left behind";
+  }
+  /// Plain SUMO on what was made: exit code 0. `report` gets its statistics.
+  ProcessResult simulate(const std::string& end) const {
+    ProcessRequest sumo;
+    sumo.arguments = {"sumo",          "-c",  (out() / "scenario.sumocfg").string(), "--end", end,
+                      "--step-length", "0.5", "--duration-log.statistics",           "true"};
+    return run_process(sumo);
+  }
+  fs::path folder_;
+};
+
+TEST_F(ImportTest, MakesAWholeScenario) {
+  const ProcessResult result =
+      import(kFixtures / "signalled_crossing_right.osm", {"--agents", "30", "--duration", "120"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(out())) names.insert(entry.path().filename());
+  EXPECT_EQ(names,
+            (std::set<std::string>{"demand.rou.xml", "import.json", "net.net.xml", "netconvert.log",
+                                   "obstacles.add.xml", "scenario.sumocfg", "scenario.toml"}));
+  // the configuration that `run` reads, the report, and SUMO itself accept it
+  EXPECT_EQ(read_config(out() / "scenario.toml").agents, 30);
+  const auto report = nlohmann::json::parse(content(out() / "import.json"));
+  EXPECT_EQ(report["built"]["signals"], 1);
+  EXPECT_EQ(report["demand"]["agents"], 30);
+  EXPECT_EQ(simulate("120").exit_code, 0);
+  // no path of this machine in what a user may pass on
+  for (const std::string& name : names)
+    EXPECT_THAT(content(out() / name), testing::Not(HasSubstr(folder_.string()))) << name;
+}
+
+struct Place {
+  const char* map;
+  const char* fact;
+  double expected;
+};
+
+class FixtureTest : public ImportTest,
+                    public testing::WithParamInterface<std::tuple<Place, const char*>> {
+ protected:
+  FixtureTest() {
+    folder_ += std::string(std::get<0>(GetParam()).map) +
+               std::get<1>(GetParam());  // parameters share a name
+    fs::create_directories(folder_);
+  }
+};
+
+TEST_P(FixtureTest, IsBuiltOnItsSideAndRunsInSumo) {
+  const auto& [place, side] = GetParam();
+  const ProcessResult result = import(kFixtures / (std::string(place.map) + "_" + side + ".osm"),
+                                      {"--agents", "20", "--duration", "100"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto report = nlohmann::json::parse(content(out() / "import.json"));
+  EXPECT_EQ(report["left_hand"], std::string(side) == "left");
+  EXPECT_EQ(report["built"][place.fact], place.expected) << report["built"].dump(1);
+  EXPECT_EQ(read_sumo_net(out() / "net.net.xml").left_hand, std::string(side) == "left");
+  const ProcessResult sumo = simulate("100");
+  EXPECT_EQ(sumo.exit_code, 0) << sumo.errors;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Fixtures, FixtureTest,
+    testing::Combine(testing::Values(Place{"signalled_crossing", "signals", 1},
+                                     Place{"roundabout", "roundabout_junctions", 4},
+                                     Place{"two_way_stop", "crossings", 4},
+                                     Place{"zebra", "crossings", 1},
+                                     Place{"bridge", "car_components", 2},
+                                     Place{"square", "walk_components", 1}),
+                     testing::Values("right", "left")),
+    [](const auto& row) {
+      return std::string(std::get<0>(row.param).map) + "_" + std::get<1>(row.param);
+    });
+
+TEST_F(ImportTest, StopSignsRuleTheirJunction) {
+  ASSERT_EQ(
+      import(kFixtures / "two_way_stop_right.osm", {"--agents", "5", "--duration", "60"}).exit_code,
+      0);
+  const RoadNetwork road = read_sumo_net(out() / "net.net.xml");
+  EXPECT_EQ(road.junction(road.junction_by_name.at("1")).type, "priority_stop");
+}
+
+TEST_F(ImportTest, ABridgeIsAboveTheRoadBelow) {
+  ASSERT_EQ(import(kFixtures / "bridge_left.osm", {"--agents", "5", "--duration", "60"}).exit_code,
+            0);
+  const RoadNetwork road = read_sumo_net(out() / "net.net.xml");
+  double highest = 0;
+  for (const Lane& lane : road.lanes)
+    for (const double z : lane.elevation) highest = std::max(highest, z);
+  EXPECT_NEAR(highest, 5.0, 0.5);
+}
+
+TEST_F(ImportTest, MonacoRunsWithAHundredAlive) {
+  const ProcessResult result = import(kMaps / "monaco.osm.pbf", {"--duration", "400"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("netconvert"));  // progress
+  const auto report = nlohmann::json::parse(content(out() / "import.json"));
+  for (const char* type : {"car", "van", "bus", "truck", "motorcycle", "bicycle", "pedestrian"}) {
+    EXPECT_EQ(report["demand"]["by_type"][type]["left_out"], "") << type;
+    EXPECT_GT(report["demand"]["by_type"][type]["departures"], 0) << type;
+  }
+  EXPECT_GT(report["obstacles"]["buildings"], 400);
+  const ProcessResult sumo = simulate("200");
+  ASSERT_EQ(sumo.exit_code, 0) << sumo.errors;
+  const auto running = [&](const char* key) {
+    const std::size_t at = sumo.output.find(key);
+    return at == std::string::npos
+               ? 0L
+               : std::stol(sumo.output.substr(sumo.output.find_first_of("0123456789", at)));
+  };
+  EXPECT_GT(running("Running:"), 60) << sumo.output;  // vehicles; people on foot are counted apart
+}
+
+TEST_F(ImportTest, CutsToABox) {
+  ASSERT_EQ(import(kMaps / "monaco.osm.pbf", {"--bbox", "7.418,43.732,7.426,43.738", "--quiet"})
+                .exit_code,
+            0);
+  const RoadNetwork road = read_sumo_net(out() / "net.net.xml");
+  // 0.008 degrees of longitude are 644 m here, 0.006 of latitude 667 m, and 60 m are kept on each
+  // side
+  EXPECT_NEAR((road.upper_corner - road.lower_corner).x(), 764, 20);
+  EXPECT_NEAR((road.upper_corner - road.lower_corner).y(), 787, 20);
+  EXPECT_NEAR((road.upper_corner + road.lower_corner).norm() / 2, 0, 15);
+}
+
+TEST_F(ImportTest, GivesTheSameBytesForTheSameSeed) {
+  const fs::path map = kMaps / "fujisawa.osm.pbf";
+  std::map<std::string, std::string> first;
+  ASSERT_EQ(import(map, {"--seed", "7", "--duration", "200"}).exit_code, 0);
+  for (const auto& entry : fs::directory_iterator(out()))
+    first[entry.path().filename()] = content(entry.path());
+  fs::remove_all(out());
+  ASSERT_EQ(import(map, {"--seed", "7", "--duration", "200"}).exit_code, 0);
+  for (const auto& [name, text] : first) {
+    EXPECT_EQ(content(out() / name), text) << name;
+  }
+  fs::remove_all(out());
+  ASSERT_EQ(import(map, {"--seed", "8", "--duration", "200"}).exit_code, 0);
+  EXPECT_EQ(content(out() / "net.net.xml"), first["net.net.xml"]);
+  EXPECT_NE(content(out() / "demand.rou.xml"), first["demand.rou.xml"]);
+}
+
+class SharedMapTest : public ImportTest, public testing::WithParamInterface<const char*> {
+ protected:
+  SharedMapTest() {
+    folder_ += GetParam();
+    fs::create_directories(folder_);
+  }
+};
+
+TEST_P(SharedMapTest, RunsInSumo) {
+  const fs::path map = kSharedMaps / GetParam();
+  if (!fs::exists(map))
+    GTEST_SKIP() << "no " << map << ": the extracts that do not ship are not here";
+  const ProcessResult result = import(map);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const ProcessResult sumo = simulate("300");
+  EXPECT_EQ(sumo.exit_code, 0) << sumo.errors;
+}
+
+INSTANTIATE_TEST_SUITE_P(Maps, SharedMapTest,
+                         testing::Values("meskel_square.osm", "magic.osm", "highway.osm",
+                                         "beijing.osm", "shi_men_er_lu.osm", "berlin.osm.pbf"),
+                         [](const auto& row) {
+                           const std::string name = row.param;
+                           return name.substr(0, name.find('.'));
+                         });
+
+TEST_F(ImportTest, RefusesWhatIsNoMap) {
+  expect_refused(import(folder_ / "none.osm"), "no such file");
+  expect_refused(import(kFixtures), "is a folder");
+  expect_refused(import(put("page.osm", "<html></html>")), "page.osm");
+  expect_refused(import(put("text.osm.pbf", "hello")), "text.osm.pbf");
+  const std::string map = content(kFixtures / "zebra_right.osm");
+  expect_refused(import(put("cut.osm", map.substr(0, map.size() / 2))), "cut.osm");
+  const std::string pbf = content(kMaps / "fujisawa.osm.pbf");
+  expect_refused(import(put("cut.osm.pbf", pbf.substr(0, pbf.size() / 2))), "cut.osm.pbf");
+  expect_refused(
+      import(put("nodes.osm", "<osm version=\"0.6\"><node id=\"1\" lat=\"48\" lon=\"11\"/></osm>")),
+      "no roads");
+}
+
+TEST_F(ImportTest, RefusesBadOptions) {
+  const fs::path map = kFixtures / "zebra_right.osm";
+  for (const char* agents : {"0", "-3", "many", "2.5", "nan", "1e99"})
+    expect_refused(import(map, {"--agents", agents}), "--agents");
+  for (const char* duration : {"0", "-3", "long"})
+    expect_refused(import(map, {"--duration", duration}), "--duration");
+  for (const char* box : {"1,2,3", "a,b,c,d", "12,48,11,49", "200,0,201,1", "1,2,3,4,5", ""})
+    expect_refused(import(map, {"--bbox", box}), "--bbox");
+  expect_refused(import(map, {"--bbox", "20,20,21,21"}), "outside the extract");
+  expect_refused(import(map, {"--bbox", "11.01,47.9,11.02,48.1"}), "outside the extract");
+}
+
+TEST_F(ImportTest, RefusesAFolderThatIsNotItsOwn) {
+  fs::create_directory(out());
+  put("out/mine", "precious");
+  const ProcessResult result = import(kFixtures / "zebra_right.osm");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.errors, HasSubstr("--force"));
+  EXPECT_EQ(content(out() / "mine"), "precious");
+  EXPECT_EQ(import(kFixtures / "zebra_right.osm", {"--force", "--agents", "5", "--duration", "60"})
+                .exit_code,
+            0);
+  EXPECT_EQ(content(out() / "mine"), "precious");
+  EXPECT_TRUE(fs::exists(out() / "net.net.xml"));
+}
+
+TEST_F(ImportTest, NamesAFolderThatCannotBeWritten) {
+  const ProcessResult result =
+      run_process(request({(kFixtures / "zebra_right.osm").string(), "-o", "/proc/out"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.errors, HasSubstr("/proc/out"));
+}
+
+TEST_F(ImportTest, SaysWhenNetconvertIsMissing) {
+  ProcessRequest import_request =
+      request({(kFixtures / "zebra_right.osm").string(), "-o", out().string()});
+  import_request.environment = {{"PATH", "/nowhere"}, {"SUMO_HOME", ""}};
+  expect_refused(run_process(import_request), "netconvert: not found");
+}
+
+TEST_F(ImportTest, PassesOnWhatAFailingToolSaid) {
+  const fs::path tools = fs::temp_directory_path() / ("tools_" + std::to_string(getpid()));
+  fs::create_directories(tools);
+  const auto with_tool = [&](const std::string& name, const std::string& script) {
+    std::ofstream(tools / name) << "#!/bin/sh\n" << script << "\n";
+    fs::permissions(tools / name, fs::perms::owner_all);
+    ProcessRequest import_request =
+        request({(kFixtures / "zebra_right.osm").string(), "-o", out().string()});
+    import_request.environment = {{"PATH", tools.string() + ":/usr/bin:/bin"}, {"SUMO_HOME", ""}};
+    const ProcessResult result = run_process(import_request);
+    fs::remove(tools / name);
+    return result;
+  };
+  expect_refused(with_tool("netconvert", "echo 'Error: nodes are upside down' >&2; exit 1"),
+                 "nodes are upside down");
+  expect_refused(with_tool("netconvert", "kill -SEGV $$"), "signal 11");
+  expect_refused(with_tool("netconvert", "exit 0"), "netconvert");
+  expect_refused(with_tool("netconvert", "printf '<net><edge' > net.net.xml"), "in part only");
+  expect_refused(with_tool("duarouter", "echo 'Error: lost' >&2; exit 1"), "lost");
+  fs::remove_all(tools);
+}
+
+TEST_F(ImportTest, SaysWhenTheDiskIsFull) {
+  // a limit on the size of files stands in for a disk without room: writing fails alike, with EFBIG
+  // for ENOSPC
+  for (const char* kilobytes : {"4", "40", "100", "200", "400"}) {
+    ProcessRequest limited;
+    limited.arguments = {
+        "sh", "-c",
+        "trap '' XFSZ; ulimit -f " + std::string(kilobytes) + "; exec '" + SUMOGAMMA_PROGRAM +
+            "' import '" + (kMaps / "fujisawa.osm.pbf").string() + "' -o '" + out().string() + "'"};
+    const ProcessResult result = run_process(limited);
+    EXPECT_EQ(result.exit_code, 2) << kilobytes << ": " << describe_end(result, 0) << result.errors;
+    expect_nothing_left();
+  }
+}
+
+TEST_F(ImportTest, LeavesNothingWhenInterrupted) {
+  // stopped as soon as the staging folder holds a network: run_process sends SIGTERM, as a shell's
+  // kill would
+  ProcessRequest import_request =
+      request({(kMaps / "monaco.osm.pbf").string(), "-o", out().string()});
+  import_request.should_stop = [&] {
+    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator()) > 0;
+  };
+  const ProcessResult result = run_process(import_request);
+  EXPECT_TRUE(result.stopped);
+  EXPECT_EQ(result.exit_code, 130) << describe_end(result, 0);
+  expect_nothing_left();
+}
+
+TEST_F(ImportTest, SurvivesDamagedMaps) {
+  // whole pipeline: a flipped bit may leave a readable map, and then it must still build or be
+  // refused
+  const std::string whole = content(kFixtures / "square_left.osm");
+  for (std::uint64_t i = 0; i < 25; ++i) {
+    std::string damaged = whole;
+    const auto at = static_cast<std::size_t>(random_uniform(3, i, 0, Draw::Demand) *
+                                             static_cast<double>(whole.size()));
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << (i % 7)));
+    const ProcessResult result =
+        import(put("damaged.osm", damaged), {"--agents", "5", "--duration", "60", "--quiet"});
+    EXPECT_EQ(result.signal, 0) << "bit " << i % 7 << " of byte " << at;
+    EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 2)
+        << "byte " << at << ": " << describe_end(result, 0);
+    if (result.exit_code == 2) expect_nothing_left();
+    fs::remove_all(out());
+  }
+}
+
+}  // namespace
+}  // namespace sumogamma
