@@ -1,0 +1,72 @@
+#include <benchmark/benchmark.h>
+
+#include "base/random.h"
+#include "base/units.h"
+#include "study/collisions.h"
+#include "study/flow_metrics.h"
+#include "study/rule_metrics.h"
+#include "study/smoothness_metrics.h"
+#include "support/small_net.h"
+
+namespace sumogamma {
+namespace {
+
+/// 300 agents of all types where about one in three has another within a few metres.
+Scene crowd(const AgentTypeTable& types, std::size_t count) {
+  Scene scene;
+  const double side = 12.0 * std::sqrt(static_cast<double>(count));
+  for (std::uint64_t i = 0; i < count; ++i) {
+    AgentState agent;
+    agent.id = AgentId{static_cast<std::uint32_t>(i)};
+    agent.type = static_cast<AgentTypeId>(random_bits(1, i, 0, Draw::Demand) % types.size());
+    agent.footprint =
+        box_footprint(type_of(types, agent.type).length, type_of(types, agent.type).width);
+    agent.position = {random_uniform(1, i, 1, Draw::Demand, 0, side),
+                      random_uniform(1, i, 2, Draw::Demand, 0, side)};
+    agent.heading = random_uniform(1, i, 3, Draw::Demand, -kPi, kPi);
+    agent.speed = 5;
+    append_agent(scene, agent);
+  }
+  return scene;
+}
+
+void per_agent(benchmark::State& state, std::size_t count) {
+  state.counters["per_agent"] =
+      benchmark::Counter(static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate |
+                                                         benchmark::Counter::kInvert);
+}
+
+void collisions(benchmark::State& state) {
+  const AgentTypeTable types = default_agent_types();
+  const auto count = static_cast<std::size_t>(state.range(0));
+  const Scene scene = crowd(types, count);
+  CollisionMonitor monitor(0.05);
+  for (auto _ : state) monitor.add(scene, types);
+  per_agent(state, count);
+}
+BENCHMARK(collisions)->Arg(100)->Arg(300)->Arg(3000);
+
+void rules_flow_smoothness(benchmark::State& state) {
+  const AgentTypeTable types = default_agent_types();
+  const auto count = static_cast<std::size_t>(state.range(0));
+  const Scene scene = crowd(types, count);
+  const RoadNetwork net = testing::small_net();
+  const LaneLocator locator(net);
+  RoadState road;
+  road.signal_states = {"Gr"};
+  RuleMonitor rules(0.05, net, locator);
+  FlowMonitor flow(0.05, net);
+  SmoothnessMonitor smoothness(0.05);
+  for (auto _ : state) {
+    rules.add(scene, types, road);
+    flow.add(scene, types, road);
+    smoothness.add(scene, types);
+  }
+  per_agent(state, count);
+}
+BENCHMARK(rules_flow_smoothness)->Arg(100)->Arg(300);
+
+}  // namespace
+}  // namespace sumogamma
+
+BENCHMARK_MAIN();
