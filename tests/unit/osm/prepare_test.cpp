@@ -80,6 +80,8 @@ TEST(NormaliseTags, WritesSidewalksAsNetconvertReadsThem) {
       {{{"sidewalk:both", "yes"}}, "both"},
       {{{"sidewalk:both", "separate"}}, "no"},
       {{{"sidewalk", "both"}}, "both"},
+      {{{"tunnel", "yes"}}, "no"},
+      {{{"tunnel", "yes"}, {"sidewalk", "both"}}, "both"},
       {{}, ""}};
   for (const auto& [tags, expected] : cases) {
     MapBuilder b;
