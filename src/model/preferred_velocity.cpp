@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/random.h"
+
 namespace sumogamma {
 
 namespace {
@@ -20,6 +22,15 @@ Vec2 within_turning(const Vec2& preferred, double heading) {
   if (std::abs(angle) <= kWidest) return preferred;
   return std::min(preferred.norm(), kTurnSpeed) * direction_of(heading + std::copysign(kWidest, angle));
 }
+
+/// Somebody on foot who stands although nothing on the road holds him tries another way round every second: a turn of up
+/// to a right angle and more, drawn from id and time alone.
+Vec2 around(const Vec2& preferred, const Scene& scene, std::size_t row) {
+  constexpr double kPatience = 2.0;  // [s]
+  if (scene.standing_time[row] < kPatience || scene.context[row].reason != LimitReason::None) return preferred;
+  const double turn = random_uniform(0, scene.id[row].value, static_cast<std::uint64_t>(scene.time), Draw::Intention, -2.2, 2.2);
+  return 0.6 * from_body(preferred, direction_of(turn));
+}
 }  // namespace
 
 Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row, const Intention& intention) {
@@ -32,7 +43,7 @@ Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row,
       if (!context.active) return towards(scene.position[row], intention.goal, scene.preferred_speed[row]);
       const Vec2 preferred =
           towards(scene.position[row], context.sub_goal, std::min(context.speed_limit, scene.preferred_speed[row]));
-      return type.kinematics == Kinematics::Holonomic ? preferred : within_turning(preferred, scene.heading[row]);
+      return type.kinematics == Kinematics::Holonomic ? around(preferred, scene, row) : within_turning(preferred, scene.heading[row]);
     }
     case IntentionKind::KeepVelocity:
       return scene.velocity[row];

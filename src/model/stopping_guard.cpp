@@ -123,11 +123,10 @@ class Guard {
       if ((mine.position - yours.position).squaredNorm() > discs * discs) continue;
       const double room = gap(mine, yours, other);
       if (room >= margin) continue;
-      // closer than the margin already: no closer than now
+      // closer than the margin already: part of what is left may be used, so that bodies side by side can turn apart
       if (least_allowed == margin)
-        least_allowed = std::min(margin, gap({own_.position, own_.forward},
-                                             {their.position, their.forward}, other)) -
-                        1e-6;
+        least_allowed = std::min(margin, 0.5 * gap({own_.position, own_.forward},
+                                                   {their.position, their.forward}, other));
       if (room < least_allowed) return false;
     }
     return true;

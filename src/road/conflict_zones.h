@@ -13,12 +13,14 @@ struct ConflictZone {
   double begin = 0, end = 0;          ///< on this link
   double foe_begin = 0, foe_end = 0;  ///< on the foe
   bool yields = false;                ///< this link must let the foe pass
+  bool unruled = false;               ///< the matrix knows no conflict, but bodies would meet: first come, first served
   bool foe_is_crossing = false;
 };
 
 /// By connection: its conflicts with the other links of its junction, from the right-of-way matrix and the geometry of the
-/// internal lanes (sampled every metre; lanes conflict where their swept widths meet). Links that the matrix calls
-/// conflicting but whose lanes never come near are left out.
+/// ways that are driven (corners rounded as for a car, sampled every metre; ways conflict where their swept widths meet).
+/// Links that the matrix calls conflicting but whose ways never come near are left out; links that it calls free of
+/// conflict but whose ways meet, as of opposite turns on a narrow junction, are in.
 using ConflictTable = std::vector<std::vector<ConflictZone>>;
 ConflictTable build_conflict_table(const RoadNetwork& network);
 

@@ -48,6 +48,7 @@ class Draws {
 /// What one vehicle class sees of the network.
 struct ClassGraph {
   std::vector<std::size_t> edges;              ///< usable, by index in the network
+  std::vector<bool> usable;                    ///< the same, by index
   std::vector<std::vector<std::size_t>> next;  ///< by network edge: edges that follow
   std::vector<int> entries;  ///< by network edge: how many lead into it, turn-arounds left out
   std::vector<double> length, speed;  ///< by network edge [m], [m/s]
@@ -65,7 +66,7 @@ void link_vehicles(const RoadNetwork& road, VehicleClassMask mask, ClassGraph& g
       for (const ConnectionId id : road.lane(lane).outgoing) {
         const Connection& connection = road.connection(id);
         const Lane& target = road.lane(connection.to);
-        if ((target.allowed & mask) == 0 || target.kind != LaneKind::Normal) continue;
+        if ((target.allowed & mask) == 0 || !graph.usable[index_of(target.edge)]) continue;
         graph.next[edge].push_back(index_of(target.edge));
         if (connection.direction != 't') ++graph.entries[index_of(target.edge)];
       }
@@ -98,8 +99,19 @@ void link_walkers(const RoadNetwork& road, ClassGraph& graph) {
   }
 }
 
-ClassGraph class_graph(const RoadNetwork& road, VehicleClassMask mask) {
+/// Buses and lorries keep to streets that are made for them: two of them can't pass each other in a lane-wide
+/// residential street, so that one such meeting would block it for good.
+bool wide_enough(const Edge& edge, VehicleClassMask mask) {
+  if ((mask & (vehicle_class::kBus | vehicle_class::kTruck)) == 0) return true;
+  for (const char* narrow : {"residential", "living_street", "service", "track"})
+    if (edge.type.find(narrow) != std::string::npos) return false;
+  return (mask & vehicle_class::kBus) == 0 || edge.type.find("unclassified") == std::string::npos;
+}
+
+/// Edges and ways on for a class; `narrow`: with streets that are too narrow for it, too.
+ClassGraph class_graph(const RoadNetwork& road, VehicleClassMask mask, bool narrow) {
   ClassGraph graph;
+  graph.usable.resize(road.edges.size());
   graph.next.resize(road.edges.size());
   graph.entries.resize(road.edges.size());
   graph.length.resize(road.edges.size());
@@ -107,6 +119,8 @@ ClassGraph class_graph(const RoadNetwork& road, VehicleClassMask mask) {
   for (std::size_t i = 0; i < road.edges.size(); ++i) {
     const Edge& edge = road.edges[i];
     if (edge.kind != LaneKind::Normal || edge.lanes.empty() || !allows(road, edge, mask)) continue;
+    if (!narrow && !wide_enough(edge, mask)) continue;
+    graph.usable[i] = true;
     graph.edges.push_back(i);
     graph.length[i] = road.lane(edge.lanes[0]).length;
     for (const LaneId lane : edge.lanes)
@@ -117,6 +131,11 @@ ClassGraph class_graph(const RoadNetwork& road, VehicleClassMask mask) {
     link_walkers(road, graph);
   else
     link_vehicles(road, mask, graph);
+  // a class that has next to no street of its own takes what there is
+  constexpr double kLeastNetwork = 600.0;  // [m]
+  double length = 0;
+  for (const std::size_t edge : graph.edges) length += graph.length[edge];
+  if (!narrow && length < kLeastNetwork) return class_graph(road, mask, true);
   for (auto& followers : graph.next) {
     std::sort(followers.begin(), followers.end());
     followers.erase(std::unique(followers.begin(), followers.end()), followers.end());
@@ -337,8 +356,11 @@ void take_routes(const RoadNetwork& road, const std::filesystem::path& file,
     if (!route || (work.walks && route.next_sibling("walk"))) continue;
     Trip trip{0, 0, words(route.attribute("edges").value()), 0, 0};
     const bool known =
-        std::all_of(trip.edges.begin(), trip.edges.end(),
-                    [&](const std::string& edge) { return road.edge_by_name.contains(edge); });
+        std::all_of(trip.edges.begin(), trip.edges.end(), [&](const std::string& name) {
+          const auto edge = road.edge_by_name.find(name);
+          return edge != road.edge_by_name.end() &&
+                 (work.walks || work.graph.usable[index_of(edge->second)]);
+        });
     if (trip.edges.size() < (work.walks ? 2u : 1u) || !known) continue;
     if (turns_back(road, trip.edges)) continue;
     measure(road, work, trip);
@@ -406,7 +428,7 @@ std::vector<TypeWork> type_works(const RoadNetwork& road, const AgentTypeTable& 
     work.walks = work.type->sumo_class == "pedestrian";
     work.report.type = share.type;
     work.report.share = share.share;
-    work.graph = class_graph(road, vehicle_class_from_name(work.type->sumo_class));
+    work.graph = class_graph(road, vehicle_class_from_name(work.type->sumo_class), false);
     if (work.graph.edges.empty()) {
       work.report.problem = "no edge of the network lets it travel";
       report.types.push_back(work.report);
