@@ -17,11 +17,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/subprocess.h"
-
-extern char** environ;
 
 namespace sumogamma {
 namespace {
@@ -47,6 +46,7 @@ std::vector<std::string> child_environment() {
 
 std::vector<char*> pointers(std::vector<std::string>& strings) {
   std::vector<char*> result;
+  result.reserve(strings.size() + 1);
   for (std::string& string : strings) result.push_back(string.data());
   result.push_back(nullptr);
   return result;
@@ -104,7 +104,8 @@ int free_port() {
                      getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) == 0;
   if (fd >= 0) close(fd);
   if (!found)
-    throw SumoError("SUMO", std::string("no free TCP port on 127.0.0.1: ") + std::strerror(errno));
+    throw SumoError("SUMO",
+                    "no free TCP port on 127.0.0.1: " + std::generic_category().message(errno));
   return ntohs(address.sin_port);
 }
 
@@ -170,12 +171,12 @@ SumoProcess::SumoProcess(const std::string& binary, const std::vector<std::strin
 
   int output[2], error_pipe[2];
   if (pipe2(output, O_CLOEXEC) != 0)
-    throw SumoError(binary, std::string("can't be started: ") + std::strerror(errno));
+    throw SumoError(binary, "can't be started: " + std::generic_category().message(errno));
   if (pipe2(error_pipe, O_CLOEXEC) != 0) {
     const int reason = errno;
     close(output[0]);
     close(output[1]);
-    throw SumoError(binary, std::string("can't be started: ") + std::strerror(reason));
+    throw SumoError(binary, "can't be started: " + std::generic_category().message(reason));
   }
   // fork, not posix_spawn: only so can the child ask to die with us and mark our files
   // close-on-exec
@@ -197,7 +198,7 @@ SumoProcess::SumoProcess(const std::string& binary, const std::vector<std::strin
   if (reason != 0) {
     if (pid_ > 0) waitpid(pid_, nullptr, 0);
     close(output_fd_);
-    throw Error(binary, std::string("can't be started: ") + std::strerror(reason));
+    throw Error(binary, "can't be started: " + std::generic_category().message(reason));
   }
 }
 
@@ -271,7 +272,9 @@ std::string SumoProcess::end_description() const {
   if (!wait_status_) return "still running";
   if (WIFSIGNALED(*wait_status_)) {
     const int number = WTERMSIG(*wait_status_);
-    return "killed by signal " + std::to_string(number) + " (" + strsignal(number) + ")";
+    const char* name = sigdescr_np(number);
+    return "killed by signal " + std::to_string(number) + " (" + (name != nullptr ? name : "?") +
+           ")";
   }
   return "exit code " + std::to_string(WEXITSTATUS(*wait_status_));
 }

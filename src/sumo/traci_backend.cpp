@@ -39,7 +39,7 @@ constexpr std::uint8_t kWatchedVariables[] = {traci::kPosition, traci::kAngle, t
 // for persons
 void append_ghost(TraciWriter& message, const SumoPose& pose, bool is_person, GhostMode mode) {
   const std::string& id = *pose.id;
-  const std::size_t body = 1 + (4 + id.size()) + 5 + 5 + (is_person ? 0 : 5) + 3 * 9 + 2 + 9;
+  const std::size_t body = 1 + (4 + id.size()) + 5 + 5 + (is_person ? 0 : 5) + 9 + 9 + 9 + 2 + 9;
   const GhostArguments arguments = ghost_arguments(mode);
   message.begin_command(traci::set_command(is_person ? traci::kPerson : traci::kVehicle), body);
   message.raw_byte(traci::kMoveToXy);

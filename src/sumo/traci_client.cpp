@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cstring>
 #include <memory>
+#include <system_error>
 #include <thread>
 
 #include "base/error.h"
@@ -85,7 +86,7 @@ TraciClient::TraciClient(const std::string& host, int port, double timeout, Sumo
       if (!child_->running()) throw SumoError("SUMO", "ended while it was starting");
     }
     if (now() >= deadline)
-      throw SumoError(where_, std::string("no connection to SUMO: ") + std::strerror(reason));
+      throw SumoError(where_, "no connection to SUMO: " + std::generic_category().message(reason));
     std::this_thread::sleep_for(std::chrono::milliseconds(child_ != nullptr ? 10 : 50));
   }
 }
@@ -124,7 +125,7 @@ void TraciClient::send_all(std::span<const std::uint8_t> bytes, double deadline)
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
       wait_for(POLLOUT, deadline);
     } else if (errno != EINTR) {
-      fail(std::string("the connection broke: ") + std::strerror(errno));
+      fail("the connection broke: " + std::generic_category().message(errno));
     }
   }
 }
@@ -144,7 +145,7 @@ void TraciClient::receive(std::size_t bytes, double deadline) {
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
       wait_for(POLLIN, deadline);
     } else if (errno != EINTR) {
-      fail(std::string("the connection broke: ") + std::strerror(errno));
+      fail("the connection broke: " + std::generic_category().message(errno));
     }
   }
 }
