@@ -27,15 +27,21 @@ bool attends(const AgentGeometry& agent, const AgentGeometry& other, const Atten
   return offset.squaredNorm() <= reach * reach;
 }
 
-void find_attended(const TickGeometry& geometry, std::size_t row, const AttentionRange& range,
-                   const Vec2& preferred, double horizon, std::vector<Attended>& attended) {
-  attended.clear();
+void find_neighbours(const TickGeometry& geometry, std::size_t row, const AttentionRange& range,
+                     const Vec2& preferred, double horizon, Neighbours& neighbours) {
+  neighbours.attended.clear();
+  neighbours.near.clear();
   const AgentGeometry& own = geometry.agent[row];
-  const double radius = std::max(range.front + own.stopping, range.rear) +
-                        geometry.longest_stopping + own.radius + geometry.largest_radius;
+  const double seen = std::max(range.front + own.stopping, range.rear) + geometry.longest_stopping +
+                      own.radius + geometry.largest_radius;
+  const double radius = std::max(seen, own.next_reach + geometry.largest_reach);
   geometry.grid.visit_within(own.position, radius, [&](std::uint32_t other_row, double square) {
     if (other_row == row) return;
     const AgentGeometry& other = geometry.agent[other_row];
+    // above or below on a bridge
+    if (std::abs(other.height - own.height) > kStorey) return;
+    const double near = own.next_reach + other.next_reach;
+    if (square <= near * near) neighbours.near.push_back(other_row);
     const Vec2 offset = other.position - own.position;
     const double reach = reach_towards(own, other, range, offset);
     if (square > reach * reach) return;
@@ -45,7 +51,7 @@ void find_attended(const TickGeometry& geometry, std::size_t row, const Attentio
     const double approach =
         std::max(own.velocity.dot(offset), preferred.dot(offset)) - other.velocity.dot(offset);
     if (gap > 0 && gap * distance > horizon * (approach + kSideStep * distance)) return;
-    attended.push_back({other_row, distance});
+    neighbours.attended.push_back({other_row, distance});
   });
 }
 

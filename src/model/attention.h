@@ -18,11 +18,18 @@ struct Attended {
 /// where they close in.
 bool attends(const AgentGeometry& agent, const AgentGeometry& other, const AttentionRange& range);
 
-/// Att of III-B for one row: fills `attended` in the grid's order (by cell, then id).
-/// Left out are neighbours whose half-plane can't bind: those that the row can't touch within
-/// `horizon` [s] even at the faster of its present and its `preferred` approach, and a sidestep
-/// more.
-void find_attended(const TickGeometry& geometry, std::size_t row, const AttentionRange& range,
-                   const Vec2& preferred, double horizon, std::vector<Attended>& attended);
+/// Who matters to one row.
+struct Neighbours {
+  std::vector<Attended> attended;  ///< Att, in the grid's order (by cell, then by row)
+  std::vector<std::uint32_t>
+      near;  ///< rows that it could touch before both stand: the stopping guard's concern
+};
+
+/// Att of III-B for one row, and those that are near.
+/// Left out of Att are neighbours whose half-plane can't bind: those that the row can't touch
+/// within `horizon` [s] even at the faster of its present and its `preferred` approach, and a
+/// sidestep more.
+void find_neighbours(const TickGeometry& geometry, std::size_t row, const AttentionRange& range,
+                     const Vec2& preferred, double horizon, Neighbours& neighbours);
 
 }  // namespace sumogamma

@@ -2,39 +2,74 @@
 
 #include <algorithm>
 
+#include "geometry/rotation.h"
 #include "model/context.h"
 #include "model/geometric_constraints.h"
 #include "model/kinematic_set.h"
 #include "model/preferred_velocity.h"
-#include "model/stopping_guard.h"
 
 namespace sumogamma {
+
+namespace {
+
+// people on foot who make less than this share of their preferred speed look for a way round, up to
+// this far aside
+constexpr double kHeldShare = 0.5;
+constexpr double kLookAside = 1.0;  // [rad]
+
+/// differs from the paper: who is held up turns its preferred velocity to the passing side, the
+/// more the longer it stands. In a crowd that meets head-on this starts the roundabout that
+/// resolves it, the same way for all and without a draw.
+Vec2 look_aside(const ModelOptions& options, const AgentGeometry& agent, const Vec2& preferred) {
+  const double wish = preferred.squaredNorm();
+  if (agent.on_wheels || !options.look_aside || wish < 1e-12) return preferred;
+  const double made = agent.velocity.dot(preferred) / wish;
+  if (made >= kHeldShare) return preferred;
+  const double held = std::min(1.0 - made / kHeldShare, 1.0);
+  return from_body(rotation((options.keep_left ? kLookAside : -kLookAside) * held), preferred);
+}
+
+/// Fastest that Eq. 7 may answer [m/s].
+double speed_limit(const AgentType& type, const Scene& scene, std::size_t row,
+                   const Vec2& preferred) {
+  const double fastest =
+      std::min(type.max_speed, std::max(scene.preferred_speed[row], preferred.norm()));
+  // what the road allows holds for a wheeled body whichever way it points
+  const RoadContext& context = scene.context[row];
+  if (!context.active || type.kinematics == Kinematics::Holonomic) return fastest;
+  return std::min(fastest, std::max(context.allowed_speed, 0.0));
+}
+
+}  // namespace
 
 Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& geometry,
                     std::size_t row, const BehaviorState& behavior, Workspace& work) {
   const AgentType& type = type_of(model.types, scene.type[row]);
   work.preferred = preferred_velocity(model, scene, row, behavior.intention);
   if (!work.preferred.allFinite()) work.preferred = Vec2::Zero();
-  find_attended(geometry, row, behavior.attention, work.preferred, type.horizon, work.attended);
+  find_neighbours(geometry, row, behavior.attention, work.preferred, type.horizon, work.neighbours);
 
-  work.constraints.clear();
-  append_kinematic_constraints(model, scene, row, work.constraints);   // K, III-A
-  append_contextual_constraints(model, scene, row, work.constraints);  // C, III-C
-  work.constraints.hard_count = work.constraints.planes.size();
-  append_geometric_constraints(model, scene, geometry, row, behavior, work.attended,
-                               work.constraints);  // G, III-B
+  ConstraintSet& constraints = work.constraints;
+  constraints.clear();
+  append_kinematic_constraints(model, scene, row, constraints);   // K, III-A
+  append_contextual_constraints(model, scene, row, constraints);  // C, III-C
+  constraints.hard_count = constraints.planes.size();
+  append_geometric_constraints(model, scene, geometry, row, behavior, work.neighbours.attended,
+                               constraints);  // G, III-B
 
-  double fastest =
-      std::min(type.max_speed, std::max(scene.preferred_speed[row], work.preferred.norm()));
-  // what the road allows holds for a wheeled body whichever way it points
-  if (scene.context[row].active && type.kinematics != Kinematics::Holonomic)
-    fastest = std::min(fastest, std::max(scene.context[row].allowed_speed, 0.0));
-  work.result = closest_point(work.constraints.planes, work.constraints.hard_count, work.preferred,
-                              fastest, work.program);
-  if (model.options.use_guard)
-    work.result.point =
-        guarded_velocity(model, scene, geometry, row, work.result.point, work.guard);
-  return work.result.point;
+  const Vec2 target = look_aside(model.options, geometry.agent[row], work.preferred);
+  const double fastest = speed_limit(type, scene, row, work.preferred);
+  work.result =
+      closest_point(constraints.planes, constraints.hard_count, target, fastest, work.program);
+  if (!model.options.use_guard) return work.result.point;
+
+  // differs from the paper: what half-planes can't say about turning and braking bodies
+  work.guard.prepare(model, scene, geometry, row, work.neighbours.near);
+  const std::span hard(constraints.planes.data(), constraints.hard_count);
+  const double wish = work.preferred.norm();
+  const Vec2 allowed = wish > fastest ? Vec2(work.preferred * (fastest / wish)) : work.preferred;
+  return guarded_velocity(work.guard, model, geometry, row, work.result.point, work.preferred,
+                          hard);
 }
 
 }  // namespace sumogamma

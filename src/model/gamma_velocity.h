@@ -14,10 +14,10 @@ namespace sumogamma {
 /// Scratch of one thread. After a call it tells how the velocity came about: a replay draws it, a
 /// failing test prints it.
 struct Workspace {
-  std::vector<Attended> attended;
+  Neighbours neighbours;
   ConstraintSet constraints;
   ProgramScratch program;
-  GuardScratch guard;
+  StoppingGuard guard;
   Vec2 preferred = Vec2::Zero();  ///< v_pref [m/s]
   ProgramResult result;           ///< of Eq. 7; result.binding is an index into constraints
 

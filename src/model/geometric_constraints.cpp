@@ -90,14 +90,15 @@ void append_geometric_constraints(const Model& model, const Scene& scene,
                      pair_horizon(options, type, type_of(model.types, their.type)));
     const PolygonDifference difference = difference_of(model, scene, geometry, row, other);
     const Vec2 relative = own.velocity - their.velocity;
+    const double apart =
+        own.on_wheels && their.on_wheels ? options.separation_time : options.walker_separation_time;
     // differs from the paper: the side on which to pass follows from where both want to go, so that
     // two who stand face to face go round each other instead of waiting
-    const Escape escape =
-        options.pass_as_intended
-            ? intended_escape(difference, relative,
-                              intended - intended_velocity(scene, their, other), horizon,
-                              options.separation_time, side)
-            : nearest_escape(difference, relative, horizon, options.separation_time, side);
+    const Escape escape = options.pass_as_intended
+                              ? intended_escape(difference, relative,
+                                                intended - intended_velocity(scene, their, other),
+                                                horizon, apart, side)
+                              : nearest_escape(difference, relative, horizon, apart, side);
     // differs from the paper: a safe pair is held to its safety (as ORCA does) unless the option
     // says otherwise
     if (!escape.colliding && !options.constrain_safe_pairs) continue;

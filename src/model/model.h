@@ -26,10 +26,15 @@ struct ModelOptions {
                                  ///< from how they move now
   bool share_responsibility = true;  ///< shares of a pair are made to add up to 1; false: Eq. 5
                                      ///< with the row's own, as it stands
-  bool use_guard = true;             ///< ablation: false leaves the stopping guard out
-  double guard_margin = 0.03;        ///< room that the guard keeps between bodies that brake [m]
-  double step = 0.05;                ///< length of a tick, which the guard reckons with [s]
-  double separation_time = 1.0;      ///< bodies that overlap come apart within about this [s]
+  bool look_aside = true;            ///< people on foot who are held up turn to the passing side
+  bool creep_when_held =
+      true;  ///< who has to stand creeps round what is in its way where the guard admits it
+  bool use_guard = true;         ///< ablation: false leaves the stopping guard out
+  double guard_margin = 0.015;   ///< room that the guard keeps between bodies that brake [m]
+  double step = 0.05;            ///< length of a tick, which the guard reckons with [s]
+  double separation_time = 0.1;  ///< how urgently wheeled bodies that overlap come apart [s]; their
+                                 ///< own limits take longer
+  double walker_separation_time = 0.5;  ///< likewise where one is on foot [s]
   double front_margin = 0.1, rear_margin = 0.05,
          side_margin = 0.05;    ///< kept around wheeled bodies [m]
   double walker_margin = 0.03;  ///< kept around people on foot [m]

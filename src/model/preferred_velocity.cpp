@@ -36,8 +36,11 @@ Vec2 around(const Vec2& preferred, const Scene& scene, std::size_t row) {
 Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row, const Intention& intention) {
   const AgentType& type = type_of(model.types, scene.type[row]);
   switch (intention.kind) {
-    case IntentionKind::Goal:
-      return towards(scene.position[row], intention.goal, scene.preferred_speed[row]);
+    case IntentionKind::Goal: {
+      // slower within the last second, so that it comes to rest there
+      const double distance = (intention.goal - scene.position[row]).norm();
+      return towards(scene.position[row], intention.goal, std::min(scene.preferred_speed[row], distance));
+    }
     case IntentionKind::Path: {
       const RoadContext& context = scene.context[row];
       if (!context.active) return towards(scene.position[row], intention.goal, scene.preferred_speed[row]);

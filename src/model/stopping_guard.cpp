@@ -2,40 +2,43 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "geometry/rotation.h"
 #include "model/tracking.h"
 
 namespace sumogamma {
 
 namespace {
 
-// instants at which two braking bodies are compared, from now until the later one stands
-constexpr int kInstants = 3;
+// a body slower than this is held up, and creeps at most this fast [m/s]
+constexpr double kCreep = 0.5;
+// rounding that doesn't make a gap smaller [m]
+constexpr double kSame = 1e-6;
 
 /// A body that holds its wheels and brakes.
 struct Braking {
-  Vec2 position, forward, direction;  ///< direction of motion, unit
-  double speed, deceleration, curvature;
-  double axle = 0;  ///< rear axle behind the position [m]
-
-  double time() const { return speed / deceleration; }
-};
-
-struct Pose {
   Vec2 position, forward;
+  Vec2 direction;           ///< of the motion, unit
+  double speed = 0;         ///< [m/s]
+  double deceleration = 1;  ///< [m/s^2]
+  double curvature = 0;     ///< [1/m]
+  double axle = 0;          ///< rear axle behind the position [m]
+
+  double duration() const { return speed / deceleration; }
 };
 
-/// Where it is after braking for `time` [s].
-Pose pose_after(const Braking& body, double time) {
-  const double braked = std::min(time, body.time());
+StoppingGuard::Pose pose_after(const Braking& body, double time) {
+  const double braked = std::min(time, body.duration());
   const double way = (body.speed - 0.5 * body.deceleration * braked) * braked;
   const double turn = way * body.curvature;
   if (std::abs(turn) < 1e-3) return {body.position + way * body.direction, body.forward};
-  const double c = std::cos(turn), s = std::sin(turn);
-  const Vec2 forward = from_body({c, s}, body.forward);
+  const Vec2 turned = rotation(turn);
   // arc of the rear axle, and the centre's swing about it
-  const Vec2 arc = from_body({s / body.curvature, (1.0 - c) / body.curvature}, body.forward);
-  return {body.position + arc + body.axle * (forward - body.forward), forward};
+  const double radius = 1.0 / body.curvature;
+  const Vec2 arc(radius * turned.y() + body.axle * (turned.x() - 1.0),
+                 radius * (1.0 - turned.x()) + body.axle * turned.y());
+  return {body.position + from_body(arc, body.forward), from_body(turned, body.forward)};
 }
 
 Braking braking_now(const AgentGeometry& agent, const AgentType& type) {
@@ -45,123 +48,166 @@ Braking braking_now(const AgentGeometry& agent, const AgentType& type) {
           agent.curvature, type.rear_axle_to_center};
 }
 
-/// Everything that one call asks about.
-class Guard {
- public:
-  Guard(const Model& model, const Scene& scene, const TickGeometry& geometry, std::size_t row,
-        GuardScratch& scratch)
-      : model_(model),
-        scene_(scene),
-        geometry_(geometry),
-        row_(row),
-        own_(geometry.agent[row]),
-        type_(type_of(model.types, own_.type)),
-        near_(scratch.near) {
-    near_.clear();
-    const double gained = type_.max_acceleration * model.options.step;
-    // a tick at full acceleration adds at most this to the way to a stop
-    const double more = std::min(gained, type_.max_speed) *
-                            (model.options.step + own_.speed / type_.max_deceleration) +
-                        0.1;
-    const double reach = own_.reach + std::min(more, 5.0);
-    geometry.grid.visit_within(own_.position, reach + largest_reach(),
-                               [&](std::uint32_t other, double square) {
-                                 if (other == row) return;
-                                 const double both = reach + geometry.agent[other].reach;
-                                 if (square <= both * both && !overlapping(other))
-                                   near_.push_back(other);
-                               });
+Braking braking_after(const BodyState& body, const AgentGeometry& agent, const AgentType& type,
+                      double lock_curvature) {
+  const Vec2 forward = direction_of(body.heading);
+  const double speed = agent.on_wheels ? body.speed : body.velocity.norm();
+  const Vec2 direction = agent.on_wheels ? forward : Vec2(body.velocity / std::max(speed, 1e-9));
+  return {body.position,           forward, direction, speed, type.max_deceleration, lock_curvature,
+          type.rear_axle_to_center};
+}
+
+OrientedBox box_at(const StoppingGuard::Pose& pose, const AgentGeometry& agent) {
+  return {pose.position + agent.shift * pose.forward, pose.forward, agent.half};
+}
+
+/// How far a box reaches along a direction, from the origin.
+double reach_along(const OrientedBox& box, const Vec2& direction) {
+  return box.center.dot(direction) + std::abs(box.forward.dot(direction)) * box.half.x() +
+         std::abs(cross(box.forward, direction)) * box.half.y();
+}
+
+/// Separating axis of two boxes from a to b, and the gap along it.
+double widest_gap(const OrientedBox& a, const OrientedBox& b, Vec2& axis) {
+  double widest = -std::numeric_limits<double>::infinity();
+  for (const Vec2& side : {a.forward, left_of(a.forward), b.forward, left_of(b.forward)}) {
+    const Vec2 direction = side.dot(b.center - a.center) < 0 ? Vec2(-side) : side;
+    const double gap = -reach_along(b, -direction) - reach_along(a, direction);
+    if (gap <= widest) continue;
+    widest = gap;
+    axis = direction;
   }
+  return widest;
+}
 
-  bool has_neighbours() const { return !near_.empty(); }
-
-  bool admits(const Vec2& velocity) const {
-    const BodyState next =
-        advance_body(type_, body_of(scene_, row_), velocity, model_.options.step);
-    Braking own;
-    own.position = next.position;
-    own.forward = direction_of(next.heading);
-    own.speed = own_.on_wheels ? next.speed : next.velocity.norm();
-    own.direction = own_.on_wheels ? own.forward : Vec2(next.velocity / std::max(own.speed, 1e-9));
-    own.deceleration = type_.max_deceleration;
-    own.curvature = own_.on_wheels ? std::tan(next.steering) / type_.wheelbase : 0.0;
-    own.axle = type_.rear_axle_to_center;
-    for (std::uint32_t other : near_)
-      if (!clear_of(own, other)) return false;
-    return true;
-  }
-
- private:
-  double largest_reach() const { return geometry_.largest_reach; }
-
-  bool overlapping(std::uint32_t other) const {
-    return overlap_depth(scene_, geometry_, row_, other) > 0;
-  }
-
-  double gap(const Pose& own, const Pose& theirs, std::uint32_t other) const {
-    const AgentGeometry& their = geometry_.agent[other];
-    if (own_.is_box && their.is_box)
-      return separation(
-          {own.position + own_.shift * own.forward, own.forward, own_.half},
-          {theirs.position + their.shift * theirs.forward, theirs.forward, their.half});
-    return -overlap_depth(place_polygon(scene_.footprint[row_].outline(), own.forward),
-                          place_polygon(scene_.footprint[other].outline(), theirs.forward),
-                          theirs.position - own.position);
-  }
-
-  bool clear_of(const Braking& own, std::uint32_t other) const {
-    const AgentGeometry& their = geometry_.agent[other];
-    const Braking theirs = braking_now(their, type_of(model_.types, their.type));
-    const double margin = model_.options.guard_margin;
-    const double stop = std::max(own.time(), theirs.time() - model_.options.step);
-    const double discs = own_.radius + their.radius;
-    double least_allowed = margin;
-    for (int k = 0; k <= kInstants; ++k) {
-      const double time = stop * k / kInstants;
-      const Pose mine = pose_after(own, time),
-                 yours = pose_after(theirs, time + model_.options.step);
-      if ((mine.position - yours.position).squaredNorm() > discs * discs) continue;
-      const double room = gap(mine, yours, other);
-      if (room >= margin) continue;
-      // closer than the margin already: part of what is left may be used, so that bodies side by side can turn apart
-      if (least_allowed == margin)
-        least_allowed = std::min(margin, 0.5 * gap({own_.position, own_.forward},
-                                                   {their.position, their.forward}, other));
-      if (room < least_allowed) return false;
-    }
-    return true;
-  }
-
-  const Model& model_;
-  const Scene& scene_;
-  const TickGeometry& geometry_;
-  std::size_t row_;
-  const AgentGeometry& own_;
-  const AgentType& type_;
-  std::vector<std::uint32_t>& near_;
-};
+double instant_of(double duration, std::size_t k) {
+  return duration * static_cast<double>(k) / static_cast<double>(StoppingGuard::kInstants - 1);
+}
 
 }  // namespace
 
-Vec2 guarded_velocity(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                      std::size_t row, const Vec2& velocity, GuardScratch& scratch) {
-  const Guard guard(model, scene, geometry, row, scratch);
-  if (!guard.has_neighbours() || guard.admits(velocity)) return velocity;
-  const AgentGeometry& own = geometry.agent[row];
-  const AgentType& type = type_of(model.types, own.type);
-  const double asked = velocity.norm(), now = own.velocity.norm();
-  const double brake = std::min(type.max_deceleration * model.options.step, now);
-  if (asked > 1e-6) {
-    // the same way, but slower: no faster than now, braking by half, braking
-    const Vec2 along = velocity / asked;
-    if (asked > now && guard.admits(along * now)) return along * now;
-    for (double speed : {now - 0.5 * brake, now - brake}) {
-      const Vec2 slower = along * std::max(std::min(asked, speed), 0.01);
-      if (guard.admits(slower)) return slower;
+double StoppingGuard::gap_between(const Pose& own, const Pose& theirs, std::size_t other) const {
+  const AgentGeometry &a = geometry_->agent[row_], &b = geometry_->agent[other];
+  if (a.is_box && b.is_box) return separation(box_at(own, a), box_at(theirs, b));
+  return -overlap_depth(place_polygon(scene_->footprint[row_].outline(), own.forward),
+                        place_polygon(scene_->footprint[other].outline(), theirs.forward),
+                        theirs.position - own.position);
+}
+
+void StoppingGuard::prepare(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                            std::size_t row, std::span<const std::uint32_t> near) {
+  model_ = &model;
+  scene_ = &scene;
+  geometry_ = &geometry;
+  row_ = row;
+  overlapping_ = false;
+  foes_.clear();
+  for (const std::uint32_t other : near) {
+    if (overlap_depth(scene, geometry, row, other) > 0)
+      overlapping_ = true;
+    else
+      add_foe(other);
+  }
+}
+
+void StoppingGuard::add_foe(std::uint32_t other) {
+  const AgentGeometry &own = geometry_->agent[row_], &their = geometry_->agent[other];
+  const double step = model_->options.step;
+  const Braking mine = braking_now(own, type_of(model_->types, own.type));
+  Braking theirs = braking_now(their, type_of(model_->types, their.type));
+  // nobody makes others brake; whoever goes the same way may
+  if (!their.yields && their.velocity.dot(own.velocity) <= 0) theirs.deceleration = 1e-3;
+  Foe& foe = foes_.emplace_back();
+  foe.row = other;
+  foe.duration = std::max(mine.duration() + step, their.yields ? theirs.duration() : 0.0);
+  foe.free_way = model_->options.guard_margin + their.throttle_way;
+  for (std::size_t k = 0; k < kInstants; ++k) {
+    const double time = step + instant_of(foe.duration, k);
+    foe.poses[k] = pose_after(theirs, time);
+    const Pose now = pose_after(mine, time);
+    if (own.is_box && their.is_box) {
+      const OrientedBox a = box_at(now, own), b = box_at(foe.poses[k], their);
+      foe.gap[k] = widest_gap(a, b, foe.axis[k]);
+      foe.middle[k] = 0.5 * (reach_along(a, foe.axis[k]) - reach_along(b, -foe.axis[k]));
+    } else {
+      foe.gap[k] = gap_between(now, foe.poses[k], other);
+      foe.axis[k] = Vec2::Zero();
+      foe.middle[k] = 0;
     }
   }
-  const Vec2 straight = 0.001 * own.forward;
-  return guard.admits(straight) ? straight : Vec2(Vec2::Zero());
+}
+
+bool StoppingGuard::clear_at(const Foe& foe, std::size_t instant, const Pose& pose) const {
+  const AgentGeometry &own = geometry_->agent[row_], &their = geometry_->agent[foe.row];
+  const double discs = own.radius + their.radius + foe.free_way;
+  if ((pose.position - foe.poses[instant].position).squaredNorm() > discs * discs) return true;
+  const double gap = gap_between(pose, foe.poses[instant], foe.row);
+  if (gap >= foe.free_way) return true;
+  // no closer than by braking now is as good as braking
+  if (gap >= foe.gap[instant] - kSame) return true;
+  // closer than the margin already: half of what is left may be used, so that bodies side by side
+  // can turn apart
+  if (gap < std::min(model_->options.guard_margin, 0.5 * foe.gap[instant])) return false;
+  return !own.is_box || reach_along(box_at(pose, own), foe.axis[instant]) <= foe.middle[instant];
+}
+
+bool StoppingGuard::admits(const Vec2& velocity) const {
+  if (foes_.empty()) return true;
+  const AgentGeometry& own = geometry_->agent[row_];
+  const AgentType& type = type_of(model_->types, own.type);
+  const BodyState next = advance_body(type, body_of(*scene_, row_), velocity, model_->options.step);
+  const double curvature = own.on_wheels ? std::tan(next.steering) / type.wheelbase : 0.0;
+  const Braking braking = braking_after(next, own, type, curvature);
+  for (const Foe& foe : foes_)
+    for (std::size_t k = 0; k < kInstants; ++k)
+      if (!clear_at(foe, k, pose_after(braking, instant_of(foe.duration, k)))) return false;
+  return true;
+}
+
+namespace {
+
+/// Creeping directions of a body that is held up, best first, as turns [rad] from its heading
+/// (wheels) or preferred direction (on foot).
+std::array<double, 3> creeping_turns(const AgentGeometry& own, const AgentType& type,
+                                     bool keep_left) {
+  const double passing = keep_left ? 1.0 : -1.0;
+  if (!own.on_wheels) return {passing, -passing, 0.0};
+  const double lock = std::tan(type.max_steering) * type.rear_axle_to_center / type.wheelbase;
+  const double most = 0.999 * std::atan(std::max(lock, 0.2));
+  // wheels that point somewhere already decide, so that it doesn't dither
+  const double side = std::abs(own.curvature) > 0.02 ? std::copysign(1.0, own.curvature) : passing;
+  return {side * most, -side * most, 0.0};
+}
+
+}  // namespace
+
+Vec2 guarded_velocity(const StoppingGuard& guard, const Model& model, const TickGeometry& geometry,
+                      std::size_t row, const Vec2& velocity, const Vec2& preferred,
+                      std::span<const HalfPlane> hard) {
+  const AgentGeometry& own = geometry.agent[row];
+  const AgentType& type = type_of(model.types, own.type);
+  const double asked = velocity.norm(), wish = preferred.norm();
+  if (model.options.creep_when_held && asked < 0.5 * kCreep && wish > kCreep &&
+      !guard.overlapping()) {
+    const Vec2 ahead = own.on_wheels ? own.forward : Vec2(preferred / wish);
+    for (const double turn : creeping_turns(own, type, model.options.keep_left)) {
+      const Vec2 creep = kCreep * from_body(rotation(turn), ahead);
+      const bool within = std::all_of(hard.begin(), hard.end(),
+                                      [&](const HalfPlane& p) { return slack(p, creep) >= 0; });
+      if (within && guard.admits(creep)) return creep;
+    }
+  }
+  if (guard.admits(velocity)) return velocity;
+  if (asked < 1e-6) return Vec2::Zero();
+  // the same way, but slower: no faster than now, braking by half, braking
+  const Vec2 along = velocity / asked;
+  const double now = own.velocity.norm(), brake = type.max_deceleration * model.options.step;
+  for (const double speed : {now, now - 0.5 * brake, now - brake}) {
+    if (speed >= asked) continue;
+    const Vec2 slower = std::max(speed, 0.01 * asked) * along;
+    if (guard.admits(slower)) return slower;
+  }
+  return Vec2::Zero();
 }
 
 }  // namespace sumogamma

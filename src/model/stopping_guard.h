@@ -1,25 +1,82 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "geometry/half_plane.h"
 #include "model/model.h"
 #include "model/tick_geometry.h"
 
 namespace sumogamma {
 
-/// Scratch of guarded_velocity, kept between calls so that it does not allocate.
-struct GuardScratch {
-  std::vector<std::uint32_t> near;
+/// Keeps bodies apart that half-planes can't: those that turn, and those whose brakes need their
+/// way.
+///
+/// Law: if everybody brakes now, nobody touches anybody. A velocity is admitted if this still holds
+/// after one tick under it: at a few instants until both stand, the own braking outline keeps
+/// `guard_margin` from the other's, and where both could take the same free ground within the tick
+/// it keeps to its own half of it (the line midway between the two outlines as they would brake
+/// now). So braking is always a way out, for all at once and without a word between them; as long
+/// as the instants are dense enough, bodies that are apart stay apart. Agents that the model
+/// doesn't drive go on as they do unless they go the same way. Bodies that overlap already are left
+/// to the push-out of G.
+class StoppingGuard {
+ public:
+  static constexpr std::size_t kInstants = 4;
+
+  /// Where one body is at one instant.
+  struct Pose {
+    Vec2 position, forward;
+  };
+
+  /// Takes in the neighbours of one row. `near`: rows that it could touch before both stand.
+  void prepare(const Model& model, const Scene& scene, const TickGeometry& geometry,
+               std::size_t row, std::span<const std::uint32_t> near);
+
+  /// True where the body may be asked for `velocity` [m/s].
+  bool admits(const Vec2& velocity) const;
+
+  /// True where the row overlaps somebody.
+  bool overlapping() const { return overlapping_; }
+  bool has_neighbours() const { return !foes_.empty(); }
+
+ private:
+  /// A neighbour as it brakes.
+  struct Foe {
+    std::uint32_t row;
+    double duration;  ///< until both stand [s]
+    double
+        free_way;  ///< farther apart than this nothing that the foe does within a tick matters [m]
+    std::array<Pose, kInstants> poses;  ///< of the foe
+    std::array<double, kInstants> gap;  ///< between the two if both brake now [m]
+    std::array<Vec2, kInstants>
+        axis;  ///< from the row to the foe, along which that gap is measured
+    std::array<double, kInstants>
+        middle;  ///< of the gap, along the axis from the row's position [m]
+  };
+
+  void add_foe(std::uint32_t other);
+  bool clear_of(const Foe& foe, const Pose (&poses)[kInstants]) const;
+  bool clear_at(const Foe& foe, std::size_t instant, const Pose& pose) const;
+  double gap_between(const Pose& own, const Pose& theirs, std::size_t other) const;
+
+  const Model* model_ = nullptr;
+  const Scene* scene_ = nullptr;
+  const TickGeometry* geometry_ = nullptr;
+  std::size_t row_ = 0;
+  bool overlapping_ = false;
+  std::vector<Foe> foes_;
 };
 
-/// The velocity itself, or the nearest of a few slower ones, with which this body can still stop in
-/// time: after one tick under it and braking from then on, its turned outline stays clear of
-/// everybody else's if they brake now. As long as everybody keeps to this, braking is a way out for
-/// all at once, so that bodies that are apart stay apart (but for two that take the same free
-/// ground within one tick). Half-planes can't say this: they know neither the turning of a body nor
-/// the way that its brakes need. Bodies that overlap already are left to G's push-out.
-Vec2 guarded_velocity(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                      std::size_t row, const Vec2& velocity, GuardScratch& scratch);
+/// v_new made safe: `velocity` if the guard admits it, or else the nearest of a few slower ones
+/// along it that it admits, or null: braking with the wheels as they are. A body that is held up
+/// (asked to stand although it prefers to go) creeps round what is in its way instead, as long as
+/// the guard and the hard planes admit that: to the side that its wheels point to already, else to
+/// the passing side first.
+Vec2 guarded_velocity(const StoppingGuard& guard, const Model& model, const TickGeometry& geometry,
+                      std::size_t row, const Vec2& velocity, const Vec2& preferred,
+                      std::span<const HalfPlane> hard);
 
 }  // namespace sumogamma

@@ -12,6 +12,8 @@ namespace {
 // what a driver needs before the brakes bite [s]
 constexpr double kReactionTime = 0.5;
 
+double square(double x) { return x * x; }
+
 Margins margins_of(const ModelOptions& options, bool on_wheels) {
   if (on_wheels) return {options.front_margin, options.rear_margin, options.side_margin};
   return {options.walker_margin, options.walker_margin, options.walker_margin};
@@ -52,15 +54,22 @@ AgentGeometry describe(const Model& model, const Scene& scene, std::size_t row) 
   agent.velocity = scene.velocity[row];
   agent.forward = direction_of(scene.heading[row]);
   agent.on_wheels = type.kinematics != Kinematics::Holonomic;
+  agent.height = scene.height[row];
   agent.speed = agent.on_wheels ? scene.speed[row] : agent.velocity.norm();
   agent.curvature = agent.on_wheels ? std::tan(scene.steering[row]) / type.wheelbase : 0.0;
   agent.type = scene.type[row];
   agent.attention = scene.behavior[row].attention;
   fill_outline(model.options, scene.footprint[row], agent);
-  const double square = agent.speed * agent.speed;
-  agent.stopping = kReactionTime * agent.speed + square / (2.0 * type.comfortable_deceleration);
-  agent.reach =
-      agent.radius + model.options.step * agent.speed + square / (2.0 * type.max_deceleration);
+  agent.yields = scene.control[row] == Control::Gamma;
+  agent.stopping =
+      kReactionTime * agent.speed + square(agent.speed) / (2.0 * type.comfortable_deceleration);
+  const double step = model.options.step;
+  const double wish = std::max(agent.speed, std::min(scene.preferred_speed[row], type.max_speed));
+  const double faster = std::min(agent.speed + type.max_acceleration * step, wish);
+  const double way = square(agent.speed) / (2.0 * type.max_deceleration);
+  agent.throttle_way =
+      step * faster + (square(faster) - square(agent.speed)) / (2.0 * type.max_deceleration);
+  agent.next_reach = agent.radius + way + agent.throttle_way + model.options.guard_margin;
   return agent;
 }
 
@@ -81,7 +90,7 @@ void prepare_tick(const Model& model, const Scene& scene, Workers& workers,
   for (const AgentGeometry& agent : geometry.agent) {
     geometry.longest_stopping = std::max(geometry.longest_stopping, agent.stopping);
     geometry.largest_radius = std::max(geometry.largest_radius, agent.radius);
-    geometry.largest_reach = std::max(geometry.largest_reach, agent.reach);
+    geometry.largest_reach = std::max(geometry.largest_reach, agent.next_reach);
   }
 }
 

@@ -22,13 +22,17 @@ struct AgentGeometry {
   double guarded_shift = 0;  ///< likewise the guarded one's
   double radius = 0;         ///< about the position, holds the guarded outline [m]
   double stopping = 0;       ///< way of reacting and braking comfortably [m]
-  double reach = 0;          ///< radius and the shortest way to a stop [m]
-  double speed = 0;          ///< [m/s]
-  double curvature = 0;      ///< of the rear axle's way, positive left [1/m]
+  double next_reach =
+      0;  ///< radius and the shortest way to a stop after one more tick at full throttle [m]
+  double throttle_way = 0;  ///< what that tick adds to the way [m]
+  double speed = 0;         ///< [m/s]
+  double height = 0;        ///< of the ground under it [m]
+  double curvature = 0;     ///< of the rear axle's way, positive left [1/m]
   AttentionRange attention;
   AgentTypeId type{};
   bool is_box = true;
   bool on_wheels = true;
+  bool yields = true;  ///< driven by the model: brakes where it must
 
   OrientedBox box() const { return {position + shift * forward, forward, half}; }
   OrientedBox guarded_box() const {
@@ -41,8 +45,7 @@ struct TickGeometry {
   SpatialGrid grid;
   std::vector<AgentGeometry> agent;
   double longest_stopping = 0;  ///< largest of these [m]
-  double largest_radius = 0;
-  double largest_reach = 0;
+  double largest_radius = 0, largest_reach = 0;
 };
 
 /// Fills `geometry` for the scene. No allocation while the number of agents stays within what was

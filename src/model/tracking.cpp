@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/units.h"
+#include "geometry/rotation.h"
 
 namespace sumogamma {
 
@@ -12,6 +13,8 @@ namespace {
 constexpr double kSteeringTime = 0.25;
 // below this speed a pedestrian keeps facing where it faced [m/s]
 constexpr double kFacingSpeed = 0.05;
+// nothing on wheels locks farther [rad]
+const double kMostSteering = radians(80);
 
 BodyState advance_holonomic(const AgentType& type, const BodyState& body, const Vec2& velocity,
                             double dt) {
@@ -35,16 +38,35 @@ BodyState advance_holonomic(const AgentType& type, const BodyState& body, const 
   return next;
 }
 
-/// Front wheel angle that points the centre's velocity along `lateral / forward` (body axes),
-/// softened at speed.
-double asked_steering(const AgentType& type, double speed, double forward, double lateral) {
-  if (forward == 0 && lateral == 0) return 0;
-  // beyond a right angle there is nothing better than full lock
-  if (forward <= 0) return lateral >= 0 ? type.max_steering : -type.max_steering;
-  // the centre moves along v where its curvature is tan(angle) / (rear axle to centre)
+/// Tangent of the front wheel angle that points the centre's velocity along `lateral / forward`
+/// (body axes), softened at speed. At the limit, full lock: beyond a right angle there is nothing
+/// better.
+double asked_lock(const AgentType& type, double speed, double forward, double lateral,
+                  double most) {
+  if (forward <= 0) return lateral == 0 ? 0.0 : std::copysign(most, lateral);
+  // the centre moves along v where the rear axle's curvature is tan(angle) / (rear axle to centre)
   const double reach =
       std::max({type.rear_axle_to_center, kSteeringTime * speed, 0.1 * type.wheelbase});
-  return std::atan(type.wheelbase * (lateral / forward) / reach);
+  return std::clamp(type.wheelbase * lateral / (forward * reach), -most, most);
+}
+
+/// The wheels turn towards the asked angle within angle, rate and grip; returns the tangent of the
+/// new angle.
+double turn_wheels(const AgentType& type, const Vec2& asked, double dt, BodyState& next) {
+  double most = std::tan(std::min(type.max_steering, kMostSteering));
+  const double grip = type.max_lateral_acceleration * type.wheelbase;
+  if (next.speed * next.speed * most > grip) most = grip / (next.speed * next.speed);
+  // a body that is told to stand keeps its wheels as they are
+  double lock = asked.squaredNorm() > 1e-12
+                    ? asked_lock(type, next.speed, asked.x(), asked.y(), most)
+                    : std::clamp(std::tan(next.steering), -most, most);
+  const double wanted = std::atan(lock);
+  const double most_change = type.max_steering_rate * dt;
+  const double steering =
+      std::clamp(wanted, next.steering - most_change, next.steering + most_change);
+  if (steering != wanted) lock = std::tan(steering);
+  next.steering = steering;
+  return lock;
 }
 
 BodyState advance_single_track(const AgentType& type, const BodyState& body, const Vec2& velocity,
@@ -54,32 +76,22 @@ BodyState advance_single_track(const AgentType& type, const BodyState& body, con
   const Vec2 asked = to_body(velocity, forward);
 
   const double target = std::clamp(asked.x(), 0.0, type.max_speed);
-  next.speed = std::clamp(target, body.speed - type.max_deceleration * dt,
-                          body.speed + type.max_acceleration * dt);
-  next.speed = std::max(next.speed, 0.0);
+  next.speed = std::max(0.0, std::clamp(target, body.speed - type.max_deceleration * dt,
+                                        body.speed + type.max_acceleration * dt));
+  const double lock = turn_wheels(type, asked, dt, next);
 
-  // a body that is told to stand keeps its wheels as they are
-  double steering = body.steering;
-  if (asked.squaredNorm() > 1e-12)
-    steering = asked_steering(type, next.speed, asked.x(), asked.y());
-  double most = type.max_steering;
-  const double grip = type.max_lateral_acceleration * type.wheelbase;
-  if (next.speed * next.speed * std::tan(most) > grip)
-    most = std::atan(grip / (next.speed * next.speed));
-  const double most_change = type.max_steering_rate * dt;
-  steering = std::clamp(steering, -most, most);
-  steering = std::clamp(steering, body.steering - most_change, body.steering + most_change);
-  next.steering = std::clamp(steering, -type.max_steering, type.max_steering);
-
-  // exact arc of the rear axle
+  // exact arc of the rear axle, and the centre's swing about it
   const double distance = next.speed * dt;
-  const double turn = distance * std::tan(next.steering) / type.wheelbase;
-  next.heading = wrap_angle(body.heading + turn);
+  const double turn = distance * lock / type.wheelbase;
   const double half = 0.5 * turn;
-  const double chord = distance * (std::abs(half) > 1e-6 ? std::sin(half) / half : 1.0);
-  const Vec2 next_forward = direction_of(next.heading);
-  const Vec2 displacement = chord * direction_of(body.heading + half) +
-                            type.rear_axle_to_center * (next_forward - forward);
+  const Vec2 half_turn = rotation(half);
+  const double chord = distance * (std::abs(half) > 1e-6 ? half_turn.y() / half : 1.0);
+  const Vec2 whole_turn(half_turn.x() * half_turn.x() - half_turn.y() * half_turn.y(),
+                        2.0 * half_turn.x() * half_turn.y());
+  const Vec2 displacement =
+      from_body(chord * half_turn + type.rear_axle_to_center * (whole_turn - Vec2(1, 0)), forward);
+  next.heading = body.heading + turn;
+  if (std::abs(next.heading) > kPi) next.heading = wrap_angle(next.heading);
   next.position = body.position + displacement;
   next.velocity = displacement / dt;
   return next;

@@ -41,7 +41,7 @@ AgentType scene_type(const char* name, double length, double width, double wheel
   type.max_lateral_acceleration = kUnlimited;
   type.tracking_error = 0.5;
   type.horizon = 4.0;
-  type.attention_front = 4.0;
+  type.attention_front = 2.0;
   type.attention_rear = 2.0;
   type.responsibility_decay = 0.3;
   return type;
@@ -54,7 +54,7 @@ AgentType walking_type() {
   type.max_steering_rate = radians(360);
   type.tracking_error = 0.1;
   type.horizon = 3.0;
-  type.attention_front = 4.0;
+  type.attention_front = 2.0;
   type.attention_rear = 2.0;
   type.responsibility_decay = 0.6;
   return type;

@@ -16,6 +16,7 @@ namespace sumogamma {
 namespace {
 
 constexpr double kStuckSpeed = 0.2, kStuckTime = 5.0;  // [m/s], [s]
+constexpr double kArrived = 2.0;                       // [m]
 constexpr double kViolated = 0.01;                     // [m/s]
 constexpr double kHardViolated = 1e-6;                 // [m/s]
 constexpr double kDeep = 0.1;                          // [m]
@@ -59,7 +60,7 @@ double reachable_angle(const AgentType& type, double speed, double dt) {
 void count_request(const Model& model, const Scene& scene, std::size_t row, const Vec2& velocity,
                    const Workspace& work, double dt, Counts& counts) {
   const AgentType& type = type_of(model.types, scene.type[row]);
-  counts.neighbours += static_cast<std::int64_t>(work.attended.size());
+  counts.neighbours += static_cast<std::int64_t>(work.neighbours.attended.size());
   counts.half_planes += static_cast<std::int64_t>(work.constraints.planes.size());
   double worst_hard = 0, worst = 0;
   bool outside = false;
@@ -119,7 +120,9 @@ struct Standstill {
 
   void update(const Scene& scene, double dt) {
     for (std::size_t row = 0; row < scene.size(); ++row) {
-      time[row] = scene.velocity[row].norm() < kStuckSpeed ? time[row] + dt : 0.0;
+      const double way = (scene.behavior[row].intention.goal - scene.position[row]).norm();
+      const bool held = scene.velocity[row].norm() < kStuckSpeed && way > kArrived;
+      time[row] = held ? time[row] + dt : 0.0;
       if (time[row] >= kStuckTime - 0.5 * dt) stuck[row] = 1;
     }
   }
