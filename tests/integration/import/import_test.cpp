@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <pugixml.hpp>
 #include <set>
+#include <sstream>
 
 #include "base/random.h"
 #include "base/subprocess.h"
@@ -208,6 +210,48 @@ TEST_F(ImportTest, GivesTheSameBytesForTheSameSeed) {
   ASSERT_EQ(import(map, {"--seed", "8", "--duration", "200"}).exit_code, 0);
   EXPECT_EQ(content(out() / "net.net.xml"), first["net.net.xml"]);
   EXPECT_NE(content(out() / "demand.rou.xml"), first["demand.rou.xml"]);
+}
+
+TEST_F(ImportTest, DemandIsSortedRoutableAndSpreadOverTypes) {
+  ASSERT_EQ(import(kMaps / "fujisawa.osm.pbf", {"--agents", "200", "--duration", "300"}).exit_code,
+            0);
+  const RoadNetwork road = read_sumo_net(out() / "net.net.xml");
+  pugi::xml_document demand;
+  ASSERT_TRUE(demand.load_file((out() / "demand.rou.xml").c_str()));
+  double before = 0;
+  int first_half_minute = 0;
+  std::map<std::string, int> by_type;
+  for (const pugi::xml_node agent : demand.child("routes").children()) {
+    if (std::string_view(agent.name()) == "vType") continue;
+    const std::string id = agent.attribute("id").value(), type = agent.attribute("type").value();
+    const double depart = agent.attribute("depart").as_double(-1);
+    EXPECT_GE(depart, before) << id;
+    before = depart;
+    first_half_minute += depart < 30;
+    ++by_type[type];
+    const pugi::xml_node trip = agent.child(type == "pedestrian" ? "walk" : "route");
+    std::istringstream names(trip.attribute("edges").value());
+    const Edge* last = nullptr;
+    for (std::string name; names >> name;) {
+      ASSERT_TRUE(road.edge_by_name.contains(name)) << id << " " << name;
+      const Edge& edge = road.edge(road.edge_by_name.at(name));
+      if (last && type != "pedestrian") {
+        EXPECT_EQ(last->to, edge.from) << id << " " << name;
+      }
+      if (last && type == "pedestrian") {
+        // people walk either way, and round the corner, but never from nowhere
+        EXPECT_TRUE(last->to == edge.from || last->to == edge.to || last->from == edge.from ||
+                    last->from == edge.to)
+            << id << " " << name;
+      }
+      last = &edge;
+    }
+    EXPECT_NE(last, nullptr) << id;
+  }
+  EXPECT_GE(first_half_minute, 200);
+  EXPECT_LE(first_half_minute, 400);
+  EXPECT_EQ(by_type.size(), 7u);
+  EXPECT_LT(before, 300);
 }
 
 class SharedMapTest : public ImportTest, public testing::WithParamInterface<const char*> {
