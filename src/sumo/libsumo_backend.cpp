@@ -45,7 +45,7 @@ class CapturedErrors {
 // matched, as for a ghost, and then asserts that it is no NaN. What it finds there is what lay on
 // the stack, so zeros are laid there first: about 450 bytes below the caller's frame. The pointers
 // keep the dynamic linker's resolver from running in between.
-[[gnu::noinline, gnu::no_sanitize("address", "undefined")]] void clear_stack_below() {
+__attribute__((noinline, no_sanitize("address", "undefined"))) void clear_stack_below() {
   volatile std::uint64_t zeros[128];
   for (volatile std::uint64_t& word : zeros) word = 0;
 }
