@@ -2,7 +2,7 @@
 
 namespace sumogamma {
 
-double locate_on_path(const RoadState& road, Scene& scene, std::size_t row) {
+double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& scene, std::size_t row) {
   const Path* path = road.path(scene.path[row]);
   if (path == nullptr) return 0.0;
   // one tick moves an agent by a few metres at most; the window forgives a detour
@@ -14,6 +14,7 @@ double locate_on_path(const RoadState& road, Scene& scene, std::size_t row) {
   const double advanced = place.along - stretch.from;
   scene.lane[row] = {stretch.lane, stretch.lane_from + (stretch.reversed ? -advanced : advanced),
                      stretch.reversed ? -place.offset : place.offset};
+  scene.height[row] = elevation_at(network.lane(stretch.lane), scene.lane[row].along);
   return place.offset;
 }
 

@@ -89,42 +89,19 @@ std::filesystem::path sumo_home() {
 std::vector<std::string> run_netconvert(const NetconvertRequest& request) {
   const std::string typemap = (sumo_home() / "data/typemap").string() + "/";
   std::vector<std::string> arguments = {
-      "--xml-validation",
-      "never",
-      "--osm-files",
-      request.prepared,
-      "-o",
-      request.network,
-      "-t",
+      "--xml-validation", "never", "--osm-files", request.prepared, "-o", request.network, "-t",
       typemap + "osmNetconvert.typ.xml," + typemap + "osmNetconvertUrbanDe.typ.xml," + typemap +
           "osmNetconvertPedestrians.typ.xml," + typemap + "osmNetconvertBicycle.typ.xml",
-      "--proj",
-      request.projection,
-      "--offset.disable-normalization",
-      "--geometry.remove",
-      "--roundabouts.guess",
-      "--ramps.guess",
-      "--junctions.join",
-      "--junctions.corner-detail",
-      "5",
-      "--junctions.internal-link-detail",
-      "8",
-      "--tls.guess-signals",
-      "--tls.discard-simple",
-      "--tls.default-type",
-      "static",
-      "--walkingareas",
-      "--crossings.guess",
-      "--osm.bike-access",
-      "--osm.lane-access",
-      "--osm.turn-lanes",
-      "--no-turnarounds.except-deadend",
-      "--opposites.guess",
-      "--opposites.guess.fix-lengths",
-      "--output.street-names",
-      "--output.original-names",
-      "--osm.all-attributes",
-      "--osm.extra-attributes",
+      "--proj", request.projection, "--offset.disable-normalization", "--geometry.remove",
+      "--roundabouts.guess", "--ramps.guess", "--junctions.join", "--junctions.corner-detail", "5",
+      "--junctions.internal-link-detail", "8",
+      // bodies turn about a rear axle: with SUMO's 4 m no bus and hardly a van gets round a
+      // right-angled corner
+      "--default.junctions.radius", "7", "--tls.guess-signals", "--tls.discard-simple",
+      "--tls.default-type", "static", "--walkingareas", "--crossings.guess", "--osm.bike-access",
+      "--osm.lane-access", "--osm.turn-lanes", "--no-turnarounds.except-deadend",
+      "--opposites.guess", "--opposites.guess.fix-lengths", "--output.street-names",
+      "--output.original-names", "--osm.all-attributes", "--osm.extra-attributes",
       "surface,layer,bridge,tunnel,lit,maxspeed,sidewalk,footway,crossing,access,width,junction"};
   if (request.left_hand) arguments.push_back("--lefthand");
   if (request.layers) arguments.insert(arguments.end(), {"--osm.layer-elevation", "5"});

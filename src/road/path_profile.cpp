@@ -49,7 +49,9 @@ void round_corners(double turning_radius, Path& path) {
   std::vector<Vec2> sums(count + 2, Vec2::Zero());
   for (std::size_t i = 0; i <= count; ++i) sums[i + 1] = sums[i] + samples[i];
   // a right angle filtered over +-w turns with radius w / sqrt(2) at its tightest
-  const auto half = static_cast<std::size_t>(std::sqrt(2.0) * turning_radius / step);
+  // (and cuts a third of w off the corner itself: long bodies must not do that over the kerb)
+  constexpr double kWidest = 4.0;
+  const auto half = static_cast<std::size_t>(std::min(std::sqrt(2.0) * turning_radius, kWidest) / step);
   std::vector<Vec2> rounded(count + 1);
   std::vector<double> along(count + 1, 0.0);
   for (std::size_t i = 0; i <= count; ++i) {

@@ -30,6 +30,7 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.next_stop);
   visit(scene.stop_left);
   visit(scene.lane);
+  visit(scene.height);
   visit(scene.context);
 }
 

@@ -17,6 +17,9 @@ struct AgentId {
   friend auto operator<=>(const AgentId&, const AgentId&) = default;
 };
 
+/// Agents whose ground differs by more than this don't meet: one is on a bridge [m].
+inline constexpr double kStorey = 2.5;
+
 /// Where an agent is on the lane network.
 struct LanePosition {
   LaneId lane = kNoLane;
@@ -54,6 +57,7 @@ struct Scene {
   std::vector<std::int32_t> next_stop;   ///< index of the path's next planned halt
   std::vector<double> stop_left;         ///< [s] still to stand at the present halt, 0 where there is none
   std::vector<LanePosition> lane;
+  std::vector<double> height;            ///< of the ground under the agent [m]: bridges
   std::vector<RoadContext> context;      ///< filled every tick from the frozen scene
 
   std::size_t size() const { return id.size(); }

@@ -67,10 +67,10 @@ void tick(Simulation& sim, World& world) {
   Scene& scene = sim.scene;
   sim.workspaces.resize(sim.workers->count());
   sim.commands.resize(rows);
-  prepare_tick(sim.model, scene, *sim.workers, sim.geometry);
   sim.workers->for_each_range(rows, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) locate_on_path(sim.road, scene, row);
+    for (std::size_t row = begin; row < end; ++row) locate_on_path(sim.model.road, sim.road, scene, row);
   });
+  prepare_tick(sim.model, scene, *sim.workers, sim.geometry);
   update_road_contexts(sim.model, sim.road, sim.geometry.grid, sim.dt, *sim.workers, sim.approaches, scene);
   clock.end(sim.times.context);
 

@@ -207,6 +207,7 @@ bool SumoWorld::insert(const Pending& pending, Scene& scene, RoadState& road) {
   const Vec2 direction = path.line.direction_at(0.0);
   agent.path_offset = draw_path_offset(model_, type, options_.seed, id);
   const PathStretch& stretch = path.stretches.front();
+  const double ground = elevation_at(model_.road.lane(stretch.lane), stretch.lane_from);
   const double half_width = details.is_person ? 0.5 * type.width : 0.5 * width;
   const double offset = std::clamp(agent.path_offset, std::min(0.0, half_width + 0.1 - stretch.room_right),
                                    std::max(0.0, stretch.room_left - half_width - 0.1));
@@ -225,6 +226,7 @@ bool SumoWorld::insert(const Pending& pending, Scene& scene, RoadState& road) {
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const Vec2 relative = to_body(scene.position[row] - agent.position, direction);
     if (std::abs(relative.x()) > 80.0 || std::abs(relative.y()) > 30.0) continue;
+    if (std::abs(scene.height[row] - ground) > kStorey) continue;
     const Box other = box_of(scene, row);
     if (overlap(wanted, other)) return false;
     if (details.is_person || std::abs(relative.y()) > half_width + other.half_width + 0.3) continue;
@@ -244,6 +246,7 @@ bool SumoWorld::insert(const Pending& pending, Scene& scene, RoadState& road) {
   road.paths.resize(known_.size());
   road.paths[id.value] = pending.path;
   append_agent(scene, agent);
+  scene.height.back() = ground;
   ++life_cycle_.by_type[type.name].inserted;
   // spread over the run, a few ghosts at a time are read back
   if (written_.size() < options_.watched) {
