@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "base/subprocess.h"
+#include "base/units.h"
 
 namespace sumogamma {
 namespace {
@@ -99,8 +100,8 @@ void link_walkers(const RoadNetwork& road, ClassGraph& graph) {
   }
 }
 
-/// Buses and lorries keep to streets that are made for them: two of them can't pass each other in a lane-wide
-/// residential street, so that one such meeting would block it for good.
+/// Buses and lorries keep to streets that are made for them: two of them can't pass each other in a
+/// lane-wide residential street, so that one such meeting would block it for good.
 bool wide_enough(const Edge& edge, VehicleClassMask mask) {
   if ((mask & (vehicle_class::kBus | vehicle_class::kTruck)) == 0) return true;
   for (const char* narrow : {"residential", "living_street", "service", "track"})
@@ -186,6 +187,7 @@ class TripDraw {
  public:
   TripDraw(const TypeWork& work, std::uint64_t seed, std::uint64_t stream, double min_distance)
       : graph_(work.graph),
+        walks_(work.walks),
         draws_(seed, stream),
         least_edge_(work.walks ? 2.0 : work.type->length + 3.0) {
     std::vector<double> cumulative;
@@ -328,8 +330,8 @@ void measure(const RoadNetwork& road, const TypeWork& work, Trip& trip) {
   }
 }
 
-/// A trip that turns back on its own road. On foot SUMO finds no way across a dead end; on wheels it is a U-turn in a
-/// cut-off street that nobody would drive.
+/// A trip that turns back on its own road. On foot SUMO finds no way across a dead end; on wheels
+/// it is a U-turn in a cut-off street that nobody would drive.
 bool turns_back(const RoadNetwork& road, const std::vector<std::string>& edges) {
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     const Edge &a = road.edge(road.edge_by_name.at(edges[i])),
@@ -337,6 +339,29 @@ bool turns_back(const RoadNetwork& road, const std::vector<std::string>& edges) 
     if (a.from == b.to && a.to == b.from) return true;
   }
   return false;
+}
+
+/// Sharpest turn that a body of this length gets round from lane to lane without swinging out over
+/// others [rad].
+double sharpest_turn(double length) {
+  if (length < 3.0) return kPi;
+  return length < 5.5 ? radians(130.0) : length < 6.5 ? radians(115.0) : radians(100.0);
+}
+
+/// True where every turn of the route suits the type's length.
+bool turns_suit(const RoadNetwork& road, const std::vector<std::string>& edges, double length) {
+  constexpr double kReach = 6.0;  // directions are taken this far from the junction [m]
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const Polyline& in =
+        road.lane(road.edge(road.edge_by_name.at(edges[i])).lanes.back()).centerline;
+    const Polyline& out =
+        road.lane(road.edge(road.edge_by_name.at(edges[i + 1])).lanes.back()).centerline;
+    const Vec2 before = in.point_at(in.length()) - in.point_at(in.length() - kReach);
+    const Vec2 after = out.point_at(kReach) - out.point_at(0);
+    if (std::abs(std::atan2(cross(before, after), before.dot(after))) > sharpest_turn(length))
+      return false;
+  }
+  return true;
 }
 
 void take_routes(const RoadNetwork& road, const std::filesystem::path& file,
@@ -363,6 +388,7 @@ void take_routes(const RoadNetwork& road, const std::filesystem::path& file,
         });
     if (trip.edges.size() < (work.walks ? 2u : 1u) || !known) continue;
     if (turns_back(road, trip.edges)) continue;
+    if (!work.walks && !turns_suit(road, trip.edges, work.type->length)) continue;
     measure(road, work, trip);
     work.routed.push_back(std::move(trip));
   }
