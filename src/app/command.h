@@ -7,7 +7,8 @@
 namespace sumogamma {
 
 inline constexpr int kExitDone = 0;
-inline constexpr int kExitNotHeld = 1;      ///< ran, but something it was asked to guarantee did not hold
+inline constexpr int kExitNotHeld =
+    1;  ///< ran, but something it was asked to guarantee did not hold
 inline constexpr int kExitBadInput = 2;
 inline constexpr int kExitSumoFailed = 3;
 inline constexpr int kExitInterrupted = 130;
@@ -21,8 +22,9 @@ struct CommonOptions {
   std::vector<std::string> set;  ///< key=value, overriding scenario.toml
 };
 
-/// Each command adds its sub-command to the parser and returns what to run when it was chosen. The runner returns an
-/// exit code; Error and SumoError thrown by it are printed and mapped to 2 and 3 in main.
+/// Each command adds its sub-command to the parser and returns what to run when it was chosen. The
+/// runner returns an exit code; Error and SumoError thrown by it are printed and mapped to 2 and 3
+/// in main.
 using CommandRunner = std::function<int(const CommonOptions&)>;
 CommandRunner add_import_command(CLI::App& parent);
 CommandRunner add_run_command(CLI::App& parent);

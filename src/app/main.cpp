@@ -36,17 +36,22 @@ int fail(const std::exception& error, int code) {
 bool interrupted() { return signal_seen != 0; }
 
 int run_program(int argc, char** argv) {
-  CLI::App app("GAMMA traffic for Eclipse SUMO: mixed vehicles and pedestrians on any OpenStreetMap city", "sumo-gamma");
+  CLI::App app(
+      "GAMMA traffic for Eclipse SUMO: mixed vehicles and pedestrians on any OpenStreetMap city",
+      "sumo-gamma");
   app.require_subcommand(1);
   app.fallthrough();
   app.set_help_all_flag("--help-all", "help of every command");
 
   CommonOptions common;
   app.add_option("--seed", common.seed, "seed of every random draw")->capture_default_str();
-  app.add_option("--threads", common.threads, "threads for the model; results are the same for any number")
+  app.add_option("--threads", common.threads,
+                 "threads for the model; results are the same for any number")
       ->check(CLI::Range(1u, 1024u))
       ->capture_default_str();
-  app.add_option("--set", common.set, "override a key of scenario.toml: KEY=VALUE")->take_all()->allow_extra_args(false);
+  app.add_option("--set", common.set, "override a key of scenario.toml: KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
   app.add_flag("--quiet", common.quiet, "no progress");
   app.add_option("--log", common.log_level, "trace, debug, info, warn, error or off")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))

@@ -5,7 +5,8 @@
 
 namespace sumogamma {
 
-/// Progress on stderr: a bar where it is a terminal, a line every few seconds where it isn't, nothing when quiet.
+/// Progress on stderr: a bar where it is a terminal, a line every few seconds where it isn't,
+/// nothing when quiet.
 class Progress {
  public:
   /// `what`: first word of every line. `total`: where `done` will end, in `unit`.

@@ -5,26 +5,51 @@ namespace sumogamma {
 
 CommandRunner add_run_command(CLI::App& parent) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command = parent.add_subcommand("run", "drive a scenario: GAMMA moves the agents, SUMO does the rest");
-  command->add_option("SCENARIO", options->scenario, "folder made by 'sumo-gamma import', or any .sumocfg")->required();
-  command->add_option("-o,--output", options->output, "folder for results.json, trajectories and replay")->required();
+  CLI::App* command =
+      parent.add_subcommand("run", "drive a scenario: GAMMA moves the agents, SUMO does the rest");
+  command
+      ->add_option("SCENARIO", options->scenario,
+                   "folder made by 'sumo-gamma import', or any .sumocfg")
+      ->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "folder for results.json, trajectories and replay")
+      ->required();
   command->add_option("--step", options->step, "step length [s]")->check(CLI::Range(0.01, 0.5));
-  command->add_option("--duration", options->duration, "simulated time [s]")->check(CLI::PositiveNumber);
-  command->add_option("--agents", options->agents, "most agents alive at once")->check(CLI::Range(1L, 1000000L));
-  command->add_option("--control", options->control, "who is driven by GAMMA: all, none, or agent types and SUMO ids")
+  command->add_option("--duration", options->duration, "simulated time [s]")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--agents", options->agents, "most agents alive at once")
+      ->check(CLI::Range(1L, 1000000L));
+  command
+      ->add_option("--control", options->control,
+                   "who is driven by GAMMA: all, none, or agent types and SUMO ids")
       ->delimiter(',');
-  command->add_option("--region", options->region, "drive only who enters this box of the network: X0,Y0,X1,Y1 [m]")
-      ->delimiter(',')->expected(4);
-  command->add_option("--backend", options->backend, "traci (SUMO as a child process) or libsumo (in process)")
+  command
+      ->add_option("--region", options->region,
+                   "drive only who enters this box of the network: X0,Y0,X1,Y1 [m]")
+      ->delimiter(',')
+      ->expected(4);
+  command
+      ->add_option("--backend", options->backend,
+                   "traci (SUMO as a child process) or libsumo (in process)")
       ->check(CLI::IsMember({"traci", "libsumo"}));
-  command->add_option("--connect", options->connect, "HOST:PORT of a SUMO or sumo-gui started with --remote-port");
-  command->add_option("--sumo-options", options->sumo_options, "further options for SUMO, in quotes");
+  command->add_option("--connect", options->connect,
+                      "HOST:PORT of a SUMO or sumo-gui started with --remote-port");
+  command->add_option("--sumo-options", options->sumo_options,
+                      "further options for SUMO, in quotes");
   command->add_flag("--gui", options->gui, "show the run in sumo-gui");
   command->add_flag("--replay", options->replay, "write replay.html");
-  command->add_option("--trajectory-period", options->trajectory_period, "time between recorded trajectory points [s], 0: every step")
-      ->check(CLI::NonNegativeNumber)->capture_default_str();
-  command->add_option("--fail-on", options->fail_on, "exit 1 where this happened: collision, deep-collision, red-light, stuck, removed")
-      ->delimiter(',')->check(CLI::IsMember({"collision", "deep-collision", "red-light", "stuck", "removed"}));
+  command
+      ->add_option("--trajectory-period", options->trajectory_period,
+                   "time between recorded trajectory points [s], 0: every step")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--fail-on", options->fail_on,
+          "exit 1 where this happened: collision, deep-collision, red-light, stuck, removed")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"collision", "deep-collision", "red-light", "stuck", "removed"}));
   return [options](const CommonOptions& common) { return run_session(*options, common); };
 }
 

@@ -30,12 +30,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 double cpu_of(int who) {
   rusage usage{};
   getrusage(who, &usage);
-  auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+  auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -50,11 +54,14 @@ struct RunPlan {
   std::string control_text;
 };
 
-ControlChoice control_choice(const RunOptions& options, const std::string& from_config, std::string& text) {
-  std::vector<std::string> words = options.control.empty() ? std::vector<std::string>{from_config} : options.control;
+ControlChoice control_choice(const RunOptions& options, const std::string& from_config,
+                             std::string& text) {
+  std::vector<std::string> words =
+      options.control.empty() ? std::vector<std::string>{from_config} : options.control;
   ControlChoice control;
   control.all = words == std::vector<std::string>{"all"};
-  if (!control.all && words != std::vector<std::string>{"none"}) control.names.insert(words.begin(), words.end());
+  if (!control.all && words != std::vector<std::string>{"none"})
+    control.names.insert(words.begin(), words.end());
   if (control.names.count("all") + control.names.count("none") > 0)
     throw Error("--control", "'all' and 'none' stand alone, expected all, none, or types and ids");
   text.clear();
@@ -62,8 +69,10 @@ ControlChoice control_choice(const RunOptions& options, const std::string& from_
   if (options.region.size() == 4) {
     control.all = false;
     control.has_region = true;
-    control.region_low = {std::min(options.region[0], options.region[2]), std::min(options.region[1], options.region[3])};
-    control.region_high = {std::max(options.region[0], options.region[2]), std::max(options.region[1], options.region[3])};
+    control.region_low = {std::min(options.region[0], options.region[2]),
+                          std::min(options.region[1], options.region[3])};
+    control.region_high = {std::max(options.region[0], options.region[2]),
+                           std::max(options.region[1], options.region[3])};
     text = "region";
   }
   return control;
@@ -76,7 +85,8 @@ RunPlan make_plan(const RunOptions& options, const CommonOptions& common) {
   plan.config = read_config(plan.input.settings, common.set);
   plan.step = options.step.value_or(plan.config.step);
   plan.duration = options.duration.value_or(plan.config.duration);
-  // the cap of scenario.toml belongs to imported demand; a user's own .sumocfg brings as many as it likes
+  // the cap of scenario.toml belongs to imported demand; a user's own .sumocfg brings as many as it
+  // likes
   const long cap = options.agents.value_or(plan.input.settings.empty() ? 0 : plan.config.agents);
   plan.agents = static_cast<std::size_t>(std::max(cap, 0L));
   plan.control = control_choice(options, plan.config.control, plan.control_text);
@@ -97,7 +107,8 @@ std::unique_ptr<Simulation> make_simulation(const RunPlan& plan, unsigned thread
   return sim;
 }
 
-std::unique_ptr<SumoBackend> start_backend(const RunPlan& plan, std::uint64_t seed, std::string& name) {
+std::unique_ptr<SumoBackend> start_backend(const RunPlan& plan, std::uint64_t seed,
+                                           std::string& name) {
   SumoStart start;
   start.binary = plan.options.gui ? "sumo-gui" : "sumo";
   SumoArguments wish;
@@ -106,12 +117,14 @@ std::unique_ptr<SumoBackend> start_backend(const RunPlan& plan, std::uint64_t se
   wish.gui = plan.options.gui;
   wish.plain = !plan.control.any();
   wish.own = {"--seed", std::to_string(seed % 2147483647u)};
-  if (wish.plain && plan.agents > 0) wish.own.insert(wish.own.end(), {"--max-num-vehicles", std::to_string(plan.agents)});
+  if (wish.plain && plan.agents > 0)
+    wish.own.insert(wish.own.end(), {"--max-num-vehicles", std::to_string(plan.agents)});
   wish.user = split_options(plan.options.sumo_options);
   start.arguments = sumo_arguments(wish);
   if (!plan.options.connect.empty()) {
     const std::size_t colon = plan.options.connect.rfind(':');
-    if (colon == std::string::npos) throw Error("--connect " + plan.options.connect, "is not HOST:PORT");
+    if (colon == std::string::npos)
+      throw Error("--connect " + plan.options.connect, "is not HOST:PORT");
     start.connect_host = plan.options.connect.substr(0, colon);
     try {
       start.connect_port = std::stoi(plan.options.connect.substr(colon + 1));
@@ -127,12 +140,20 @@ std::unique_ptr<SumoBackend> start_backend(const RunPlan& plan, std::uint64_t se
 class Observers {
  public:
   Observers(const RunPlan& plan, const Simulation& sim, const SumoWorld& world)
-      : sim_(sim), world_(world), output_(plan.options.output), locator_(sim.model.road),
-        collisions_(sim.dt, &sim.model.road), flow_(sim.dt, sim.model.road), rules_(sim.dt, sim.model.road, locator_),
-        smoothness_(sim.dt), trajectories_(output_ / "trajectories.fcd.xml.gz", plan.options.trajectory_period, sim.model.road, &locator_) {
+      : sim_(sim),
+        world_(world),
+        output_(plan.options.output),
+        locator_(sim.model.road),
+        collisions_(sim.dt, &sim.model.road),
+        flow_(sim.dt, sim.model.road),
+        rules_(sim.dt, sim.model.road, locator_),
+        smoothness_(sim.dt),
+        trajectories_(output_ / "trajectories.fcd.xml.gz", plan.options.trajectory_period,
+                      sim.model.road, &locator_) {
     if (plan.options.replay)
-      replay_ = std::make_unique<ReplayRecorder>(output_ / "replay.bin", plan.input.name, sim.model.road, sim.model.types,
-                                                 plan.options.replay_period);
+      replay_ =
+          std::make_unique<ReplayRecorder>(output_ / "replay.bin", plan.input.name, sim.model.road,
+                                           sim.model.types, plan.options.replay_period);
   }
 
   void add() {
@@ -147,7 +168,8 @@ class Observers {
     if (replay_) {
       replay_->add(scene, &sim_.road, name);
       for (const CollisionEvent& event : collisions_.new_events())
-        replay_->add_event(ReplayEventKind::Collision, event.time, event.position, event.a, event.b);
+        replay_->add_event(ReplayEventKind::Collision, event.time, event.position, event.a,
+                           event.b);
       for (const RedLightEvent& event : rules_.new_events())
         replay_->add_event(ReplayEventKind::RedLight, event.time, event.position, event.id);
       for (; stuck_marked_ < flow_.stuck().size(); ++stuck_marked_) {
@@ -156,7 +178,8 @@ class Observers {
       }
     }
     hash_ = hash_state(scene, hash_);
-    const auto driven = static_cast<std::uint64_t>(std::count(scene.control.begin(), scene.control.end(), Control::Gamma));
+    const auto driven = static_cast<std::uint64_t>(
+        std::count(scene.control.begin(), scene.control.end(), Control::Gamma));
     controlled_sum_ += driven;
     controlled_peak_ = std::max(controlled_peak_, driven);
     controlled_now_ = driven;
@@ -171,14 +194,16 @@ class Observers {
     results.state_hash = hash_;
     results.agents.controlled_now = controlled_now_;
     results.agents.controlled_peak = controlled_peak_;
-    results.agents.controlled_mean = ticks_ > 0 ? static_cast<double>(controlled_sum_) / static_cast<double>(ticks_) : 0.0;
+    results.agents.controlled_mean =
+        ticks_ > 0 ? static_cast<double>(controlled_sum_) / static_cast<double>(ticks_) : 0.0;
   }
 
   /// Completes every file but results.json.
   void close() {
     trajectories_.close();
     const AgentName name = name_of();
-    write_file(output_ / "stuck.csv", stuck_csv(flow_.stuck(), sim_.model.types, sim_.model.road, name));
+    write_file(output_ / "stuck.csv",
+               stuck_csv(flow_.stuck(), sim_.model.types, sim_.model.road, name));
     write_file(output_ / "offences.csv", offences_csv(rules_.offences(), sim_.model.types, name));
     if (replay_) {
       replay_->close();
@@ -202,7 +227,8 @@ class Observers {
   TrajectoryWriter trajectories_;
   std::unique_ptr<ReplayRecorder> replay_;
   std::size_t stuck_marked_ = 0;
-  std::uint64_t hash_ = 0xcbf29ce484222325ULL, controlled_sum_ = 0, controlled_peak_ = 0, controlled_now_ = 0, ticks_ = 0;
+  std::uint64_t hash_ = 0xcbf29ce484222325ULL, controlled_sum_ = 0, controlled_peak_ = 0,
+                controlled_now_ = 0, ticks_ = 0;
 };
 
 void fill_timing(const PhaseTimes& times, double wall, double simulated, RunTiming& timing) {
@@ -215,16 +241,19 @@ void fill_timing(const PhaseTimes& times, double wall, double simulated, RunTimi
   timing.track = times.track / whole;
   timing.advance_sumo = times.advance / whole;
   timing.record = times.record / whole;
-  timing.model_cpu_us_per_agent_step = times.agent_steps > 0 ? 1e6 * times.model_cpu / static_cast<double>(times.agent_steps) : 0.0;
+  timing.model_cpu_us_per_agent_step =
+      times.agent_steps > 0 ? 1e6 * times.model_cpu / static_cast<double>(times.agent_steps) : 0.0;
 }
 
 void fill_agents(const LifeCycle& life, AgentCounts& agents) {
   for (const auto& [type, count] : life.by_type) {
-    agents.by_type[type] = {static_cast<std::uint64_t>(count.inserted), static_cast<std::uint64_t>(count.arrived)};
+    agents.by_type[type] = {static_cast<std::uint64_t>(count.inserted),
+                            static_cast<std::uint64_t>(count.arrived)};
     agents.inserted += static_cast<std::uint64_t>(count.inserted);
     agents.arrived += static_cast<std::uint64_t>(count.arrived);
   }
-  for (const auto& [reason, count] : life.removed) agents.removed[reason] = static_cast<std::uint64_t>(count);
+  for (const auto& [reason, count] : life.removed)
+    agents.removed[reason] = static_cast<std::uint64_t>(count);
 }
 
 bool failed(const RunOptions& options, const RunResults& results) {
@@ -236,14 +265,16 @@ bool failed(const RunOptions& options, const RunResults& results) {
                                 : what == "stuck"          ? results.flow.stuck_agents
                                                            : results.agents.removed.size();
     if (count == 0) continue;
-    std::fprintf(stderr, "sumo-gamma: --fail-on %s: happened %llu times\n", what.c_str(), static_cast<unsigned long long>(count));
+    std::fprintf(stderr, "sumo-gamma: --fail-on %s: happened %llu times\n", what.c_str(),
+                 static_cast<unsigned long long>(count));
     failed = true;
   }
   return failed;
 }
 
 /// Ticks until the duration is over, the user interrupts, or nothing is left. Returns how it ended.
-std::string run_ticks(const RunPlan& plan, Simulation& sim, SumoWorld& world, Observers& observers, bool quiet) {
+std::string run_ticks(const RunPlan& plan, Simulation& sim, SumoWorld& world, Observers& observers,
+                      bool quiet) {
   Progress progress("run", plan.duration, "s", quiet);
   const auto ticks = static_cast<std::int64_t>(std::llround(plan.duration / plan.step));
   const Clock::time_point start = Clock::now();
@@ -256,8 +287,8 @@ std::string run_ticks(const RunPlan& plan, Simulation& sim, SumoWorld& world, Ob
     if (progress.due()) {
       const double simulated = static_cast<double>(tick_index + 1) * plan.step;
       char detail[96];
-      std::snprintf(detail, sizeof detail, "%.0f s simulated, %zu agents, %.1f x real time", simulated, sim.scene.size(),
-                    simulated / std::max(seconds_since(start), 1e-6));
+      std::snprintf(detail, sizeof detail, "%.0f s simulated, %zu agents, %.1f x real time",
+                    simulated, sim.scene.size(), simulated / std::max(seconds_since(start), 1e-6));
       progress.update(simulated, detail);
     }
     if (world.finished()) break;
@@ -282,7 +313,9 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   world_options.dt = plan.step;
   SumoWorld world(sim->model, *backend, world_options);
   CouplingMonitor coupling;
-  world.coupling().compare = [&](const Vec2& written, const Vec2& reported) { coupling.add(written, reported); };
+  world.coupling().compare = [&](const Vec2& written, const Vec2& reported) {
+    coupling.add(written, reported);
+  };
   Observers observers(plan, *sim, world);
 
   const Clock::time_point start = Clock::now();
@@ -321,9 +354,11 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   observers.close();
   write_results(options.output / "results.json", results);
 
-  if (!failure.empty()) throw SumoError("SUMO", failure + "; what ran until then is in " + options.output.string());
+  if (!failure.empty())
+    throw SumoError("SUMO", failure + "; what ran until then is in " + options.output.string());
   print_results_table(stdout, results);
-  if (options.replay) std::printf("replay: %s\n", (options.output / "replay.html").string().c_str());
+  if (options.replay)
+    std::printf("replay: %s\n", (options.output / "replay.html").string().c_str());
   if (results.ended == "interrupted") return kExitInterrupted;
   return failed(options, results) ? kExitNotHeld : kExitDone;
 }

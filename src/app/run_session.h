@@ -12,20 +12,20 @@ namespace sumogamma {
 /// Options of `sumo-gamma run`; unset ones come from scenario.toml.
 struct RunOptions {
   std::filesystem::path scenario, output;
-  std::optional<double> step, duration;     ///< [s]
-  std::optional<long> agents;               ///< cap on agents alive at once
-  std::vector<std::string> control;         ///< all | none | types and ids
-  std::vector<double> region;               ///< x0,y0,x1,y1 of --region [m]
-  std::optional<std::string> backend;       ///< traci | libsumo
-  std::string connect;                      ///< HOST:PORT of a SUMO that the user started
+  std::optional<double> step, duration;  ///< [s]
+  std::optional<long> agents;            ///< cap on agents alive at once
+  std::vector<std::string> control;      ///< all | none | types and ids
+  std::vector<double> region;            ///< x0,y0,x1,y1 of --region [m]
+  std::optional<std::string> backend;    ///< traci | libsumo
+  std::string connect;                   ///< HOST:PORT of a SUMO that the user started
   std::string sumo_options;
   bool gui = false, replay = false;
   double trajectory_period = 0.5, replay_period = 0.1;  ///< [s]
-  std::vector<std::string> fail_on;         ///< collision, deep-collision, red-light, stuck, removed
+  std::vector<std::string> fail_on;  ///< collision, deep-collision, red-light, stuck, removed
 };
 
-/// Runs a scenario to its end and writes everything into the output folder. Returns the exit code; throws Error for bad
-/// input and SumoError where SUMO failed, after the outputs were completed.
+/// Runs a scenario to its end and writes everything into the output folder. Returns the exit code;
+/// throws Error for bad input and SumoError where SUMO failed, after the outputs were completed.
 int run_session(const RunOptions& options, const CommonOptions& common);
 
 }  // namespace sumogamma

@@ -7,7 +7,8 @@ namespace sumogamma {
 double half_extent(const Scene& scene, std::size_t row, const Vec2& direction) {
   const Vec2 local = to_body(direction, direction_of(scene.heading[row]));
   double extent = 0.0;
-  for (const Vec2& vertex : scene.footprint[row].outline()) extent = std::max(extent, vertex.dot(local));
+  for (const Vec2& vertex : scene.footprint[row].outline())
+    extent = std::max(extent, vertex.dot(local));
   return extent;
 }
 
@@ -16,7 +17,8 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
   ranges_.resize(model.road.connections.size());
   approaches_.clear();
   waiting_.resize(scene.size());
-  for (std::size_t row = 0; row < scene.size(); ++row) waiting_[row] = {scene.context[row].reason, scene.context[row].foe};
+  for (std::size_t row = 0; row < scene.size(); ++row)
+    waiting_[row] = {scene.context[row].reason, scene.context[row].foe};
 
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const Path* path = road.path(scene.path[row]);
@@ -30,8 +32,9 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
     auto link = std::lower_bound(path->links.begin(), path->links.end(), along - half_length,
                                  [](const PathLink& l, double value) { return l.end < value; });
     for (; link != path->links.end() && link->stop_line < along + half_length + reach; ++link) {
-      approaches_.push_back({link->connection, static_cast<std::uint32_t>(row), along + half_length - link->stop_line,
-                             2.0 * half_length, speed, speed < 0.5});
+      approaches_.push_back({link->connection, static_cast<std::uint32_t>(row),
+                             along + half_length - link->stop_line, 2.0 * half_length, speed,
+                             speed < 0.5});
     }
   }
   std::sort(approaches_.begin(), approaches_.end(), [](const Approach& a, const Approach& b) {

@@ -12,9 +12,9 @@ namespace sumogamma {
 struct Approach {
   ConnectionId connection = kNoConnection;
   std::uint32_t row = 0;
-  double front = 0;    ///< of the agent's front past the link's begin [m]; negative before it
-  double length = 0;   ///< of the agent along its path [m]
-  double speed = 0;    ///< along its path, >= 0 [m/s]
+  double front = 0;   ///< of the agent's front past the link's begin [m]; negative before it
+  double length = 0;  ///< of the agent along its path [m]
+  double speed = 0;   ///< along its path, >= 0 [m/s]
   bool stands = false;
 };
 
@@ -27,7 +27,8 @@ struct Waiting {
 /// Who approaches which link, and who waits for whom, from the frozen scene.
 class ApproachTable {
  public:
-  /// Registers every agent with a path for the links within its stopping distance and some seconds. Serial, O(n log n).
+  /// Registers every agent with a path for the links within its stopping distance and some seconds.
+  /// Serial, O(n log n).
   void rebuild(const Model& model, const RoadState& road, const Scene& scene);
   std::span<const Approach> of(ConnectionId id) const;
   /// Frozen copy of what the contexts said at the last tick: rows may read each other's.

@@ -6,7 +6,8 @@
 
 namespace sumogamma {
 
-double following_acceleration(const AgentType& type, double speed, double free_speed, double gap, double leader_speed) {
+double following_acceleration(const AgentType& type, double speed, double free_speed, double gap,
+                              double leader_speed) {
   const double a = type.max_acceleration, b = type.comfortable_deceleration;
   const double ratio = speed / std::max(free_speed, 0.1);
   double acceleration = a * (1.0 - ratio * ratio * ratio * ratio);
@@ -24,14 +25,16 @@ double following_acceleration(const AgentType& type, double speed, double free_s
 
 double deceleration_to_stop(double speed, double distance) {
   if (speed <= 0.0) return 0.0;
-  return distance > 0.0 ? speed * speed / (2.0 * distance) : std::numeric_limits<double>::infinity();
+  return distance > 0.0 ? speed * speed / (2.0 * distance)
+                        : std::numeric_limits<double>::infinity();
 }
 
 double time_to_cover(double distance, double speed, double top_speed, double acceleration) {
   if (distance <= 0.0) return 0.0;
   top_speed = std::max({top_speed, speed, 0.1});
   const double until_top = (top_speed * top_speed - speed * speed) / (2.0 * acceleration);
-  if (distance <= until_top) return (std::sqrt(speed * speed + 2.0 * acceleration * distance) - speed) / acceleration;
+  if (distance <= until_top)
+    return (std::sqrt(speed * speed + 2.0 * acceleration * distance) - speed) / acceleration;
   return (top_speed - speed) / acceleration + (distance - until_top) / top_speed;
 }
 

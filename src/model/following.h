@@ -4,10 +4,12 @@
 
 namespace sumogamma {
 
-/// Acceleration of the Intelligent Driver Model [m/s^2] (Treiber, Hennecke, Helbing 2000), within the type's limits:
-/// towards `free_speed` behind something `gap` metres ahead that moves at `leader_speed`. gap may be infinite (free road)
-/// or <= 0 (brakes fully). This shapes the contextual speed limit of an agent in a lane; avoidance stays GAMMA's.
-double following_acceleration(const AgentType& type, double speed, double free_speed, double gap, double leader_speed);
+/// Acceleration of the Intelligent Driver Model [m/s^2] (Treiber, Hennecke, Helbing 2000), within
+/// the type's limits: towards `free_speed` behind something `gap` metres ahead that moves at
+/// `leader_speed`. gap may be infinite (free road) or <= 0 (brakes fully). This shapes the
+/// contextual speed limit of an agent in a lane; avoidance stays GAMMA's.
+double following_acceleration(const AgentType& type, double speed, double free_speed, double gap,
+                              double leader_speed);
 
 /// Deceleration needed to stop within `distance` [m/s^2]; infinite where there is none left.
 double deceleration_to_stop(double speed, double distance);

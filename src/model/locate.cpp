@@ -2,13 +2,15 @@
 
 namespace sumogamma {
 
-double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& scene, std::size_t row) {
+double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& scene,
+                      std::size_t row) {
   const Path* path = road.path(scene.path[row]);
   if (path == nullptr) return 0.0;
   // one tick moves an agent by a few metres at most; the window forgives a detour
   constexpr double kBack = 4.0, kAhead = 8.0;
   const double last = scene.path_along[row];
-  const PolylinePosition place = path->line.project(scene.position[row], last - kBack, last + kAhead);
+  const PolylinePosition place =
+      path->line.project(scene.position[row], last - kBack, last + kAhead);
   scene.path_along[row] = place.along;
   const PathStretch& stretch = path->stretch_at(place.along);
   const double advanced = place.along - stretch.from;

@@ -5,9 +5,10 @@
 
 namespace sumogamma {
 
-/// Updates path_along, lane and height of one row from its position: the nearest place on its own path not far from the last one,
-/// so that a path that crosses itself is followed in order. Leaves agents without a path alone.
-/// Returns the signed distance to the path [m], positive to the left.
-double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& scene, std::size_t row);
+/// Updates path_along, lane and height of one row from its position: the nearest place on its own
+/// path not far from the last one, so that a path that crosses itself is followed in order. Leaves
+/// agents without a path alone. Returns the signed distance to the path [m], positive to the left.
+double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& scene,
+                      std::size_t row);
 
 }  // namespace sumogamma

@@ -9,7 +9,8 @@
 
 namespace sumogamma {
 
-/// The live part of the road: which way everybody follows, and what the signals show. A copyable value like Scene.
+/// The live part of the road: which way everybody follows, and what the signals show. A copyable
+/// value like Scene.
 struct RoadState {
   std::vector<std::shared_ptr<const Path>> paths;  ///< by PathId; null once its agent has left
   std::vector<std::string> signal_states;          ///< by SignalId, one letter a link as in SUMO
@@ -17,7 +18,8 @@ struct RoadState {
   const Path* path(PathId id) const {
     return id == kNoPath ? nullptr : paths[static_cast<std::size_t>(id)].get();
   }
-  /// The letter that a link shows now: 'O' (unsignalled) where it has no signal or its state isn't known yet.
+  /// The letter that a link shows now: 'O' (unsignalled) where it has no signal or its state isn't
+  /// known yet.
   char signal(const Connection& connection) const {
     if (connection.signal == kNoSignal || connection.signal_link < 0) return 'O';
     const std::size_t index = index_of(connection.signal);

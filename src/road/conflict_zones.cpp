@@ -9,7 +9,8 @@ namespace sumogamma {
 
 Polyline link_geometry(const RoadNetwork& network, ConnectionId id) {
   const Connection& connection = network.connection(id);
-  if (network.lane(connection.to).kind == LaneKind::Crossing) return network.lane(connection.to).centerline;
+  if (network.lane(connection.to).kind == LaneKind::Crossing)
+    return network.lane(connection.to).centerline;
   std::vector<Vec2> points;
   LaneId lane = connection.via;
   for (int hops = 0; lane != kNoLane && hops < 8; ++hops) {
@@ -35,7 +36,8 @@ struct LinkShape {
 };
 constexpr double kStep = 1.0;
 
-/// The way that is driven over a link, with corners rounded as a car's path has them, from its stop line on.
+/// The way that is driven over a link, with corners rounded as a car's path has them, from its stop
+/// line on.
 Polyline driven_way(const RoadNetwork& network, ConnectionId id) {
   constexpr double kApproach = 12.0, kTurningRadius = 3.8;
   const Connection& connection = network.connection(id);
@@ -65,7 +67,8 @@ LinkShape shape_of(const RoadNetwork& network, ConnectionId id) {
   const Connection& connection = network.connection(id);
   const Lane& lane = network.lane(connection.via != kNoLane ? connection.via : connection.to);
   // what drives on a lane is narrower than the lane; a crossing is used over its whole width
-  shape.half_width = lane.kind == LaneKind::Crossing ? 0.5 * lane.width : std::min(0.5 * lane.width, 1.1);
+  shape.half_width =
+      lane.kind == LaneKind::Crossing ? 0.5 * lane.width : std::min(0.5 * lane.width, 1.1);
   if (shape.line.empty()) return shape;
   const auto count = static_cast<int>(shape.line.length() / kStep) + 1;
   for (int k = 0; k <= count; ++k) shape.samples.push_back(shape.line.point_at(k * kStep));
@@ -73,7 +76,8 @@ LinkShape shape_of(const RoadNetwork& network, ConnectionId id) {
 }
 
 /// First and last place of `a` that lies within reach of `b`.
-std::optional<std::pair<double, double>> near_span(const LinkShape& a, const LinkShape& b, double reach) {
+std::optional<std::pair<double, double>> near_span(const LinkShape& a, const LinkShape& b,
+                                                   double reach) {
   std::optional<std::pair<double, double>> span;
   for (std::size_t k = 0; k < a.samples.size(); ++k) {
     const bool near = std::any_of(b.samples.begin(), b.samples.end(), [&](const Vec2& point) {
@@ -90,7 +94,8 @@ std::optional<std::pair<double, double>> near_span(const LinkShape& a, const Lin
 /// True where two links start on the same edge, or both are crossings.
 bool same_origin(const RoadNetwork& network, ConnectionId a, ConnectionId b) {
   const Connection &first = network.connection(a), &second = network.connection(b);
-  const bool both_on_foot = network.lane(first.to).kind == LaneKind::Crossing && network.lane(second.to).kind == LaneKind::Crossing;
+  const bool both_on_foot = network.lane(first.to).kind == LaneKind::Crossing &&
+                            network.lane(second.to).kind == LaneKind::Crossing;
   return both_on_foot || network.lane(first.from).edge == network.lane(second.from).edge;
 }
 
@@ -120,7 +125,8 @@ void add_conflicts(const RoadNetwork& network, const Junction& junction, Conflic
       zone.foe_end = other->second;
       zone.yields = yields;
       zone.unruled = !ruled;
-      zone.foe_is_crossing = network.lane(network.connection(zone.foe).to).kind == LaneKind::Crossing;
+      zone.foe_is_crossing =
+          network.lane(network.connection(zone.foe).to).kind == LaneKind::Crossing;
       table[index_of(junction.links[i])].push_back(zone);
     }
   }

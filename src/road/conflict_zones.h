@@ -6,25 +6,28 @@
 
 namespace sumogamma {
 
-/// Where two links of a junction get in each other's way, seen from one of them. Distances [m] run from where a link
-/// begins (its stop line).
+/// Where two links of a junction get in each other's way, seen from one of them. Distances [m] run
+/// from where a link begins (its stop line).
 struct ConflictZone {
   ConnectionId foe = kNoConnection;
   double begin = 0, end = 0;          ///< on this link
   double foe_begin = 0, foe_end = 0;  ///< on the foe
   bool yields = false;                ///< this link must let the foe pass
-  bool unruled = false;               ///< the matrix knows no conflict, but bodies would meet: first come, first served
+  bool unruled =
+      false;  ///< the matrix knows no conflict, but bodies would meet: first come, first served
   bool foe_is_crossing = false;
 };
 
-/// By connection: its conflicts with the other links of its junction, from the right-of-way matrix and the geometry of the
-/// ways that are driven (corners rounded as for a car, sampled every metre; ways conflict where their swept widths meet).
-/// Links that the matrix calls conflicting but whose ways never come near are left out; links that it calls free of
-/// conflict but whose ways meet, as of opposite turns on a narrow junction, are in.
+/// By connection: its conflicts with the other links of its junction, from the right-of-way matrix
+/// and the geometry of the ways that are driven (corners rounded as for a car, sampled every metre;
+/// ways conflict where their swept widths meet). Links that the matrix calls conflicting but whose
+/// ways never come near are left out; links that it calls free of conflict but whose ways meet, as
+/// of opposite turns on a narrow junction, are in.
 using ConflictTable = std::vector<std::vector<ConflictZone>>;
 ConflictTable build_conflict_table(const RoadNetwork& network);
 
-/// Centreline of a link over its junction: its internal lanes in order, or the crossing that it enters.
+/// Centreline of a link over its junction: its internal lanes in order, or the crossing that it
+/// enters.
 Polyline link_geometry(const RoadNetwork& network, ConnectionId id);
 
 }  // namespace sumogamma

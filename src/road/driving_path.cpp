@@ -12,12 +12,14 @@ constexpr double kUnreachable = std::numeric_limits<double>::infinity();
 
 /// One lane of one edge of the route and the cheapest way on from it.
 struct LaneChoice {
-  double cost = kUnreachable;           ///< lane changes from entering here to the route's end
-  int exit_index = -1;                  ///< lane index on which the edge is left
-  ConnectionId next = kNoConnection;    ///< connection taken from there
+  double cost = kUnreachable;         ///< lane changes from entering here to the route's end
+  int exit_index = -1;                ///< lane index on which the edge is left
+  ConnectionId next = kNoConnection;  ///< connection taken from there
 };
 
-bool allows(const Lane& lane, VehicleClassMask vehicle_class) { return (lane.allowed & vehicle_class) != 0; }
+bool allows(const Lane& lane, VehicleClassMask vehicle_class) {
+  return (lane.allowed & vehicle_class) != 0;
+}
 
 /// Cost of changing n lanes on an edge: a change needs some 25 m, so short edges cost more.
 double change_cost(int changes, double length) {
@@ -26,7 +28,8 @@ double change_cost(int changes, double length) {
 }
 
 /// Backward dynamic program over the route: cheapest lane choice for every lane of every edge.
-std::vector<std::vector<LaneChoice>> plan_lanes(const RoadNetwork& network, const PathRequest& request) {
+std::vector<std::vector<LaneChoice>> plan_lanes(const RoadNetwork& network,
+                                                const PathRequest& request) {
   const std::size_t edges = request.route.size();
   std::vector<std::vector<LaneChoice>> plan(edges);
   for (std::size_t i = edges; i-- > 0;) {
@@ -68,7 +71,8 @@ std::vector<std::vector<LaneChoice>> plan_lanes(const RoadNetwork& network, cons
 }
 
 /// Width of the lanes beside `lane` that the class may use, on the inner or outer side [m].
-double side_width(const RoadNetwork& network, const Lane& lane, VehicleClassMask vehicle_class, bool inner) {
+double side_width(const RoadNetwork& network, const Lane& lane, VehicleClassMask vehicle_class,
+                  bool inner) {
   double width = 0.0;
   const Lane* here = &lane;
   for (;;) {
@@ -81,7 +85,8 @@ double side_width(const RoadNetwork& network, const Lane& lane, VehicleClassMask
 
 class Builder {
  public:
-  Builder(const RoadNetwork& network, const PathRequest& request) : network_(network), request_(request) {}
+  Builder(const RoadNetwork& network, const PathRequest& request)
+      : network_(network), request_(request) {}
 
   /// Runs along one lane between two places on it.
   void follow(LaneId id, double from, double to) {
@@ -102,12 +107,14 @@ class Builder {
       const double t = static_cast<double>(k) / steps;
       const double blend = t * t * (3.0 - 2.0 * t);
       const double along = from + t * (to - from);
-      points_.push_back((1.0 - blend) * start.point_at(along) + blend * end.point_at(along * scale));
+      points_.push_back((1.0 - blend) * start.point_at(along) +
+                        blend * end.point_at(along * scale));
     }
     end_stretch();
   }
 
-  /// Crosses a junction by a connection; nullopt-like false where its internal lanes don't lead to the target.
+  /// Crosses a junction by a connection; nullopt-like false where its internal lanes don't lead to
+  /// the target.
   bool cross(ConnectionId id) {
     const Connection& connection = network_.connection(id);
     PathLink link{id, length(), 0.0};
@@ -159,8 +166,10 @@ class Builder {
     stretch.speed_limit = lane.speed_limit;
     // a junction has no kerb beside each of its lanes, and long bodies swing out
     const double swing = lane.kind == LaneKind::Internal ? 1.5 : 0.0;
-    const double inner = 0.5 * lane.width + swing + side_width(network_, lane, request_.vehicle_class, true);
-    const double outer = 0.5 * lane.width + swing + side_width(network_, lane, request_.vehicle_class, false);
+    const double inner =
+        0.5 * lane.width + swing + side_width(network_, lane, request_.vehicle_class, true);
+    const double outer =
+        0.5 * lane.width + swing + side_width(network_, lane, request_.vehicle_class, false);
     // lanes count from the kerb, so the inner side is the left one unless traffic keeps left
     stretch.room_left = network_.left_hand ? outer : inner;
     stretch.room_right = network_.left_hand ? inner : outer;
@@ -176,9 +185,10 @@ class Builder {
   double length_ = 0.0;
 };
 
-/// Covers one edge from lane `entry` to lane `exit`, [from, to] along it, with lane changes spread early.
-LaneId cover_edge(const RoadNetwork& network, const Edge& edge, int entry, int exit, double from, double to,
-                  Builder& builder) {
+/// Covers one edge from lane `entry` to lane `exit`, [from, to] along it, with lane changes spread
+/// early.
+LaneId cover_edge(const RoadNetwork& network, const Edge& edge, int entry, int exit, double from,
+                  double to, Builder& builder) {
   const double room = to - from;
   const int changes = std::abs(exit - entry);
   int index = entry;
@@ -191,20 +201,22 @@ LaneId cover_edge(const RoadNetwork& network, const Edge& edge, int entry, int e
     along += lead_in;
     for (int k = 0; k < changes; ++k) {
       const int next = index + (exit > index ? 1 : -1);
-      builder.change(edge.lanes[static_cast<std::size_t>(index)], edge.lanes[static_cast<std::size_t>(next)], along,
-                     along + each);
+      builder.change(edge.lanes[static_cast<std::size_t>(index)],
+                     edge.lanes[static_cast<std::size_t>(next)], along, along + each);
       along += each;
       index = next;
     }
   }
   const LaneId lane = edge.lanes[static_cast<std::size_t>(index)];
-  builder.follow(lane, along, std::max(along, std::min(to, network.lane(lane).centerline.length())));
+  builder.follow(lane, along,
+                 std::max(along, std::min(to, network.lane(lane).centerline.length())));
   return lane;
 }
 
 }  // namespace
 
-std::optional<Path> build_driving_path(const RoadNetwork& network, const PathRequest& request, std::string& why) {
+std::optional<Path> build_driving_path(const RoadNetwork& network, const PathRequest& request,
+                                       std::string& why) {
   if (request.route.empty()) {
     why = "the route has no edges";
     return std::nullopt;
@@ -212,13 +224,15 @@ std::optional<Path> build_driving_path(const RoadNetwork& network, const PathReq
   const auto plan = plan_lanes(network, request);
   const Edge& first = network.edge(request.route.front());
   int entry = -1;
-  if (request.start_lane != kNoLane && network.lane(request.start_lane).edge == request.route.front() &&
+  if (request.start_lane != kNoLane &&
+      network.lane(request.start_lane).edge == request.route.front() &&
       plan[0][static_cast<std::size_t>(network.lane(request.start_lane).index)].cost < kUnreachable)
     entry = network.lane(request.start_lane).index;
   for (std::size_t k = 0; entry < 0 && k < first.lanes.size(); ++k) {
     const bool better = plan[0][k].cost < kUnreachable &&
-                        std::all_of(plan[0].begin(), plan[0].end(),
-                                    [&](const LaneChoice& other) { return plan[0][k].cost <= other.cost; });
+                        std::all_of(plan[0].begin(), plan[0].end(), [&](const LaneChoice& other) {
+                          return plan[0][k].cost <= other.cost;
+                        });
     if (better) entry = static_cast<int>(k);
   }
   if (entry < 0) {
@@ -232,9 +246,12 @@ std::optional<Path> build_driving_path(const RoadNetwork& network, const PathReq
   for (std::size_t i = 0; i < request.route.size(); ++i) {
     const Edge& edge = network.edge(request.route[i]);
     const LaneChoice& choice = plan[i][static_cast<std::size_t>(entry)];
-    const double length = network.lane(edge.lanes[static_cast<std::size_t>(entry)]).centerline.length();
+    const double length =
+        network.lane(edge.lanes[static_cast<std::size_t>(entry)]).centerline.length();
     const bool last = i + 1 == request.route.size();
-    const double to = last && request.arrival_position >= 0.0 ? std::min(request.arrival_position, length) : length;
+    const double to = last && request.arrival_position >= 0.0
+                          ? std::min(request.arrival_position, length)
+                          : length;
     cover_edge(network, edge, entry, choice.exit_index, std::min(from, to), to, builder);
     if (last) break;
     if (!builder.cross(choice.next)) {

@@ -12,12 +12,12 @@ namespace sumogamma {
 /// A piece of a path that runs on one lane (or from one into its neighbour during a lane change).
 struct PathStretch {
   LaneId lane = kNoLane;
-  double from = 0, to = 0;     ///< along the path [m]
-  double lane_from = 0;        ///< along the lane where the stretch begins [m]
-  bool reversed = false;       ///< pedestrians: walked against the lane's direction
-  double speed_limit = 0;      ///< [m/s]
-  double room_left = 0;        ///< path to the left boundary of what the class may use [m]
-  double room_right = 0;       ///< likewise to the right [m]
+  double from = 0, to = 0;  ///< along the path [m]
+  double lane_from = 0;     ///< along the lane where the stretch begins [m]
+  bool reversed = false;    ///< pedestrians: walked against the lane's direction
+  double speed_limit = 0;   ///< [m/s]
+  double room_left = 0;     ///< path to the left boundary of what the class may use [m]
+  double room_right = 0;    ///< likewise to the right [m]
 };
 
 /// A junction link on the path: where rules of right of way and signals apply.
@@ -33,14 +33,16 @@ struct PathStop {
   double duration = 0;  ///< [s]
 };
 
-/// A way through the network that one agent means to follow: geometry with everything that rules need to know along it.
+/// A way through the network that one agent means to follow: geometry with everything that rules
+/// need to know along it.
 struct Path {
   Polyline line;
   std::vector<PathStretch> stretches;  ///< in order, gapless
   std::vector<PathLink> links;         ///< in order of stop_line
   std::vector<PathStop> stops;         ///< in order
-  std::vector<double> speed_profile;   ///< [m/s] every kProfileStep along: bends and limits with braking ahead
-  double arrival = 0;                  ///< along, where the trip ends [m]
+  std::vector<double>
+      speed_profile;   ///< [m/s] every kProfileStep along: bends and limits with braking ahead
+  double arrival = 0;  ///< along, where the trip ends [m]
   bool walking = false;
 
   static constexpr double kProfileStep = 2.0;
@@ -55,22 +57,26 @@ struct Path {
 struct PathRequest {
   std::span<const EdgeId> route;
   VehicleClassMask vehicle_class = 0;
-  LaneId start_lane = kNoLane;     ///< kNoLane: the best lane of the first edge
-  double start_along = 0;          ///< on the start lane [m]
-  double arrival_position = -1;    ///< on the last edge [m]; negative: its end
+  LaneId start_lane = kNoLane;            ///< kNoLane: the best lane of the first edge
+  double start_along = 0;                 ///< on the start lane [m]
+  double arrival_position = -1;           ///< on the last edge [m]; negative: its end
   double max_lateral_acceleration = 2.5;  ///< [m/s^2]
   double comfortable_deceleration = 2.5;  ///< [m/s^2]
   double max_speed = 50;                  ///< [m/s]
   double speed_factor = 1;                ///< of the lane limits
-  double turning_radius = 0;              ///< tightest that the body can drive [m]; bends are rounded to about it
+  double turning_radius =
+      0;  ///< tightest that the body can drive [m]; bends are rounded to about it
 };
 
-/// Path of a vehicle along its route: the lanes that need the fewest lane changes, changes spread over the edge.
-/// nullopt with `why` set where a pair of edges isn't connected for the class.
-std::optional<Path> build_driving_path(const RoadNetwork& network, const PathRequest& request, std::string& why);
+/// Path of a vehicle along its route: the lanes that need the fewest lane changes, changes spread
+/// over the edge. nullopt with `why` set where a pair of edges isn't connected for the class.
+std::optional<Path> build_driving_path(const RoadNetwork& network, const PathRequest& request,
+                                       std::string& why);
 
-/// Path of a pedestrian along the edges of a walk: sidewalks in either direction, walking areas and crossings between
-/// them found by least distance. nullopt with `why` set where the walk can't be connected.
-std::optional<Path> build_walking_path(const RoadNetwork& network, const PathRequest& request, std::string& why);
+/// Path of a pedestrian along the edges of a walk: sidewalks in either direction, walking areas and
+/// crossings between them found by least distance. nullopt with `why` set where the walk can't be
+/// connected.
+std::optional<Path> build_walking_path(const RoadNetwork& network, const PathRequest& request,
+                                       std::string& why);
 
 }  // namespace sumogamma

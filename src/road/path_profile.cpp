@@ -20,18 +20,22 @@ void compute_speed_profile(const PathRequest& request, Path& path) {
   path.speed_profile.resize(samples);
   for (std::size_t i = 0; i < samples; ++i) {
     const double along = std::min(static_cast<double>(i) * Path::kProfileStep, length);
-    double speed = std::min(path.stretch_at(along).speed_limit * request.speed_factor, request.max_speed);
+    double speed =
+        std::min(path.stretch_at(along).speed_limit * request.speed_factor, request.max_speed);
     if (!path.walking && along > kReach && along < length - kReach) {
-      const double curvature = menger_curvature(path.line.point_at(along - kReach), path.line.point_at(along),
-                                                path.line.point_at(along + kReach));
-      if (curvature > 1e-4) speed = std::min(speed, std::sqrt(request.max_lateral_acceleration / curvature));
+      const double curvature =
+          menger_curvature(path.line.point_at(along - kReach), path.line.point_at(along),
+                           path.line.point_at(along + kReach));
+      if (curvature > 1e-4)
+        speed = std::min(speed, std::sqrt(request.max_lateral_acceleration / curvature));
     }
     path.speed_profile[i] = std::max(speed, 1.5);
   }
   if (path.walking) return;
   for (std::size_t i = samples - 1; i-- > 0;) {
     const double ahead = path.speed_profile[i + 1];
-    const double brake = std::sqrt(ahead * ahead + 2.0 * request.comfortable_deceleration * Path::kProfileStep);
+    const double brake =
+        std::sqrt(ahead * ahead + 2.0 * request.comfortable_deceleration * Path::kProfileStep);
     path.speed_profile[i] = std::min(path.speed_profile[i], brake);
   }
 }
@@ -43,7 +47,8 @@ void round_corners(double turning_radius, Path& path) {
   const auto count = static_cast<std::size_t>(length / kSample) + 1;
   const double step = length / static_cast<double>(count);
   std::vector<Vec2> samples(count + 1);
-  for (std::size_t i = 0; i <= count; ++i) samples[i] = path.line.point_at(static_cast<double>(i) * step);
+  for (std::size_t i = 0; i <= count; ++i)
+    samples[i] = path.line.point_at(static_cast<double>(i) * step);
 
   // mean over a window that shrinks towards the ends, by running sums
   std::vector<Vec2> sums(count + 2, Vec2::Zero());
@@ -51,7 +56,8 @@ void round_corners(double turning_radius, Path& path) {
   // a right angle filtered over +-w turns with radius w / sqrt(2) at its tightest
   // (and cuts a third of w off the corner itself: long bodies must not do that over the kerb)
   constexpr double kWidest = 4.0;
-  const auto half = static_cast<std::size_t>(std::min(std::sqrt(2.0) * turning_radius, kWidest) / step);
+  const auto half =
+      static_cast<std::size_t>(std::min(std::sqrt(2.0) * turning_radius, kWidest) / step);
   std::vector<Vec2> rounded(count + 1);
   std::vector<double> along(count + 1, 0.0);
   for (std::size_t i = 0; i <= count; ++i) {
@@ -94,8 +100,9 @@ void append_span(const Polyline& line, double from, double to, std::vector<Vec2>
 }
 
 const PathStretch& Path::stretch_at(double along) const {
-  auto after = std::upper_bound(stretches.begin(), stretches.end(), along,
-                                [](double value, const PathStretch& stretch) { return value < stretch.from; });
+  auto after = std::upper_bound(
+      stretches.begin(), stretches.end(), along,
+      [](double value, const PathStretch& stretch) { return value < stretch.from; });
   return after == stretches.begin() ? stretches.front() : *(after - 1);
 }
 

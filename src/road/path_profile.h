@@ -4,15 +4,18 @@
 
 namespace sumogamma {
 
-/// Fills path.speed_profile from lane limits and curvature (v^2 kappa <= lateral acceleration), then brakes backwards with
-/// the comfortable deceleration. Curvature is Menger's over +-4 m, so that the vertices of a polyline don't count as bends.
+/// Fills path.speed_profile from lane limits and curvature (v^2 kappa <= lateral acceleration),
+/// then brakes backwards with the comfortable deceleration. Curvature is Menger's over +-4 m, so
+/// that the vertices of a polyline don't count as bends.
 void compute_speed_profile(const PathRequest& request, Path& path);
 
-/// Rounds the corners of a driving path: a box filter along it, as wide as the turning radius asks for, so that a body which
-/// can't turn on the spot cuts a corner like a driver does instead of overshooting it. Places along the path are carried over.
+/// Rounds the corners of a driving path: a box filter along it, as wide as the turning radius asks
+/// for, so that a body which can't turn on the spot cuts a corner like a driver does instead of
+/// overshooting it. Places along the path are carried over.
 void round_corners(double turning_radius, Path& path);
 
-/// Appends the points of a line between two places on it [m], ends included; reversed where to < from.
+/// Appends the points of a line between two places on it [m], ends included; reversed where to <
+/// from.
 void append_span(const Polyline& line, double from, double to, std::vector<Vec2>& points);
 
 }  // namespace sumogamma

@@ -31,16 +31,21 @@ Vec2 middle_of(const std::vector<Vec2>& outline) {
 
 /// A representative place of a walking area or crossing, for distances in the search.
 Vec2 middle_of(const Lane& lane) {
-  return lane.kind == LaneKind::WalkingArea ? middle_of(lane.outline) : lane.centerline.point_at(0.5 * lane.centerline.length());
+  return lane.kind == LaneKind::WalkingArea
+             ? middle_of(lane.outline)
+             : lane.centerline.point_at(0.5 * lane.centerline.length());
 }
 
-/// Walking areas and crossings between two sidewalk ends, by least distance; empty where there is none and they don't touch.
-std::vector<LaneId> find_junction_walk(const RoadNetwork& network, LaneId from, LaneId to, const Vec2& start,
-                                       const Vec2& end, double& cost) {
+/// Walking areas and crossings between two sidewalk ends, by least distance; empty where there is
+/// none and they don't touch.
+std::vector<LaneId> find_junction_walk(const RoadNetwork& network, LaneId from, LaneId to,
+                                       const Vec2& start, const Vec2& end, double& cost) {
   struct Reached {
     double cost;
     LaneId lane;
-    bool operator<(const Reached& other) const { return cost > other.cost || (cost == other.cost && lane > other.lane); }
+    bool operator<(const Reached& other) const {
+      return cost > other.cost || (cost == other.cost && lane > other.lane);
+    }
   };
   std::map<LaneId, std::pair<double, LaneId>> best;  // cost and predecessor
   std::priority_queue<Reached> open;
@@ -52,7 +57,8 @@ std::vector<LaneId> find_junction_walk(const RoadNetwork& network, LaneId from, 
     if (here.cost > best[here.lane].first) continue;
     if (here.lane == to) {
       std::vector<LaneId> lanes;
-      for (LaneId lane = best[to].second; lane != from && lane != kNoLane; lane = best[lane].second) lanes.push_back(lane);
+      for (LaneId lane = best[to].second; lane != from && lane != kNoLane; lane = best[lane].second)
+        lanes.push_back(lane);
       std::reverse(lanes.begin(), lanes.end());
       cost = here.cost;
       return lanes;
@@ -62,7 +68,8 @@ std::vector<LaneId> find_junction_walk(const RoadNetwork& network, LaneId from, 
       const Lane& lane = network.lane(next);
       const bool inside = lane.kind == LaneKind::WalkingArea || lane.kind == LaneKind::Crossing;
       if (next != to && !inside) return;
-      const double step = ((next == to ? end : middle_of(lane)) - place).norm() + (lane.kind == LaneKind::Crossing ? 4.0 : 0.1);
+      const double step = ((next == to ? end : middle_of(lane)) - place).norm() +
+                          (lane.kind == LaneKind::Crossing ? 4.0 : 0.1);
       const double total = here.cost + step;
       const auto known = best.find(next);
       if (known != best.end() && known->second.first <= total) return;
@@ -74,7 +81,8 @@ std::vector<LaneId> find_junction_walk(const RoadNetwork& network, LaneId from, 
   return {};
 }
 
-/// Connection by which a crossing is entered: the one that carries its signal and right-of-way index.
+/// Connection by which a crossing is entered: the one that carries its signal and right-of-way
+/// index.
 ConnectionId crossing_link(const RoadNetwork& network, LaneId crossing) {
   ConnectionId found = kNoConnection;
   for (const auto* list : {&network.lane(crossing).incoming, &network.lane(crossing).outgoing})
@@ -98,7 +106,8 @@ class Walk {
     stretch.lane_from = from;
     stretch.reversed = to < from;
     stretch.speed_limit = std::max(lane.speed_limit, 1.0);
-    stretch.room_left = stretch.room_right = 0.5 * lane.width + (lane.kind == LaneKind::Crossing ? 0.5 : 0.0);
+    stretch.room_left = stretch.room_right =
+        0.5 * lane.width + (lane.kind == LaneKind::Crossing ? 0.5 : 0.0);
     PathLink link{kNoConnection, stretch.from, 0.0};
     path_.stretches.push_back(stretch);
     append_span(lane.centerline, from, to, points_);
@@ -110,7 +119,8 @@ class Walk {
     }
   }
 
-  /// Free walking over an area to where the next lane begins: the stretch is closed by the next along_lane.
+  /// Free walking over an area to where the next lane begins: the stretch is closed by the next
+  /// along_lane.
   void over_area(LaneId id) {
     PathStretch stretch;
     stretch.lane = id;
@@ -150,7 +160,8 @@ class Walk {
   double length_ = 0.0;
 };
 
-/// How a crossing or sidewalk is walked so that the way from `here` on is shortest: from its nearer end.
+/// How a crossing or sidewalk is walked so that the way from `here` on is shortest: from its nearer
+/// end.
 bool starts_at_end(const Polyline& line, const Vec2& here, const Vec2& next) {
   const auto& points = line.points();
   return (points.back() - here).norm() + (points.front() - next).norm() <
@@ -159,10 +170,12 @@ bool starts_at_end(const Polyline& line, const Vec2& here, const Vec2& next) {
 
 }  // namespace
 
-std::optional<Path> build_walking_path(const RoadNetwork& network, const PathRequest& request, std::string& why) {
+std::optional<Path> build_walking_path(const RoadNetwork& network, const PathRequest& request,
+                                       std::string& why) {
   std::vector<LaneId> sidewalks;
   for (const EdgeId edge : request.route) {
-    // SUMO lists crossings and walking areas of a walk too where it was routed intermodally; they are found anew here
+    // SUMO lists crossings and walking areas of a walk too where it was routed intermodally; they
+    // are found anew here
     if (network.edge(edge).kind != LaneKind::Normal) continue;
     const LaneId lane = walking_lane(network, edge);
     if (lane == kNoLane) {
@@ -182,9 +195,10 @@ std::optional<Path> build_walking_path(const RoadNetwork& network, const PathReq
     const Polyline& line = network.lane(sidewalks[i]).centerline;
     from = std::clamp(from, 0.0, line.length());
     if (i + 1 == sidewalks.size()) {
-      const double to = request.arrival_position >= 0.0 ? std::min(request.arrival_position, line.length())
-                        : from > 0.5 * line.length()    ? 0.0
-                                                        : line.length();
+      const double to = request.arrival_position >= 0.0
+                            ? std::min(request.arrival_position, line.length())
+                        : from > 0.5 * line.length() ? 0.0
+                                                     : line.length();
       walk.along_lane(sidewalks[i], from, to);
       break;
     }
@@ -196,14 +210,19 @@ std::optional<Path> build_walking_path(const RoadNetwork& network, const PathReq
     const Edge& next_edge = network.edge(network.lane(sidewalks[i + 1]).edge);
     for (const bool leave_at_end : {true, false})
       for (const bool enter_at_start : {true, false}) {
-        if ((leave_at_end ? edge.to : edge.from) != (enter_at_start ? next_edge.from : next_edge.to)) continue;
+        if ((leave_at_end ? edge.to : edge.from) !=
+            (enter_at_start ? next_edge.from : next_edge.to))
+          continue;
         const double out = leave_at_end ? line.length() : 0.0;
         const double in = enter_at_start ? 0.0 : next_line.length();
         double cost = 0.0;
-        auto lanes = find_junction_walk(network, sidewalks[i], sidewalks[i + 1], line.point_at(out), next_line.point_at(in), cost);
+        auto lanes = find_junction_walk(network, sidewalks[i], sidewalks[i + 1], line.point_at(out),
+                                        next_line.point_at(in), cost);
         // the search knows lanes, not ends: check that it stays on this junction
         const JunctionId junction = leave_at_end ? edge.to : edge.from;
-        if (std::any_of(lanes.begin(), lanes.end(), [&](LaneId l) { return network.lane(l).junction != junction; })) continue;
+        if (std::any_of(lanes.begin(), lanes.end(),
+                        [&](LaneId l) { return network.lane(l).junction != junction; }))
+          continue;
         cost += std::abs(out - from);
         if (cost < best_cost) {
           best_cost = cost;
@@ -224,7 +243,8 @@ std::optional<Path> build_walking_path(const RoadNetwork& network, const PathReq
         walk.over_area(best_lanes[k]);
         continue;
       }
-      const Vec2 target = k + 2 < best_lanes.size() ? middle_of(network.lane(best_lanes[k + 2])) : next_line.point_at(enter);
+      const Vec2 target = k + 2 < best_lanes.size() ? middle_of(network.lane(best_lanes[k + 2]))
+                                                    : next_line.point_at(enter);
       const bool backwards = starts_at_end(lane.centerline, here, target);
       const double length = lane.centerline.length();
       walk.along_lane(best_lanes[k], backwards ? length : 0.0, backwards ? 0.0 : length);

@@ -17,33 +17,37 @@ enum class Kinematics : std::uint8_t {
 
 /// One row of the type table: all that is the same for every agent of a kind. SI units.
 struct AgentType {
-  std::string name;          ///< as in results and scenario.toml: "car"
-  std::string sumo_class;    ///< SUMO vClass: "passenger"
+  std::string name;        ///< as in results and scenario.toml: "car"
+  std::string sumo_class;  ///< SUMO vClass: "passenger"
   Kinematics kinematics = Kinematics::SingleTrack;
-  double length = 0, width = 0;        ///< default footprint [m]; SUMO's vType wins where it says otherwise
-  double wheelbase = 0;                ///< [m]
-  double rear_axle_to_center = 0;      ///< [m], the rear axle lies this far behind the footprint's centre
-  double max_steering = 0;             ///< [rad]
-  double max_steering_rate = 0;        ///< [rad/s]
-  double max_speed = 0;                ///< [m/s]
-  double preferred_speed = 0;          ///< [m/s] where no road limits it
-  double max_acceleration = 0;         ///< [m/s^2]
-  double comfortable_deceleration = 0; ///< [m/s^2]
-  double max_deceleration = 0;         ///< [m/s^2], emergency
-  double max_lateral_acceleration = 0; ///< comfort limit in bends [m/s^2]
-  double tracking_error = 0;           ///< epsilon_max of Eq. 1 [m]
-  double horizon = 0;                  ///< tau [s]
+  double length = 0,
+         width = 0;      ///< default footprint [m]; SUMO's vType wins where it says otherwise
+  double wheelbase = 0;  ///< [m]
+  double rear_axle_to_center =
+      0;                         ///< [m], the rear axle lies this far behind the footprint's centre
+  double max_steering = 0;       ///< [rad]
+  double max_steering_rate = 0;  ///< [rad/s]
+  double max_speed = 0;          ///< [m/s]
+  double preferred_speed = 0;    ///< [m/s] where no road limits it
+  double max_acceleration = 0;   ///< [m/s^2]
+  double comfortable_deceleration = 0;             ///< [m/s^2]
+  double max_deceleration = 0;                     ///< [m/s^2], emergency
+  double max_lateral_acceleration = 0;             ///< comfort limit in bends [m/s^2]
+  double tracking_error = 0;                       ///< epsilon_max of Eq. 1 [m]
+  double horizon = 0;                              ///< tau [s]
   double attention_front = 0, attention_rear = 0;  ///< least reach of Att [m]; speed adds to it
-  double responsibility_decay = 0;     ///< how fast willingness falls with distance [1/m] (reference-simulation 2.3)
-  double headway = 0;                  ///< desired time gap to a leader [s]
-  double min_gap = 0;                  ///< standstill gap to a leader [m]
+  double responsibility_decay =
+      0;  ///< how fast willingness falls with distance [1/m] (reference-simulation 2.3)
+  double headway = 0;  ///< desired time gap to a leader [s]
+  double min_gap = 0;  ///< standstill gap to a leader [m]
 };
 
 /// Rows in a fixed order; index with AgentTypeId.
 using AgentTypeTable = std::vector<AgentType>;
 
-/// The nine built-in types: pedestrian, bicycle, motorcycle, car, van, bus, truck, electric_tricycle, gyro_scooter.
-/// Sizes and limits after AgentParams of the reference and SUMO's vClass defaults; sources stand beside the rows.
+/// The nine built-in types: pedestrian, bicycle, motorcycle, car, van, bus, truck,
+/// electric_tricycle, gyro_scooter. Sizes and limits after AgentParams of the reference and SUMO's
+/// vClass defaults; sources stand beside the rows.
 AgentTypeTable default_agent_types();
 
 /// Row named `name`, or -1 cast to the id type's count: throws Error listing the known names.

@@ -8,8 +8,9 @@
 
 namespace sumogamma {
 
-/// Convex outline of an agent in body axes (x forward, y left) about its centre [m], counter-clockwise, at most
-/// kCapacity vertices, stored inline so that a scene copies without allocation.
+/// Convex outline of an agent in body axes (x forward, y left) about its centre [m],
+/// counter-clockwise, at most kCapacity vertices, stored inline so that a scene copies without
+/// allocation.
 struct Footprint {
   static constexpr std::size_t kCapacity = 8;
   std::array<Vec2, kCapacity> vertices{};

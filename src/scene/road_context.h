@@ -12,20 +12,33 @@ enum class PathId : std::int32_t {};
 inline constexpr PathId kNoPath{-1};
 
 /// Why an agent may go no faster along its path.
-enum class LimitReason : std::uint8_t { None, Signal, Yield, Crossing, BlockedJunction, Leader, Stop, PathEnd };
+enum class LimitReason : std::uint8_t {
+  None,
+  Signal,
+  Yield,
+  Crossing,
+  BlockedJunction,
+  Leader,
+  Stop,
+  PathEnd
+};
 
-/// What the road says about one agent at one instant, computed from the frozen scene before anyone moves and turned
-/// into half-planes by append_contextual_constraints (III-C). Everything along `tangent`, the path's direction here.
+/// What the road says about one agent at one instant, computed from the frozen scene before anyone
+/// moves and turned into half-planes by append_contextual_constraints (III-C). Everything along
+/// `tangent`, the path's direction here.
 struct RoadContext {
-  bool active = false;                 ///< false: off any road, no contextual constraint
-  Vec2 tangent = Vec2(1, 0);           ///< unit direction of the path at the agent
-  Vec2 sub_goal = Vec2::Zero();        ///< look-ahead point on the path [m] (III-D)
-  double speed_limit = 0;              ///< road, bend and type [m/s]; the preferred speed
-  double room_left = std::numeric_limits<double>::infinity();   ///< footprint's side to the left boundary [m], < 0 beyond it
+  bool active = false;           ///< false: off any road, no contextual constraint
+  Vec2 tangent = Vec2(1, 0);     ///< unit direction of the path at the agent
+  Vec2 sub_goal = Vec2::Zero();  ///< look-ahead point on the path [m] (III-D)
+  double speed_limit = 0;        ///< road, bend and type [m/s]; the preferred speed
+  double room_left = std::numeric_limits<double>::infinity();   ///< footprint's side to the left
+                                                                ///< boundary [m], < 0 beyond it
   double room_right = std::numeric_limits<double>::infinity();  ///< likewise to the right [m]
-  double allowed_speed = std::numeric_limits<double>::infinity();  ///< most speed along `tangent` that leader, signals and rules leave [m/s]
+  double allowed_speed =
+      std::numeric_limits<double>::infinity();  ///< most speed along `tangent` that leader, signals
+                                                ///< and rules leave [m/s]
   LimitReason reason = LimitReason::None;
-  std::int64_t foe = -1;               ///< id of the agent that binds, -1 where none does
+  std::int64_t foe = -1;  ///< id of the agent that binds, -1 where none does
 };
 
 }  // namespace sumogamma

@@ -70,7 +70,8 @@ void remove_agents(Scene& scene, const std::vector<bool>& removed) {
 
 std::size_t find_row(const Scene& scene, AgentId id) {
   const auto row = std::lower_bound(scene.id.begin(), scene.id.end(), id);
-  return row != scene.id.end() && *row == id ? static_cast<std::size_t>(row - scene.id.begin()) : scene.size();
+  return row != scene.id.end() && *row == id ? static_cast<std::size_t>(row - scene.id.begin())
+                                             : scene.size();
 }
 
 std::uint64_t hash_state(const Scene& scene, std::uint64_t hash) {

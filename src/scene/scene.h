@@ -33,32 +33,33 @@ enum class Control : std::uint8_t {
   External,  ///< by the world (SUMO): observed, never commanded
 };
 
-/// The state of everybody at one instant: parallel arrays of equal length, one entry an agent, in order of id.
-/// A copyable value, so that a planner can fork it.
+/// The state of everybody at one instant: parallel arrays of equal length, one entry an agent, in
+/// order of id. A copyable value, so that a planner can fork it.
 struct Scene {
-  double time = 0;          ///< [s]
+  double time = 0;  ///< [s]
   std::int64_t tick = 0;
   std::vector<AgentId> id;
   std::vector<AgentTypeId> type;
-  std::vector<Footprint> footprint;      ///< body axes about the centre [m]
-  std::vector<Vec2> position;            ///< footprint centre [m]
-  std::vector<double> heading;           ///< counter-clockwise from +x [rad]
-  std::vector<Vec2> velocity;            ///< of the footprint centre [m/s]
-  std::vector<double> speed;             ///< along the heading, of the rear axle; >= 0 [m/s]
-  std::vector<double> steering;          ///< front wheel angle, positive left [rad]
-  std::vector<Vec2> acceleration;        ///< observed, for KeepAcceleration [m/s^2]
-  std::vector<double> preferred_speed;   ///< [m/s]
+  std::vector<Footprint> footprint;     ///< body axes about the centre [m]
+  std::vector<Vec2> position;           ///< footprint centre [m]
+  std::vector<double> heading;          ///< counter-clockwise from +x [rad]
+  std::vector<Vec2> velocity;           ///< of the footprint centre [m/s]
+  std::vector<double> speed;            ///< along the heading, of the rear axle; >= 0 [m/s]
+  std::vector<double> steering;         ///< front wheel angle, positive left [rad]
+  std::vector<Vec2> acceleration;       ///< observed, for KeepAcceleration [m/s^2]
+  std::vector<double> preferred_speed;  ///< [m/s]
   std::vector<BehaviorState> behavior;
   std::vector<Control> control;
-  std::vector<PathId> path;              ///< kNoPath off any network
-  std::vector<double> path_along;        ///< of the centre along the path [m]
-  std::vector<double> path_offset;       ///< where beside its path the agent likes to be, positive left [m]
-  std::vector<double> standing_time;     ///< [s] since it was last faster than 0.3 m/s
-  std::vector<std::int32_t> next_stop;   ///< index of the path's next planned halt
-  std::vector<double> stop_left;         ///< [s] still to stand at the present halt, 0 where there is none
+  std::vector<PathId> path;        ///< kNoPath off any network
+  std::vector<double> path_along;  ///< of the centre along the path [m]
+  std::vector<double>
+      path_offset;  ///< where beside its path the agent likes to be, positive left [m]
+  std::vector<double> standing_time;    ///< [s] since it was last faster than 0.3 m/s
+  std::vector<std::int32_t> next_stop;  ///< index of the path's next planned halt
+  std::vector<double> stop_left;  ///< [s] still to stand at the present halt, 0 where there is none
   std::vector<LanePosition> lane;
-  std::vector<double> height;            ///< of the ground under the agent [m]: bridges
-  std::vector<RoadContext> context;      ///< filled every tick from the frozen scene
+  std::vector<double> height;        ///< of the ground under the agent [m]: bridges
+  std::vector<RoadContext> context;  ///< filled every tick from the frozen scene
 
   std::size_t size() const { return id.size(); }
 };

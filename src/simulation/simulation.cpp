@@ -41,9 +41,12 @@ void update_halt(const Path& path, double dt, Scene& scene, std::size_t row) {
     }
     return;
   }
-  const double front = scene.path_along[row] + half_extent(scene, row, path.line.direction_at(scene.path_along[row]));
-  if (front > path.stops[next].along + 5.0) ++scene.next_stop[row];  // passed: it began beyond its stop
-  else if (front > path.stops[next].along - 1.5 && scene.speed[row] < 0.2) scene.stop_left[row] = std::max(path.stops[next].duration, dt);
+  const double front = scene.path_along[row] +
+                       half_extent(scene, row, path.line.direction_at(scene.path_along[row]));
+  if (front > path.stops[next].along + 5.0)
+    ++scene.next_stop[row];  // passed: it began beyond its stop
+  else if (front > path.stops[next].along - 1.5 && scene.speed[row] < 0.2)
+    scene.stop_left[row] = std::max(path.stops[next].duration, dt);
 }
 
 void apply(const BodyState& next, double dt, Scene& scene, std::size_t row) {
@@ -68,17 +71,20 @@ void tick(Simulation& sim, World& world) {
   sim.workspaces.resize(sim.workers->count());
   sim.commands.resize(rows);
   sim.workers->for_each_range(rows, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) locate_on_path(sim.model.road, sim.road, scene, row);
+    for (std::size_t row = begin; row < end; ++row)
+      locate_on_path(sim.model.road, sim.road, scene, row);
   });
   prepare_tick(sim.model, scene, *sim.workers, sim.geometry);
-  update_road_contexts(sim.model, sim.road, sim.geometry.grid, sim.dt, *sim.workers, sim.approaches, scene);
+  update_road_contexts(sim.model, sim.road, sim.geometry.grid, sim.dt, *sim.workers, sim.approaches,
+                       scene);
   clock.end(sim.times.context);
 
   // everyone reads the same frozen scene and writes only its own command
   sim.workers->for_each_range(rows, [&](std::size_t worker, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       if (scene.control[row] != Control::Gamma) continue;
-      const Vec2 velocity = gamma_velocity(sim.model, scene, sim.geometry, row, scene.behavior[row], sim.workspaces[worker]);
+      const Vec2 velocity = gamma_velocity(sim.model, scene, sim.geometry, row, scene.behavior[row],
+                                           sim.workspaces[worker]);
       sim.commands[row] = track_velocity(sim.model, scene, row, velocity, sim.dt);
     }
   });
@@ -90,7 +96,8 @@ void tick(Simulation& sim, World& world) {
       apply(sim.commands[row], sim.dt, scene, row);
       ++sim.times.agent_steps;
     }
-    scene.standing_time[row] = scene.velocity[row].norm() < 0.3 ? scene.standing_time[row] + sim.dt : 0.0;
+    scene.standing_time[row] =
+        scene.velocity[row].norm() < 0.3 ? scene.standing_time[row] + sim.dt : 0.0;
   }
   ++scene.tick;
   scene.time += sim.dt;

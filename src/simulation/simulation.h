@@ -14,8 +14,8 @@ namespace sumogamma {
 /// Wall time spent in the phases of the ticks so far [s].
 struct PhaseTimes {
   double observe = 0, context = 0, model = 0, track = 0, advance = 0, record = 0;
-  double model_cpu = 0;         ///< CPU time of context, model and track, all threads [s]
-  std::int64_t agent_steps = 0; ///< rows moved by the model
+  double model_cpu = 0;          ///< CPU time of context, model and track, all threads [s]
+  std::int64_t agent_steps = 0;  ///< rows moved by the model
 };
 
 /// A run: everything that a tick reads and writes.
@@ -34,8 +34,9 @@ struct Simulation {
   std::vector<BodyState> commands;
 };
 
-/// Advances everybody by dt: observe, put the road's view of each agent together, choose velocities from the frozen scene
-/// (Eq. 7), track them with the bodies' controllers, and hand the result to the world.
+/// Advances everybody by dt: observe, put the road's view of each agent together, choose velocities
+/// from the frozen scene (Eq. 7), track them with the bodies' controllers, and hand the result to
+/// the world.
 void tick(Simulation& simulation, World& world);
 
 }  // namespace sumogamma

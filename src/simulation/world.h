@@ -9,7 +9,8 @@ namespace sumogamma {
 class World {
  public:
   virtual ~World() = default;
-  /// Brings the scene up to date before a tick: newcomers appended, leavers removed, signals, agents that others drive.
+  /// Brings the scene up to date before a tick: newcomers appended, leavers removed, signals,
+  /// agents that others drive.
   virtual void observe(Scene& scene, RoadState& road) = 0;
   /// Takes over the new state after a tick and advances its own time by one step.
   virtual void advance(const Scene& scene) = 0;

@@ -7,25 +7,42 @@
 
 namespace sumogamma {
 
-std::optional<AgentTypeId> agent_type_of(const AgentTypeTable& types, const SumoAgentDetails& details) {
+std::optional<AgentTypeId> agent_type_of(const AgentTypeTable& types,
+                                         const SumoAgentDetails& details) {
   for (std::size_t row = 0; row < types.size(); ++row)
     if (types[row].name == details.type_id) return static_cast<AgentTypeId>(row);
   struct ByClass {
     std::string_view sumo_class, type;
   };
-  static constexpr ByClass kByClass[] = {
-      {"passenger", "car"},   {"private", "car"},    {"taxi", "car"},        {"emergency", "van"},    {"authority", "car"},
-      {"army", "truck"},      {"vip", "car"},        {"hov", "car"},         {"evehicle", "car"},     {"custom1", "car"},
-      {"custom2", "car"},     {"delivery", "van"},   {"truck", "truck"},     {"trailer", "truck"},    {"bus", "bus"},
-      {"coach", "bus"},       {"motorcycle", "motorcycle"}, {"moped", "motorcycle"}, {"bicycle", "bicycle"}, {"pedestrian", "pedestrian"},
-      {"ignoring", "car"}};
+  static constexpr ByClass kByClass[] = {{"passenger", "car"},
+                                         {"private", "car"},
+                                         {"taxi", "car"},
+                                         {"emergency", "van"},
+                                         {"authority", "car"},
+                                         {"army", "truck"},
+                                         {"vip", "car"},
+                                         {"hov", "car"},
+                                         {"evehicle", "car"},
+                                         {"custom1", "car"},
+                                         {"custom2", "car"},
+                                         {"delivery", "van"},
+                                         {"truck", "truck"},
+                                         {"trailer", "truck"},
+                                         {"bus", "bus"},
+                                         {"coach", "bus"},
+                                         {"motorcycle", "motorcycle"},
+                                         {"moped", "motorcycle"},
+                                         {"bicycle", "bicycle"},
+                                         {"pedestrian", "pedestrian"},
+                                         {"ignoring", "car"}};
   if (details.is_person) return find_agent_type(types, "pedestrian");
   for (const ByClass& row : kByClass)
     if (row.sumo_class == details.vehicle_class) return find_agent_type(types, row.type);
   return std::nullopt;
 }
 
-std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& details, AgentTypeId type_id, std::string& why) {
+std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& details,
+                              AgentTypeId type_id, std::string& why) {
   const RoadNetwork& network = model.road;
   const AgentType& type = type_of(model.types, type_id);
   std::vector<EdgeId> route;
@@ -43,13 +60,17 @@ std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& detail
   request.arrival_position = details.arrival_position;
   request.max_lateral_acceleration = type.max_lateral_acceleration;
   request.comfortable_deceleration = type.comfortable_deceleration;
-  request.max_speed = details.max_speed > 0.0 ? std::min(details.max_speed, type.max_speed) : type.max_speed;
+  request.max_speed =
+      details.max_speed > 0.0 ? std::min(details.max_speed, type.max_speed) : type.max_speed;
   request.speed_factor = details.speed_factor;
-  if (type.kinematics == Kinematics::SingleTrack) request.turning_radius = 1.1 * type.wheelbase / std::tan(type.max_steering);
+  if (type.kinematics == Kinematics::SingleTrack)
+    request.turning_radius = 1.1 * type.wheelbase / std::tan(type.max_steering);
   const auto lane = network.lane_by_name.find(details.lane);
   if (lane != network.lane_by_name.end()) request.start_lane = lane->second;
-  request.start_along = std::max(0.0, details.lane_position - (details.is_person ? 0.0 : 0.5 * details.length));
-  auto path = details.is_person ? build_walking_path(network, request, why) : build_driving_path(network, request, why);
+  request.start_along =
+      std::max(0.0, details.lane_position - (details.is_person ? 0.0 : 0.5 * details.length));
+  auto path = details.is_person ? build_walking_path(network, request, why)
+                                : build_driving_path(network, request, why);
   if (!path) return nullptr;
   // planned halts on lanes of the path
   for (const SumoAgentDetails::Stop& stop : details.stops) {
@@ -64,7 +85,8 @@ std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& detail
         }
       }
   }
-  std::sort(path->stops.begin(), path->stops.end(), [](const PathStop& a, const PathStop& b) { return a.along < b.along; });
+  std::sort(path->stops.begin(), path->stops.end(),
+            [](const PathStop& a, const PathStop& b) { return a.along < b.along; });
   return std::make_shared<Path>(std::move(*path));
 }
 

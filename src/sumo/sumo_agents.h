@@ -8,17 +8,22 @@
 
 namespace sumogamma {
 
-/// Type-table row for a SUMO agent: the row of the vType's own name, else by vehicle class; nullopt for what can't be driven
-/// off rails and roads (trams, trains, ships).
-std::optional<AgentTypeId> agent_type_of(const AgentTypeTable& types, const SumoAgentDetails& details);
+/// Type-table row for a SUMO agent: the row of the vType's own name, else by vehicle class; nullopt
+/// for what can't be driven off rails and roads (trams, trains, ships).
+std::optional<AgentTypeId> agent_type_of(const AgentTypeTable& types,
+                                         const SumoAgentDetails& details);
 
-/// The path that a departing agent is going to follow; null with `why` set where the network does not carry it.
-std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& details, AgentTypeId type, std::string& why);
+/// The path that a departing agent is going to follow; null with `why` set where the network does
+/// not carry it.
+std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& details, AgentTypeId type,
+                              std::string& why);
 
-/// Behaviour drawn for one agent (responsibility, attention; intention is its path): a pure function of seed and id.
+/// Behaviour drawn for one agent (responsibility, attention; intention is its path): a pure
+/// function of seed and id.
 BehaviorState draw_behavior(const AgentType& type, std::uint64_t seed, AgentId id);
 
-/// Place beside the path that one agent likes: on foot and on two wheels towards the kerb, so that opposite flows part [m].
+/// Place beside the path that one agent likes: on foot and on two wheels towards the kerb, so that
+/// opposite flows part [m].
 double draw_path_offset(const Model& model, const AgentType& type, std::uint64_t seed, AgentId id);
 
 }  // namespace sumogamma

@@ -23,11 +23,13 @@ struct Box {
 };
 bool overlap(const Box& a, const Box& b) {
   const Vec2 between = b.center - a.center;
-  for (const double heading : {a.heading, a.heading + 0.5 * kPi, b.heading, b.heading + 0.5 * kPi}) {
+  for (const double heading :
+       {a.heading, a.heading + 0.5 * kPi, b.heading, b.heading + 0.5 * kPi}) {
     const Vec2 axis = direction_of(heading);
     auto extent = [&](const Box& box) {
       const Vec2 forward = direction_of(box.heading);
-      return box.half_length * std::abs(forward.dot(axis)) + box.half_width * std::abs(cross(forward, axis));
+      return box.half_length * std::abs(forward.dot(axis)) +
+             box.half_width * std::abs(cross(forward, axis));
     };
     if (std::abs(between.dot(axis)) > extent(a) + extent(b)) return false;
   }
@@ -40,7 +42,8 @@ Box box_of(const Scene& scene, std::size_t row) {
           half_extent(scene, row, left_of(forward))};
 }
 
-/// SUMO's reference point of a footprint centre and back: front bumper for vehicles, centre for persons.
+/// SUMO's reference point of a footprint centre and back: front bumper for vehicles, centre for
+/// persons.
 Vec2 reference_point(const Vec2& center, double heading, double length) {
   return center + 0.5 * length * direction_of(heading);
 }
@@ -51,20 +54,23 @@ SumoWorld::SumoWorld(const Model& model, SumoBackend& backend, SumoWorldOptions 
     : model_(model), backend_(backend), options_(std::move(options)), time_(backend.time()) {
   for (const std::string& id : backend_.signal_ids()) {
     const auto signal = model_.road.signal_by_name.find(id);
-    signal_order_.push_back(signal == model_.road.signal_by_name.end() ? kNoSignal : signal->second);
+    signal_order_.push_back(signal == model_.road.signal_by_name.end() ? kNoSignal
+                                                                       : signal->second);
   }
 }
 
 bool SumoWorld::wants_control(const SumoAgentDetails& details, AgentTypeId type) const {
   const ControlChoice& control = options_.control;
-  return control.all || control.names.count(type_of(model_.types, type).name) > 0 || control.names.count(details.id) > 0;
+  return control.all || control.names.count(type_of(model_.types, type).name) > 0 ||
+         control.names.count(details.id) > 0;
 }
 
 void SumoWorld::observe(Scene& scene, RoadState& road) {
   scene.time = time_;
   road.signal_states.resize(model_.road.signals.size());
   for (std::size_t i = 0; i < signal_order_.size() && i < step_.signal_states.size(); ++i)
-    if (signal_order_[i] != kNoSignal) road.signal_states[index_of(signal_order_[i])] = step_.signal_states[i];
+    if (signal_order_[i] != kNoSignal)
+      road.signal_states[index_of(signal_order_[i])] = step_.signal_states[i];
   take_arrived(scene, road);
   finish_driven(scene, road);
   take_departed(scene);
@@ -80,7 +86,8 @@ void SumoWorld::observe(Scene& scene, RoadState& road) {
 
 void SumoWorld::take_departed(Scene&) {
   if (step_.departed_vehicles.empty() && step_.departed_persons.empty()) return;
-  for (SumoAgentDetails& details : backend_.details(step_.departed_vehicles, step_.departed_persons)) {
+  for (SumoAgentDetails& details :
+       backend_.details(step_.departed_vehicles, step_.departed_persons)) {
     const auto type = agent_type_of(model_.types, details);
     if (!type) {
       ++life_cycle_.left_to_sumo["rail or water"];
@@ -90,7 +97,8 @@ void SumoWorld::take_departed(Scene&) {
     bool driven = options_.control.any() && wants_control(pending.details, *type);
     if (options_.control.any()) {
       std::string why = "a person who does not walk";
-      if (!pending.details.route.empty()) pending.path = path_of(model_, pending.details, *type, why);
+      if (!pending.details.route.empty())
+        pending.path = path_of(model_, pending.details, *type, why);
       if (driven && !pending.path) {
         driven = false;
         ++life_cycle_.left_to_sumo[why];
@@ -109,12 +117,14 @@ void SumoWorld::take_departed(Scene&) {
 
 AgentId SumoWorld::register_agent(const SumoAgentDetails& details, bool external, double time) {
   const AgentId id{static_cast<std::uint32_t>(known_.size())};
-  known_.push_back({details.id, details.is_person, external, false, time, details.is_person ? 0.0 : details.length});
+  known_.push_back({details.id, details.is_person, external, false, time,
+                    details.is_person ? 0.0 : details.length});
   names_.push_back(details.id);
   return id;
 }
 
-void SumoWorld::forget(AgentId id, Scene& scene, RoadState& road, std::vector<bool>& removed, std::size_t row) {
+void SumoWorld::forget(AgentId id, Scene& scene, RoadState& road, std::vector<bool>& removed,
+                       std::size_t row) {
   if (removed.empty()) removed.assign(scene.size(), false);
   removed[row] = true;
   if (id.value < road.paths.size()) road.paths[id.value] = nullptr;
@@ -156,7 +166,8 @@ void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
     const Path* path = road.path(scene.path[row]);
     const Known& known = known_[scene.id[row].value];
     // vehicles arrive with their front, walkers when they are there within a step or two
-    const double reached = scene.path_along[row] + (known.is_person ? 0.7 : 0.5 * known.length + 0.3);
+    const double reached =
+        scene.path_along[row] + (known.is_person ? 0.7 : 0.5 * known.length + 0.3);
     if (reached < path->arrival) continue;
     if (known.is_person) {
       const std::vector<std::string> next = backend_.finish_stage(known.sumo_id);
@@ -164,7 +175,8 @@ void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
         const std::string one[] = {known.sumo_id};
         auto details = backend_.details({}, one);
         std::string why = "it is gone";
-        auto next_path = details.empty() ? nullptr : path_of(model_, details.front(), scene.type[row], why);
+        auto next_path =
+            details.empty() ? nullptr : path_of(model_, details.front(), scene.type[row], why);
         if (next_path) {
           scene.path_along[row] = next_path->line.project(scene.position[row]).along;
           road.paths[scene.id[row].value] = std::move(next_path);
@@ -187,8 +199,10 @@ void SumoWorld::insert_pending(Scene& scene, RoadState& road) {
   // in order of departure; one that finds no room does not hold up those who start elsewhere
   for (auto pending = pending_.begin(); pending != pending_.end();) {
     if (options_.max_agents > 0 && scene.size() >= options_.max_agents) break;
-    if (insert(*pending, scene, road)) pending = pending_.erase(pending);
-    else ++pending;
+    if (insert(*pending, scene, road))
+      pending = pending_.erase(pending);
+    else
+      ++pending;
   }
   life_cycle_.waiting = pending_.size();
 }
@@ -203,26 +217,33 @@ bool SumoWorld::insert(const Pending& pending, Scene& scene, RoadState& road) {
   agent.type = pending.type;
   const double length = details.length > 0.0 ? details.length : type.length;
   const double width = details.width > 0.0 ? details.width : type.width;
-  agent.footprint = box_footprint(details.is_person ? type.length : length, details.is_person ? type.width : width);
+  agent.footprint = box_footprint(details.is_person ? type.length : length,
+                                  details.is_person ? type.width : width);
   const Vec2 direction = path.line.direction_at(0.0);
   agent.path_offset = draw_path_offset(model_, type, options_.seed, id);
   const PathStretch& stretch = path.stretches.front();
   const double ground = elevation_at(model_.road.lane(stretch.lane), stretch.lane_from);
   const double half_width = details.is_person ? 0.5 * type.width : 0.5 * width;
-  const double offset = std::clamp(agent.path_offset, std::min(0.0, half_width + 0.1 - stretch.room_right),
-                                   std::max(0.0, stretch.room_left - half_width - 0.1));
+  const double offset =
+      std::clamp(agent.path_offset, std::min(0.0, half_width + 0.1 - stretch.room_right),
+                 std::max(0.0, stretch.room_left - half_width - 0.1));
   agent.position = path.line.point_at(0.0) + offset * left_of(direction);
   agent.heading = heading_of(direction);
-  agent.preferred_speed = details.max_speed > 0.0 ? std::min(details.max_speed * (details.is_person ? details.speed_factor : 1.0), type.max_speed)
-                                                  : type.preferred_speed;
+  agent.preferred_speed =
+      details.max_speed > 0.0
+          ? std::min(details.max_speed * (details.is_person ? details.speed_factor : 1.0),
+                     type.max_speed)
+          : type.preferred_speed;
   agent.behavior = draw_behavior(type, options_.seed, id);
   agent.path = static_cast<PathId>(id.value);
 
   // room for the body now, and for what comes from behind and goes ahead
   const double half_length = details.is_person ? 0.5 * type.length : 0.5 * length;
   const double gap = details.is_person ? 0.1 : type.min_gap;
-  const Box wanted{agent.position, agent.heading, half_length + gap, half_width + (details.is_person ? 0.05 : 0.2)};
-  double speed = details.is_person ? agent.preferred_speed : std::min(path.profile_at(0.0), agent.preferred_speed);
+  const Box wanted{agent.position, agent.heading, half_length + gap,
+                   half_width + (details.is_person ? 0.05 : 0.2)};
+  double speed = details.is_person ? agent.preferred_speed
+                                   : std::min(path.profile_at(0.0), agent.preferred_speed);
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const Vec2 relative = to_body(scene.position[row] - agent.position, direction);
     if (std::abs(relative.x()) > 80.0 || std::abs(relative.y()) > 30.0) continue;
@@ -235,7 +256,9 @@ bool SumoWorld::insert(const Pending& pending, Scene& scene, RoadState& road) {
     if (relative.x() > 0.0) {
       // no faster than stops behind it at ease
       const double leader = std::max(ahead, 0.0);
-      speed = std::min(speed, std::sqrt(leader * leader + 2.0 * 0.7 * type.comfortable_deceleration * std::max(free - 1.0, 0.0)));
+      speed =
+          std::min(speed, std::sqrt(leader * leader + 2.0 * 0.7 * type.comfortable_deceleration *
+                                                          std::max(free - 1.0, 0.0)));
     } else if (free < ahead * 2.0) {
       return false;  // somebody is about to be here
     }
@@ -267,7 +290,8 @@ void SumoWorld::update_external(Scene& scene, RoadState& road) {
       AgentState agent;
       agent.id = id;
       agent.type = arriving->second.type;
-      agent.footprint = details.is_person ? box_footprint(type.length, type.width) : box_footprint(details.length, details.width);
+      agent.footprint = details.is_person ? box_footprint(type.length, type.width)
+                                          : box_footprint(details.length, details.width);
       agent.position = reference_point(seen.position, heading, -known_[id.value].length);
       agent.heading = heading;
       agent.speed = seen.speed;
@@ -297,7 +321,8 @@ void SumoWorld::update_external(Scene& scene, RoadState& road) {
     scene.velocity[row] = velocity;
     scene.speed[row] = seen.speed;
     const Path* path = road.path(scene.path[row]);
-    if (path != nullptr && scene.path_along[row] == 0.0) scene.path_along[row] = path->line.project(scene.position[row]).along;
+    if (path != nullptr && scene.path_along[row] == 0.0)
+      scene.path_along[row] = path->line.project(scene.position[row]).along;
     if (path != nullptr && in_region(scene.position[row])) take_over(id, scene, row);
   }
 }
@@ -308,7 +333,8 @@ bool SumoWorld::in_region(const Vec2& position) const {
          (position.array() <= control.region_high.array()).all();
 }
 
-/// From SUMO to us, in motion: the pose stays, only who decides on the next one changes. It stays ours until it arrives.
+/// From SUMO to us, in motion: the pose stays, only who decides on the next one changes. It stays
+/// ours until it arrives.
 void SumoWorld::take_over(AgentId id, Scene& scene, std::size_t row) {
   Known& known = known_[id.value];
   backend_.unwatch(known.sumo_id, known.is_person);
@@ -319,7 +345,8 @@ void SumoWorld::take_over(AgentId id, Scene& scene, std::size_t row) {
   external_ids_.erase(known.sumo_id);
 }
 
-/// SUMO is blind to ghosts: a vehicle that it drives is slowed by us where a ghost binds it, and given back after.
+/// SUMO is blind to ghosts: a vehicle that it drives is slowed by us where a ghost binds it, and
+/// given back after.
 void SumoWorld::hold_followers(const Scene& scene) {
   for (std::size_t row = 0; row < scene.size(); ++row) {
     if (scene.control[row] != Control::External) continue;
@@ -331,8 +358,10 @@ void SumoWorld::hold_followers(const Scene& scene) {
       const std::size_t foe = find_row(scene, AgentId{static_cast<std::uint32_t>(context.foe)});
       bound = foe < scene.size() && scene.control[foe] == Control::Gamma;
     }
-    if (bound) backend_.set_speed(known.sumo_id, context.allowed_speed);
-    else if (known.speed_held) backend_.set_speed(known.sumo_id, -1.0);
+    if (bound)
+      backend_.set_speed(known.sumo_id, context.allowed_speed);
+    else if (known.speed_held)
+      backend_.set_speed(known.sumo_id, -1.0);
     known.speed_held = bound;
   }
 }
@@ -352,7 +381,8 @@ void SumoWorld::advance(const Scene& scene) {
   for (std::size_t row = 0; row < scene.size(); ++row) {
     if (scene.control[row] != Control::Gamma) continue;
     const Known& known = known_[scene.id[row].value];
-    SumoPose pose{&known.sumo_id, reference_point(scene.position[row], scene.heading[row], known.length),
+    SumoPose pose{&known.sumo_id,
+                  reference_point(scene.position[row], scene.heading[row], known.length),
                   sumo_from_heading(scene.heading[row])};
     (known.is_person ? person_poses_ : vehicle_poses_).push_back(pose);
     const auto watched = written_.find(known.sumo_id);

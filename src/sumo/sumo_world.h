@@ -16,9 +16,9 @@ namespace sumogamma {
 
 /// Which agents GAMMA takes over.
 struct ControlChoice {
-  bool all = true;                   ///< everyone that can be driven
-  std::set<std::string> names;       ///< else: agent types ("car") or SUMO ids; empty: none
-  bool has_region = false;           ///< only inside the box below
+  bool all = true;              ///< everyone that can be driven
+  std::set<std::string> names;  ///< else: agent types ("car") or SUMO ids; empty: none
+  bool has_region = false;      ///< only inside the box below
   Vec2 region_low = Vec2::Zero(), region_high = Vec2::Zero();
 
   bool any() const { return all || !names.empty() || has_region; }
@@ -27,10 +27,10 @@ struct ControlChoice {
 /// Options of a run in SUMO.
 struct SumoWorldOptions {
   ControlChoice control;
-  std::size_t max_agents = 0;   ///< cap on agents alive at once, 0: none
+  std::size_t max_agents = 0;  ///< cap on agents alive at once, 0: none
   std::uint64_t seed = 1;
-  double dt = 0.05;             ///< [s]
-  std::size_t watched = 32;     ///< ghosts whose pose is read back to measure the coupling
+  double dt = 0.05;          ///< [s]
+  std::size_t watched = 32;  ///< ghosts whose pose is read back to measure the coupling
 };
 
 /// Counts of the life cycle, by type name.
@@ -40,19 +40,22 @@ struct LifeCycle {
     double travel_time = 0;  ///< of the arrived, summed [s]
   };
   std::map<std::string, Count> by_type;
-  std::map<std::string, std::int64_t> removed;      ///< taken out before the destination, by reason
-  std::map<std::string, std::int64_t> left_to_sumo; ///< not driven by us although asked for, by reason
-  std::size_t waiting = 0;                          ///< departed in SUMO, waiting for room here
+  std::map<std::string, std::int64_t> removed;  ///< taken out before the destination, by reason
+  std::map<std::string, std::int64_t>
+      left_to_sumo;         ///< not driven by us although asked for, by reason
+  std::size_t waiting = 0;  ///< departed in SUMO, waiting for room here
 };
 
 /// What SUMO reported against what was written.
 struct CouplingCheck {
-  std::function<void(const Vec2& written, const Vec2& reported)> compare;  ///< called for each pose read back
+  std::function<void(const Vec2& written, const Vec2& reported)>
+      compare;  ///< called for each pose read back
   int teleports = 0, emergency_stops = 0, sumo_collisions = 0;
 };
 
-/// SUMO as the world: it inserts, routes, signals and shows; agents under our control are ghosts in it (see docs/coupling.md).
-/// Life cycle of an agent: departed in SUMO -> pending (kept off the map until its place is free) -> driven -> arrived.
+/// SUMO as the world: it inserts, routes, signals and shows; agents under our control are ghosts in
+/// it (see docs/coupling.md). Life cycle of an agent: departed in SUMO -> pending (kept off the map
+/// until its place is free) -> driven -> arrived.
 class SumoWorld : public World {
  public:
   /// `model` and `backend` outlive the world.
@@ -92,7 +95,8 @@ class SumoWorld : public World {
   bool wants_control(const SumoAgentDetails& details, AgentTypeId type) const;
   bool insert(const Pending& pending, Scene& scene, RoadState& road);
   AgentId register_agent(const SumoAgentDetails& details, bool external, double time);
-  void forget(AgentId id, Scene& scene, RoadState& road, std::vector<bool>& removed, std::size_t row);
+  void forget(AgentId id, Scene& scene, RoadState& road, std::vector<bool>& removed,
+              std::size_t row);
   void compare_poses();
   bool in_region(const Vec2& position) const;
   void take_over(AgentId id, Scene& scene, std::size_t row);
@@ -106,9 +110,9 @@ class SumoWorld : public World {
   std::deque<Pending> pending_;
   std::map<std::string, Pending> external_arriving_;  ///< watched, first pose not seen yet
   std::map<std::string, AgentId> external_ids_;
-  std::vector<Known> known_;        ///< by AgentId
-  std::vector<std::string> names_;  ///< by AgentId
-  std::vector<SignalId> signal_order_;  ///< of the back end's list
+  std::vector<Known> known_;                                 ///< by AgentId
+  std::vector<std::string> names_;                           ///< by AgentId
+  std::vector<SignalId> signal_order_;                       ///< of the back end's list
   std::map<std::string, std::pair<AgentId, Vec2>> written_;  ///< watched ghosts: what was sent
   std::vector<SumoPose> vehicle_poses_, person_poses_;
   double time_ = 0;
