@@ -36,7 +36,8 @@ test_stage() {
   fi
   headline "$preset: tests"
   "${runner[@]}" ctest --test-dir "build/$preset" -L "$labels" -j "$jobs" --output-on-failure \
-    --no-tests=error --output-junit "$project/build/$preset/tests.xml" < /dev/null || true
+    --no-tests=error --output-junit "$project/build/$preset/tests.xml" < /dev/null |
+    sed -uE '/^ +Start +[0-9]+: /d; s/ \.{3,}/ .../' || true
   if [[ -s build/$preset/tests.xml ]]; then
     stages+=("build/$preset/tests.xml")
   else

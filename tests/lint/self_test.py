@@ -33,6 +33,8 @@ FAULTS = [
     ("layers", "src/base/units.h", '#include "geometry/vec2.h"\n', "src/base/units.h:1: module base may not know geometry"),
     ("layers", "src/osm/reader.cpp", '#include "sumo/backend.h"\n', "module osm may not know sumo"),
     ("layers", "src/app/main.cpp", "#include <osmium/io/any_input.hpp>\n", "osmium/io/any_input.hpp belongs to src/osm"),
+    ("layers", "src/app/version_command.cpp", "#include <osmium/osm/box.hpp>\n", "belongs to src/osm"),
+    ("layers", "src/app/other_command.cpp", "#include <osmium/version.hpp>\n", "belongs to src/osm"),
     ("layers", "src/sumo/traci_backend.cpp", "  #  include <libsumo/libsumo.h>\n", "belongs to src/sumo/libsumo_backend"),
     ("layers", "src/sumo/clock.cpp", "#include <libtraci/libtraci.h>\n", "its client dies with SUMO"),
     ("layers", "src/sumo/draw.cpp", "#include <random>\n", "draws come from base/random.h"),
