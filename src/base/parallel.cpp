@@ -68,8 +68,8 @@ Workers::~Workers() {
   for (std::thread& thread : pool_->threads) thread.join();
 }
 
-void Workers::for_each_range(std::size_t rows,
-                             const std::function<void(std::size_t, std::size_t, std::size_t)>& body) {
+void Workers::for_each_range(
+    std::size_t rows, const std::function<void(std::size_t, std::size_t, std::size_t)>& body) {
   if (rows == 0) return;
   if (!pool_) {
     body(0, 0, rows);

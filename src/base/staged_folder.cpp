@@ -51,7 +51,8 @@ void StagedFolder::clean_up() noexcept {
   if (!staging_.empty()) fs::remove_all(staging_, code);
   if (committed_) return;
   // only what is still empty: remove() never takes a full folder
-  for (auto parent = made_.rbegin(); parent != made_.rend(); ++parent) fs::remove(*parent, code);
+  std::for_each(made_.rbegin(), made_.rend(),
+                [&](const fs::path& parent) { fs::remove(parent, code); });
 }
 
 void StagedFolder::commit() {

@@ -17,8 +17,6 @@
 
 #include "base/error.h"
 
-extern char** environ;
-
 namespace sumogamma {
 namespace {
 
@@ -55,8 +53,8 @@ struct Pipe {
 
 /// The spawn calls' two attribute objects, freed in every case.
 struct SpawnSetup {
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_t actions{};
+  posix_spawnattr_t attributes{};
   SpawnSetup(const Pipe& out, const Pipe& err, const std::filesystem::path& folder) {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -153,7 +151,7 @@ class Child {
 
 /// Appends what is ready; false at the stream's end.
 bool read_some(int descriptor, std::string& text, std::size_t limit) {
-  std::array<char, 65536> block;
+  std::array<char, 65536> block{};
   const ssize_t count = read(descriptor, block.data(), block.size());
   if (count < 0) return errno == EINTR || errno == EAGAIN;
   if (count == 0) return false;

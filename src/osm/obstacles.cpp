@@ -142,7 +142,7 @@ std::vector<std::vector<Ring>> cut_out_lanes(const LaneClearing& clearing,
   double area_before = 0;
   for (const Ring& ring : rings) {
     const ClipperLib::Path path = to_clipper(ring);
-    area_before += (&ring == &rings[0] ? 1.0 : -1.0) * std::abs(ClipperLib::Area(path));
+    area_before += (&ring == &rings.front() ? 1.0 : -1.0) * std::abs(ClipperLib::Area(path));
     clipper.AddPath(path, ClipperLib::ptSubject, true);
     for (const Vec2& p : ring) {
       low = low.cwiseMin(p);

@@ -544,7 +544,7 @@ void snap_signals(OsmMap& map, double reach, IssueLog& log) {
 
 void add_footways_at_crossings(OsmMap& map, IssueLog& log) {
   constexpr double kNearJunction = 15.0,
-                   kStub = 9.0;  // [m]; the stub reaches over half a road and its sidewalk
+                   kReach = 9.0;  // [m]; the footway reaches over half a road and its sidewalk
   const TrafficGraph graph(map);
   const Uses uses = count_node_uses(map);
   std::vector<MapWay> added;
@@ -570,8 +570,8 @@ void add_footways_at_crossings(OsmMap& map, IssueLog& log) {
     const double along = metric.bearing(beside(arms[0]), beside(arms[1]));
     for (const double side : {kPi / 2, -kPi / 2}) {
       const std::int64_t end = map.new_id();
-      map.nodes[end].place = {here.lon + kStub * std::cos(along + side) / metric.meters_per_lon,
-                              here.lat + kStub * std::sin(along + side) / metric.meters_per_lat};
+      map.nodes[end].place = {here.lon + kReach * std::cos(along + side) / metric.meters_per_lon,
+                              here.lat + kReach * std::sin(along + side) / metric.meters_per_lat};
       added.push_back({map.new_id(), {end, id}, {{"highway", "footway"}}});
     }
     log.add(Severity::Note, "crossing_kept",
