@@ -79,8 +79,9 @@ struct Judge {
     if (!overlap) return false;
     const bool waits_for_us = foe.stands && approaches.waiting(foe.row).foe == scene.id[traveller.row].value;
     if (foe_inside && !waits_for_us) return theirs.end + 0.3 > ours.begin;
-    // no rule for this pair: who gets there first goes first, the other waits for it
-    if (zone.unruled && !foe_inside)
+    // no rule for this pair, or past the line already: who gets there first goes first, the other waits for it
+    const bool past_line = traveller.front > link.stop_line + 0.3;
+    if ((zone.unruled || past_line) && !foe_inside)
       return theirs.begin < ours.begin || (theirs.begin == ours.begin && scene.id[foe.row] < scene.id[traveller.row]);
     if (!zone.yields && !foe_inside) {
       // right of way, but nobody steps in front of a vehicle that can no longer stop

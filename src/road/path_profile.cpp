@@ -40,6 +40,23 @@ void compute_speed_profile(const PathRequest& request, Path& path) {
   }
 }
 
+namespace {
+/// Half width [m] of the box filter at each sample: enough for the radius around bends that are too tight, 0 elsewhere, with
+/// ramps between. A right angle filtered over +-w turns with radius w / sqrt(2) at its tightest and is cut by a third of w,
+/// so long bodies don't get all they want: they must not cut over the kerb.
+std::vector<double> filter_widths(const std::vector<Vec2>& samples, double step, double turning_radius) {
+  constexpr double kWidest = 4.0, kReach = 2.0, kRamp = 0.8;
+  const double width = std::min(std::sqrt(2.0) * turning_radius, kWidest);
+  const auto reach = static_cast<std::size_t>(std::max(1.0, kReach / step));
+  std::vector<double> widths(samples.size(), 0.0);
+  for (std::size_t i = reach; i + reach < samples.size(); ++i)
+    if (menger_curvature(samples[i - reach], samples[i], samples[i + reach]) * turning_radius > 1.0) widths[i] = width;
+  for (std::size_t i = 1; i < widths.size(); ++i) widths[i] = std::max(widths[i], widths[i - 1] - kRamp * step);
+  for (std::size_t i = widths.size() - 1; i-- > 0;) widths[i] = std::max(widths[i], widths[i + 1] - kRamp * step);
+  return widths;
+}
+}  // namespace
+
 void round_corners(double turning_radius, Path& path) {
   constexpr double kSample = 0.5;
   const double length = path.line.length();
@@ -50,18 +67,15 @@ void round_corners(double turning_radius, Path& path) {
   for (std::size_t i = 0; i <= count; ++i)
     samples[i] = path.line.point_at(static_cast<double>(i) * step);
 
-  // mean over a window that shrinks towards the ends, by running sums
+  // only where the line bends tighter than the body can: every other bend is driven as it lies
+  const std::vector<double> widths = filter_widths(samples, step, turning_radius);
   std::vector<Vec2> sums(count + 2, Vec2::Zero());
   for (std::size_t i = 0; i <= count; ++i) sums[i + 1] = sums[i] + samples[i];
-  // a right angle filtered over +-w turns with radius w / sqrt(2) at its tightest
-  // (and cuts a third of w off the corner itself: long bodies must not do that over the kerb)
-  constexpr double kWidest = 4.0;
-  const auto half =
-      static_cast<std::size_t>(std::min(std::sqrt(2.0) * turning_radius, kWidest) / step);
   std::vector<Vec2> rounded(count + 1);
   std::vector<double> along(count + 1, 0.0);
   for (std::size_t i = 0; i <= count; ++i) {
-    const std::size_t window = std::min({half, i, count - i});
+    // the mean over a window that shrinks towards the ends, by running sums
+    const std::size_t window = std::min({static_cast<std::size_t>(widths[i] / step), i, count - i});
     rounded[i] = (sums[i + window + 1] - sums[i - window]) / static_cast<double>(2 * window + 1);
     if (i > 0) along[i] = along[i - 1] + (rounded[i] - rounded[i - 1]).norm();
   }

@@ -375,7 +375,10 @@ void SumoWorld::compare_poses() {
 }
 
 void SumoWorld::advance(const Scene& scene) {
-  if (options_.control.any()) hold_followers(scene);
+  if (options_.control.any()) {
+    hold_followers(scene);
+    feed_detectors(scene);
+  }
   vehicle_poses_.clear();
   person_poses_.clear();
   for (std::size_t row = 0; row < scene.size(); ++row) {

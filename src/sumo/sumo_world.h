@@ -98,6 +98,8 @@ class SumoWorld : public World {
   void forget(AgentId id, Scene& scene, RoadState& road, std::vector<bool>& removed,
               std::size_t row);
   void compare_poses();
+  void read_detectors();
+  void feed_detectors(const Scene& scene);
   bool in_region(const Vec2& position) const;
   void take_over(AgentId id, Scene& scene, std::size_t row);
 
@@ -115,6 +117,13 @@ class SumoWorld : public World {
   std::vector<SignalId> signal_order_;                       ///< of the back end's list
   std::map<std::string, std::pair<AgentId, Vec2>> written_;  ///< watched ghosts: what was sent
   std::vector<SumoPose> vehicle_poses_, person_poses_;
+  struct LaneDetector {
+    std::size_t index = 0;  ///< into detector_ages_
+    double position = 0;    ///< along the lane [m]
+    double last_seen = 0;   ///< when a vehicle of ours was last on it [s]
+  };
+  std::map<LaneId, std::vector<LaneDetector>> detectors_;         ///< induction loops on lanes of the network
+  std::vector<std::pair<std::string, double>> detector_ages_;     ///< id and seconds since it was last passed
   double time_ = 0;
 };
 
