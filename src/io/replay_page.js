@@ -528,7 +528,7 @@ function drawAgent(agent) {
     screen.fill(); screen.stroke();
   } else if (type.walks) {
     drawWalker(agent);
-  } else if (kTwoWheelers.has(type.name) && s * l > 9) {
+  } else if (kTwoWheelers.has(type.name) && s * l > 16) {
     drawTwoWheeler(agent);
   } else {
     drawCar(agent, type.name, s > 5);
