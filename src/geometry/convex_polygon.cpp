@@ -1,6 +1,7 @@
 #include "geometry/convex_polygon.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace sumogamma {
@@ -145,6 +146,35 @@ PolygonDifference minkowski_difference(const ConvexPolygon& b, const ConvexPolyg
   if (count == 0) difference.vertices[count++] = vertex;
   difference.count = count;
   return difference;
+}
+
+NearSide near_side(const PolygonDifference& difference) {
+  const std::uint32_t count = difference.count;
+  NearSide side;
+  std::uint32_t facing = 0;
+  for (std::uint32_t k = 0; count > 1 && k < count; ++k)
+    facing |= static_cast<std::uint32_t>(difference.normals[k].dot(difference.vertices[k]) < 0)
+              << k;
+  if (facing == 0) {
+    side.inside = count > 2;
+    side.vertices[0] = difference.vertices[0];
+    for (std::uint32_t k = 1; k < count; ++k)
+      if (difference.vertices[k].squaredNorm() < side.vertices[0].squaredNorm())
+        side.vertices[0] = difference.vertices[k];
+    side.inside |= !(side.vertices[0].squaredNorm() > 0);
+    return side;
+  }
+  // the facing edges are one run: it begins where the edge before doesn't face
+  std::uint32_t k = static_cast<std::uint32_t>(
+      std::countr_zero(facing & ~((facing << 1) | (facing >> (count - 1)))));
+  side.edges = static_cast<std::uint32_t>(std::popcount(facing));
+  for (std::uint32_t edge = 0; edge <= side.edges; ++edge) {
+    side.vertices[edge] = difference.vertices[k];
+    side.normals[edge] = difference.normals[k];
+    side.heights[edge] = difference.normals[k].dot(difference.vertices[k]);
+    k = k + 1 < count ? k + 1 : 0;
+  }
+  return side;
 }
 
 double overlap_depth(const ConvexPolygon& a, const ConvexPolygon& b, const Vec2& offset) {

@@ -30,6 +30,17 @@ using ConvexPolygon = ConvexOutline<8>;
 /// Minkowski difference of two of them.
 using PolygonDifference = ConvexOutline<16>;
 
+/// The part of a convex outline that the origin sees: the run of edges that face it, from the left
+/// tangent vertex to the right one. No edges: a point, a segment seen end-on (then its nearest
+/// vertex), or the origin is inside.
+struct NearSide {
+  std::uint32_t edges = 0;
+  bool inside = false;             ///< the origin lies in the outline or on its boundary
+  std::array<Vec2, 16> vertices;   ///< edges + 1 of them
+  std::array<Vec2, 16> normals;    ///< outward, of the edges
+  std::array<double, 16> heights;  ///< of the edges' lines over the origin, < 0 [m]
+};
+
 /// The body-axes outline (at most 8 vertices, convex, counter-clockwise) turned so that its x axis
 /// points along `forward` (unit), its edges moved outwards by the margins. Coinciding and collinear
 /// vertices are dropped; a point or segment with a positive margin becomes a box. Not finite in: a
@@ -42,6 +53,9 @@ ConvexPolygon place_polygon(std::span<const Vec2> body_outline, const Vec2& forw
 /// edges join.
 PolygonDifference minkowski_difference(const ConvexPolygon& b, const ConvexPolygon& a,
                                        const Vec2& offset);
+
+/// The near side of a difference.
+NearSide near_side(const PolygonDifference& difference);
 
 /// Depth of the overlap of A at the origin and B at `offset` [m]: the least displacement that
 /// separates them (separating axis theorem over the edges' normals); <= 0 where they are apart,

@@ -1,12 +1,20 @@
 #include "geometry/oriented_box.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace sumogamma {
 
 std::optional<OrientedBox> as_box(std::span<const Vec2> body_outline) {
   if (body_outline.size() != 4) return std::nullopt;
+  // almost always: centred, as box_footprint makes it
+  const Vec2 half = body_outline[1];
+  if (half.x() > 0 && half.y() > 0 && body_outline[0] == Vec2(half.x(), -half.y()) &&
+      body_outline[2] == Vec2(-half.x(), half.y()) && body_outline[3] == -half && half.allFinite())
+    return OrientedBox{Vec2::Zero(), Vec2(1, 0), half};
   Vec2 low = body_outline[0], high = body_outline[0];
   for (const Vec2& vertex : body_outline) {
     low = low.cwiseMin(vertex);
@@ -38,36 +46,78 @@ double separation(const OrientedBox& a, const OrientedBox& b) {
   return std::max(std::max(a_x, a_y), std::max(b_x, b_y));
 }
 
-PolygonDifference box_difference(const OrientedBox& b, const OrientedBox& a) {
+BoxDifference::BoxDifference(const OrientedBox& b, const OrientedBox& a)
+    : center_(b.center - a.center) {
   // the axis of b that lies within the quarter turn to the left of a's forward axis, and b's
   // extents along it
   double c = a.forward.dot(b.forward), s = cross(a.forward, b.forward);
-  Vec2 axis = b.forward, half = b.half;
-  if (c < 0) {
-    c = -c;
-    s = -s;
-    axis = -axis;
+  const bool swapped = (c < 0) != (s < 0);
+  const Vec2 ahead = c < 0 ? Vec2(-b.forward) : b.forward;
+  c = std::abs(c);
+  s = std::abs(s);
+  if (swapped) std::swap(c, s);
+  const Vec2 axis = swapped ? left_of(ahead) : ahead, axis_left = left_of(axis),
+             a_left = left_of(a.forward);
+  const double x = swapped ? b.half.y() : b.half.x(), y = swapped ? b.half.x() : b.half.y();
+  half_edges_ = {a.half.x() * a.forward, x * axis, a.half.y() * a_left, y * axis_left};
+  normals_ = {-a_left, -axis_left, a.forward, axis};
+  extents_ = {a.half.y() + s * x + c * y, y + s * a.half.x() + c * a.half.y(),
+              a.half.x() + c * x + s * y, x + c * a.half.x() + s * a.half.y()};
+  gap_ = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 4; ++k) {
+    along_[k] = normals_[k].dot(center_);
+    const double gap = std::abs(along_[k]) - extents_[k];
+    if (gap <= gap_) continue;
+    gap_ = gap;
+    axis_ = along_[k] < 0 ? Vec2(-normals_[k]) : normals_[k];
   }
-  if (s < 0) {
-    axis = left_of(axis);
-    half = {half.y(), half.x()};
-  }
-  const Vec2 a_left = left_of(a.forward), axis_left = left_of(axis);
-  const Vec2 center = b.center - a.center;
+}
 
-  // edges in order of direction: a.forward, axis, a.left, axis.left, and the same backwards
+/// Where edge k begins, from the centre: the generators before it are passed, it and those after
+/// are still to come.
+Vec2 BoxDifference::corner(std::uint32_t k) const {
+  const std::uint32_t passed = k & 3u;
+  Vec2 at = Vec2::Zero();
+  for (std::uint32_t m = 0; m < 4; ++m) at += m < passed ? half_edges_[m] : Vec2(-half_edges_[m]);
+  return k < 4 ? at : Vec2(-at);
+}
+
+NearSide BoxDifference::near_side() const {
+  NearSide side;
+  std::uint32_t facing = 0;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    facing |= static_cast<std::uint32_t>(along_[k] < -extents_[k]) << k;
+    facing |= static_cast<std::uint32_t>(along_[k] > extents_[k]) << (k + 4);
+  }
+  if (facing == 0) {
+    side.inside = true;
+    return side;
+  }
+  // the facing edges are one run: it begins where the edge before doesn't face
+  std::uint32_t k =
+      static_cast<std::uint32_t>(std::countr_zero(facing & ~((facing << 1) | (facing >> 7))));
+  side.edges = static_cast<std::uint32_t>(std::popcount(facing));
+  side.vertices[0] = center_ + corner(k);
+  for (std::uint32_t edge = 0; edge < side.edges; ++edge) {
+    const std::uint32_t m = k & 3u;
+    const double sign = k < 4 ? 1.0 : -1.0;
+    side.normals[edge] = sign * normals_[m];
+    side.heights[edge] = sign * along_[m] + extents_[m];
+    side.vertices[edge + 1] = side.vertices[edge] + (2.0 * sign) * half_edges_[m];
+    k = (k + 1) & 7u;
+  }
+  return side;
+}
+
+PolygonDifference BoxDifference::polygon() const {
   PolygonDifference difference;
   difference.count = 8;
-  const Vec2 edges[4] = {(2 * a.half.x()) * a.forward, (2 * half.x()) * axis,
-                         (2 * a.half.y()) * a_left, (2 * half.y()) * axis_left};
-  const Vec2 normals[4] = {-a_left, -axis_left, a.forward, axis};
-  Vec2 vertex = -0.5 * (edges[0] + edges[1] + edges[2] + edges[3]);
   for (std::uint32_t k = 0; k < 4; ++k) {
-    difference.vertices[k] = center + vertex;
-    difference.vertices[k + 4] = center - vertex;
-    difference.normals[k] = normals[k];
-    difference.normals[k + 4] = -normals[k];
-    vertex += edges[k];
+    const Vec2 from_center = corner(k);
+    difference.vertices[k] = center_ + from_center;
+    difference.vertices[k + 4] = center_ - from_center;
+    difference.normals[k] = normals_[k];
+    difference.normals[k + 4] = -normals_[k];
   }
   return difference;
 }

@@ -23,9 +23,36 @@ std::optional<OrientedBox> as_box(std::span<const Vec2> body_outline);
 /// lower bound of their distance.
 double separation(const OrientedBox& a, const OrientedBox& b);
 
-/// B - A of Eq. 3 for two boxes, relative to A's centre: the eight-sided sum of their edges, in
-/// closed form. The same set as minkowski_difference gives, though with two equal normals where
-/// edges are parallel.
-PolygonDifference box_difference(const OrientedBox& b, const OrientedBox& a);
+/// B - A of Eq. 3 for two boxes, relative to A's centre, in closed form: an eight-sided polygon
+/// around `center`, whose opposite edges are parallel. Edge k runs along generator k for k < 4, in
+/// order of direction, and backwards along it for k + 4.
+class BoxDifference {
+ public:
+  BoxDifference(const OrientedBox& b, const OrientedBox& a);
+
+  /// True where A, moving at `velocity` relative to B and up to `more` faster [m/s], doesn't touch
+  /// it within `time` [s] because it doesn't along the axis that separates the two best: such
+  /// velocities lie outside VO^time.
+  bool stays_apart(const Vec2& velocity, double time, double more = 0) const {
+    return (axis_.dot(velocity) + more) * time < gap_;
+  }
+
+  /// What the origin sees of it; edges that are parallel count one by one.
+  NearSide near_side() const;
+
+  /// All of it. The same set as minkowski_difference gives, though with equal normals where edges
+  /// are parallel.
+  PolygonDifference polygon() const;
+
+ private:
+  Vec2 corner(std::uint32_t k) const;
+
+  Vec2 center_;
+  std::array<Vec2, 4> half_edges_, normals_;
+  std::array<double, 4> along_,
+      extents_;               ///< of the centre along the normals, and of the polygon from there
+  Vec2 axis_ = Vec2::Zero();  ///< from A to B
+  double gap_ = 0;            ///< along the axis [m]; <= 0 where they overlap
+};
 
 }  // namespace sumogamma

@@ -6,7 +6,7 @@
 namespace sumogamma {
 
 namespace {
-constexpr double kLeastCell = 8.0;  // [m]
+constexpr double kLeastCell = 6.0;  // [m]
 }
 
 void SpatialGrid::rebuild(std::span<const Vec2> positions) {

@@ -8,7 +8,7 @@ namespace sumogamma {
 namespace {
 
 // approach that is always reckoned with, whatever the velocities say now [m/s]
-constexpr double kSideStep = 1.0;
+constexpr double kSideStep = 0.3;
 
 /// Largest distance between the positions at which `agent` attends to `other` at `offset` from it.
 double reach_towards(const AgentGeometry& agent, const AgentGeometry& other,
@@ -32,27 +32,27 @@ void find_neighbours(const TickGeometry& geometry, std::size_t row, const Attent
   neighbours.attended.clear();
   neighbours.near.clear();
   const AgentGeometry& own = geometry.agent[row];
-  const double seen = std::max(range.front + own.stopping, range.rear) + geometry.longest_stopping +
-                      own.radius + geometry.largest_radius;
-  const double radius = std::max(seen, own.next_reach + geometry.largest_reach);
-  geometry.grid.visit_within(own.position, radius, [&](std::uint32_t other_row, double square) {
-    if (other_row == row) return;
-    const AgentGeometry& other = geometry.agent[other_row];
-    // above or below on a bridge
-    if (std::abs(other.height - own.height) > kStorey) return;
-    const double near = own.next_reach + other.next_reach;
-    if (square <= near * near) neighbours.near.push_back(other_row);
-    const Vec2 offset = other.position - own.position;
-    const double reach = reach_towards(own, other, range, offset);
-    if (square > reach * reach) return;
-    // out of reach within the horizon: gap > horizon * approach, both times the distance
-    const double distance = std::sqrt(square);
-    const double gap = distance - own.radius - other.radius;
-    const double approach =
-        std::max(own.velocity.dot(offset), preferred.dot(offset)) - other.velocity.dot(offset);
-    if (gap > 0 && gap * distance > horizon * (approach + kSideStep * distance)) return;
-    neighbours.attended.push_back({other_row, distance});
-  });
+  const double seen = std::max({range.front + own.stopping, range.rear, 0.0}) + own.radius;
+  const double own_far = std::max(seen, own.next_reach);
+  geometry.grid.visit_within(
+      own.position, own_far + geometry.largest_far, [&](std::uint32_t other_row, double square) {
+        if (other_row == row) return;
+        const AgentGeometry& other = geometry.agent[other_row];
+        const double far = own_far + other.far;
+        if (square > far * far) return;
+        const double near = own.next_reach + other.next_reach;
+        if (square <= near * near) neighbours.near.push_back(other_row);
+        const Vec2 offset = other.position - own.position;
+        const double reach = reach_towards(own, other, range, offset);
+        if (square > reach * reach) return;
+        // out of reach within the horizon: gap > horizon * approach, both times the distance
+        const double distance = std::sqrt(square);
+        const double gap = distance - own.radius - other.radius;
+        const double approach =
+            std::max(own.velocity.dot(offset), preferred.dot(offset)) - other.velocity.dot(offset);
+        if (gap > 0 && gap * distance > horizon * (approach + kSideStep * distance)) return;
+        neighbours.attended.push_back({other_row, distance});
+      });
 }
 
 }  // namespace sumogamma

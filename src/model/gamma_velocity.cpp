@@ -51,11 +51,12 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
 
   ConstraintSet& constraints = work.constraints;
   constraints.clear();
-  append_kinematic_constraints(model, scene, row, constraints);   // K, III-A
+  append_kinematic_constraints(model, scene, row, geometry.agent[row].forward,
+                               constraints);                      // K, III-A
   append_contextual_constraints(model, scene, row, constraints);  // C, III-C
   constraints.hard_count = constraints.planes.size();
-  append_geometric_constraints(model, scene, geometry, row, behavior, work.neighbours.attended,
-                               constraints);  // G, III-B
+  append_geometric_constraints(model, scene, geometry, row, behavior, work.preferred,
+                               work.neighbours.attended, constraints);  // G, III-B
 
   const Vec2 target = look_aside(model.options, geometry.agent[row], work.preferred);
   const double fastest = speed_limit(type, scene, row, work.preferred);

@@ -1,6 +1,7 @@
 #include "model/geometric_constraints.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "model/velocity_obstacle.h"
 
@@ -44,17 +45,58 @@ Vec2 intended_velocity(const Scene& scene, const AgentGeometry& agent, std::size
   return std::max(speed, 0.0) * agent.forward;
 }
 
-PolygonDifference difference_of(const Model& model, const Scene& scene,
-                                const TickGeometry& geometry, std::size_t row, std::size_t other) {
-  const AgentGeometry &own = geometry.agent[row], &their = geometry.agent[other];
-  if (own.is_box && their.is_box) {
-    const OrientedBox a = own.guarded_box();
-    PolygonDifference difference = box_difference(their.guarded_box(), a);
-    return difference;
+// approach that is always reckoned with, whatever the velocities say now [m/s]
+constexpr double kSideStep = 0.3;
+
+/// A row and one neighbour: all that their velocity obstacle depends on.
+struct Pair {
+  const Model& model;
+  const Scene& scene;
+  const TickGeometry& geometry;
+  std::size_t row, other;
+  Vec2 preferred;  ///< of the row [m/s]
+  Vec2 intended;   ///< relative [m/s]
+  double horizon;  ///< [s]
+
+  const AgentGeometry& own() const { return geometry.agent[row]; }
+  const AgentGeometry& their() const { return geometry.agent[other]; }
+  Vec2 relative() const { return own().velocity - their().velocity; }
+  double separation_time() const {
+    return own().on_wheels && their().on_wheels ? model.options.separation_time
+                                                : model.options.walker_separation_time;
   }
-  return minkowski_difference(guarded_polygon(model, scene, geometry, other),
-                              guarded_polygon(model, scene, geometry, row),
-                              their.position - own.position);
+};
+
+Escape escape_from(const NearSide& near, const Pair& pair) {
+  const PassingSide side = pair.model.options.keep_left ? PassingSide::Left : PassingSide::Right;
+  // differs from the paper: the side on which to pass follows from where both want to go, so that
+  // two who stand face to face go round each other instead of waiting
+  if (pair.model.options.pass_as_intended)
+    return intended_escape(near, pair.relative(), pair.intended, pair.horizon, side);
+  return nearest_escape(near, pair.relative(), pair.horizon, side);
+}
+
+/// The pair's escape; none where its half-plane can't bind, because neither now nor as preferred
+/// does the row come near within the horizon.
+std::optional<Escape> escape_of(const Pair& pair) {
+  if (pair.own().is_box && pair.their().is_box) {
+    const BoxDifference difference(pair.their().guarded_box(), pair.own().guarded_box());
+    const Vec2 preferred = pair.preferred - pair.their().velocity;
+    if (difference.stays_apart(pair.relative(), pair.horizon, kSideStep) &&
+        difference.stays_apart(preferred, pair.horizon, kSideStep))
+      return std::nullopt;
+    const NearSide near = difference.near_side();
+    if (near.inside)
+      return overlap_escape(difference.polygon(), pair.relative(), pair.separation_time());
+    return escape_from(near, pair);
+  }
+  const PolygonDifference difference =
+      minkowski_difference(guarded_polygon(pair.model, pair.scene, pair.geometry, pair.other),
+                           guarded_polygon(pair.model, pair.scene, pair.geometry, pair.row),
+                           pair.their().position - pair.own().position);
+  const NearSide near = near_side(difference);
+  if (near.inside) return overlap_escape(difference, pair.relative(), pair.separation_time());
+  return escape_from(near, pair);
 }
 
 }  // namespace
@@ -73,11 +115,10 @@ double responsibility_share(const Model& model, const Scene& scene, const TickGe
 
 void append_geometric_constraints(const Model& model, const Scene& scene,
                                   const TickGeometry& geometry, std::size_t row,
-                                  const BehaviorState& behavior, std::span<const Attended> attended,
-                                  ConstraintSet& constraints) {
-  if (!model.options.use_avoidance) return;
+                                  const BehaviorState& behavior, const Vec2& preferred,
+                                  std::span<const Attended> attended, ConstraintSet& constraints) {
   const ModelOptions& options = model.options;
-  const PassingSide side = options.keep_left ? PassingSide::Left : PassingSide::Right;
+  if (!options.use_avoidance) return;
   const AgentGeometry& own = geometry.agent[row];
   const AgentType& type = type_of(model.types, own.type);
   const Vec2 intended = intended_velocity(scene, own, row);
@@ -88,22 +129,15 @@ void append_geometric_constraints(const Model& model, const Scene& scene,
     const double horizon =
         road_horizon(scene.context[row], own, their, foe,
                      pair_horizon(options, type, type_of(model.types, their.type)));
-    const PolygonDifference difference = difference_of(model, scene, geometry, row, other);
-    const Vec2 relative = own.velocity - their.velocity;
-    const double apart =
-        own.on_wheels && their.on_wheels ? options.separation_time : options.walker_separation_time;
-    // differs from the paper: the side on which to pass follows from where both want to go, so that
-    // two who stand face to face go round each other instead of waiting
-    const Escape escape = options.pass_as_intended
-                              ? intended_escape(difference, relative,
-                                                intended - intended_velocity(scene, their, other),
-                                                horizon, apart, side)
-                              : nearest_escape(difference, relative, horizon, apart, side);
+    const std::optional<Escape> escape =
+        escape_of({model, scene, geometry, row, other, preferred,
+                   intended - intended_velocity(scene, their, other), horizon});
+    if (!escape) continue;
     // differs from the paper: a safe pair is held to its safety (as ORCA does) unless the option
     // says otherwise
-    if (!escape.colliding && !options.constrain_safe_pairs) continue;
+    if (!escape->colliding && !options.constrain_safe_pairs) continue;
     const double share = responsibility_share(model, scene, geometry, row, other, behavior);
-    constraints.append({own.velocity + share * escape.change, escape.normal},
+    constraints.append({own.velocity + share * escape->change, escape->normal},
                        {ConstraintKind::Neighbour, foe});
   }
 }

@@ -14,8 +14,8 @@ namespace sumogamma {
 /// scene's).
 void append_geometric_constraints(const Model& model, const Scene& scene,
                                   const TickGeometry& geometry, std::size_t row,
-                                  const BehaviorState& behavior, std::span<const Attended> attended,
-                                  ConstraintSet& constraints);
+                                  const BehaviorState& behavior, const Vec2& preferred,
+                                  std::span<const Attended> attended, ConstraintSet& constraints);
 
 /// Share of the escape that `row` takes towards `other`, in [0, 1]. The two shares of a pair add up
 /// to 1 where both attend to each other and both are driven by the model; who isn't seen by the

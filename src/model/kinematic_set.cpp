@@ -201,28 +201,38 @@ std::vector<KinematicTable> build_kinematic_tables(const AgentTypeTable& types, 
               : holonomic_set(types[t], table.speeds_[s], table.normals_);
     }
   });
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    KinematicTable& table = tables[t];
+    const std::size_t faces = table.normals_.size();
+    table.is_everything_ =
+        !table.has_sides_ &&
+        std::all_of(table.nodes_.begin(), table.nodes_.end(), [&](const KinematicSet& set) {
+          return std::all_of(
+              set.support.begin(), set.support.begin() + static_cast<std::ptrdiff_t>(faces),
+              [&](double support) { return support >= types[t].max_speed - kSpeedTolerance; });
+        });
+  }
   return tables;
 }
 
 void append_kinematic_constraints(const Model& model, const Scene& scene, std::size_t row,
-                                  ConstraintSet& constraints) {
-  if (!model.options.use_kinematics) return;
-  const AgentType& type = type_of(model.types, scene.type[row]);
+                                  const Vec2& forward, ConstraintSet& constraints) {
   const KinematicTable& table = model.kinematics[static_cast<std::size_t>(scene.type[row])];
+  if (!model.options.use_kinematics || table.is_everything()) return;
+  const AgentType& type = type_of(model.types, scene.type[row]);
   const KinematicSet set = table.at(scene.speed[row], scene.steering[row]);
-  Vec2 forward = direction_of(scene.heading[row]);
-  if (!table.has_sides() && scene.speed[row] > 1e-6) forward = scene.velocity[row].normalized();
-  auto append = [&](const Vec2& point, const Vec2& normal) {
-    constraints.append({point, normal}, {ConstraintKind::Kinematic, -1});
-  };
+  const ConstraintSource source{ConstraintKind::Kinematic, -1};
+  Vec2 axis = forward;
   if (table.has_sides()) {
-    append(Vec2::Zero(), from_body({set.left.y(), -set.left.x()}, forward));
-    append(Vec2::Zero(), from_body({-set.right.y(), set.right.x()}, forward));
+    constraints.append({Vec2::Zero(), from_body({set.left.y(), -set.left.x()}, axis)}, source);
+    constraints.append({Vec2::Zero(), from_body({-set.right.y(), set.right.x()}, axis)}, source);
+  } else if (scene.speed[row] > 1e-6) {
+    axis = scene.velocity[row].normalized();
   }
   for (std::size_t k = 0; k < table.normals().size(); ++k) {
     if (set.support[k] >= type.max_speed - kSpeedTolerance) continue;
-    const Vec2 outward = from_body(table.normals()[k], forward);
-    append(set.support[k] * outward, -outward);
+    const Vec2 outward = from_body(table.normals()[k], axis);
+    constraints.append({set.support[k] * outward, -outward}, source);
   }
 }
 

@@ -35,6 +35,10 @@ class KinematicTable {
   /// directions (on foot).
   bool has_sides() const { return has_sides_; }
 
+  /// True where no plane can ever bind: everything within the top speed is trackable from every
+  /// state.
+  bool is_everything() const { return is_everything_; }
+
   const std::vector<double>& speeds() const { return speeds_; }
   const std::vector<double>& steerings() const { return steerings_; }
   const KinematicSet& node(std::size_t speed, std::size_t steering) const {
@@ -47,6 +51,7 @@ class KinematicTable {
   std::vector<double> speeds_, steerings_;
   std::vector<KinematicSet> nodes_;  ///< [speeds x steerings]
   bool has_sides_ = false;
+  bool is_everything_ = false;
 };
 
 /// Greatest tracking error of Eq. 1 [m] of a body of this type in the given state that is asked for
@@ -61,9 +66,9 @@ double tracking_error(const AgentType& type, double speed, double steering, cons
 /// result for any number of workers.
 std::vector<KinematicTable> build_kinematic_tables(const AgentTypeTable& types, Workers& workers);
 
-/// Appends K of a row as hard planes. Every plane admits the null velocity. Planes that the speed
-/// limit implies are left out.
+/// Appends K of a row as hard planes; `forward` is its unit heading. Every plane admits the null
+/// velocity. Planes that the speed limit implies are left out.
 void append_kinematic_constraints(const Model& model, const Scene& scene, std::size_t row,
-                                  ConstraintSet& constraints);
+                                  const Vec2& forward, ConstraintSet& constraints);
 
 }  // namespace sumogamma

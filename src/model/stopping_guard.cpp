@@ -16,17 +16,7 @@ constexpr double kCreep = 0.5;
 // rounding that doesn't make a gap smaller [m]
 constexpr double kSame = 1e-6;
 
-/// A body that holds its wheels and brakes.
-struct Braking {
-  Vec2 position, forward;
-  Vec2 direction;           ///< of the motion, unit
-  double speed = 0;         ///< [m/s]
-  double deceleration = 1;  ///< [m/s^2]
-  double curvature = 0;     ///< [1/m]
-  double axle = 0;          ///< rear axle behind the position [m]
-
-  double duration() const { return speed / deceleration; }
-};
+using Braking = StoppingGuard::Braking;
 
 StoppingGuard::Pose pose_after(const Braking& body, double time) {
   const double braked = std::min(time, body.duration());
@@ -46,15 +36,6 @@ Braking braking_now(const AgentGeometry& agent, const AgentType& type) {
       agent.on_wheels ? agent.forward : Vec2(agent.velocity / std::max(agent.speed, 1e-9));
   return {agent.position,  agent.forward,           direction, agent.speed, type.max_deceleration,
           agent.curvature, type.rear_axle_to_center};
-}
-
-Braking braking_after(const BodyState& body, const AgentGeometry& agent, const AgentType& type,
-                      double lock_curvature) {
-  const Vec2 forward = direction_of(body.heading);
-  const double speed = agent.on_wheels ? body.speed : body.velocity.norm();
-  const Vec2 direction = agent.on_wheels ? forward : Vec2(body.velocity / std::max(speed, 1e-9));
-  return {body.position,           forward, direction, speed, type.max_deceleration, lock_curvature,
-          type.rear_axle_to_center};
 }
 
 OrientedBox box_at(const StoppingGuard::Pose& pose, const AgentGeometry& agent) {
@@ -100,25 +81,49 @@ void StoppingGuard::prepare(const Model& model, const Scene& scene, const TickGe
   scene_ = &scene;
   geometry_ = &geometry;
   row_ = row;
-  overlapping_ = false;
+  near_ = near;
   foes_.clear();
-  for (const std::uint32_t other : near) {
-    if (overlap_depth(scene, geometry, row, other) > 0)
-      overlapping_ = true;
-    else
-      add_foe(other);
-  }
 }
 
-void StoppingGuard::add_foe(std::uint32_t other) {
+bool StoppingGuard::overlapping() const {
+  return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t other) {
+    return overlap_depth(*scene_, *geometry_, row_, other) > 0;
+  });
+}
+
+Braking StoppingGuard::braking_after(const Vec2& velocity) const {
+  const AgentGeometry& own = geometry_->agent[row_];
+  const AgentType& type = type_of(model_->types, own.type);
+  const BodyState next = advance_body(type, body_of(*scene_, row_), velocity, model_->options.step);
+  Braking braking;
+  braking.position = next.position;
+  braking.forward = rotation(next.heading);
+  braking.speed = own.on_wheels ? next.speed : next.velocity.norm();
+  braking.direction =
+      own.on_wheels ? braking.forward : Vec2(next.velocity / std::max(braking.speed, 1e-9));
+  braking.deceleration = type.max_deceleration;
+  braking.curvature = own.on_wheels ? tangent(next.steering) / type.wheelbase : 0.0;
+  braking.axle = type.rear_axle_to_center;
+  return braking;
+}
+
+const StoppingGuard::Foe& StoppingGuard::foe_of(std::uint32_t other) {
+  for (const Foe& foe : foes_)
+    if (foe.row == other) return foe;
+  return foes_.emplace_back(look_closely(other));
+}
+
+StoppingGuard::Foe StoppingGuard::look_closely(std::uint32_t other) const {
   const AgentGeometry &own = geometry_->agent[row_], &their = geometry_->agent[other];
+  Foe foe;
+  foe.row = other;
+  foe.overlaps = overlap_depth(*scene_, *geometry_, row_, other) > 0;
+  if (foe.overlaps) return foe;
   const double step = model_->options.step;
   const Braking mine = braking_now(own, type_of(model_->types, own.type));
   Braking theirs = braking_now(their, type_of(model_->types, their.type));
   // nobody makes others brake; whoever goes the same way may
   if (!their.yields && their.velocity.dot(own.velocity) <= 0) theirs.deceleration = 1e-3;
-  Foe& foe = foes_.emplace_back();
-  foe.row = other;
   foe.duration = std::max(mine.duration() + step, their.yields ? theirs.duration() : 0.0);
   foe.free_way = model_->options.guard_margin + their.throttle_way;
   for (std::size_t k = 0; k < kInstants; ++k) {
@@ -135,6 +140,14 @@ void StoppingGuard::add_foe(std::uint32_t other) {
       foe.middle[k] = 0;
     }
   }
+  return foe;
+}
+
+bool StoppingGuard::clear_by_far(const OrientedBox& swept, std::uint32_t other) const {
+  const AgentGeometry &own = geometry_->agent[row_], &their = geometry_->agent[other];
+  if (!own.is_box || !their.is_box || !their.yields) return false;
+  const double room = model_->options.guard_margin + their.throttle_way;
+  return separation(swept, their.braking) >= room;
 }
 
 bool StoppingGuard::clear_at(const Foe& foe, std::size_t instant, const Pose& pose) const {
@@ -151,16 +164,19 @@ bool StoppingGuard::clear_at(const Foe& foe, std::size_t instant, const Pose& po
   return !own.is_box || reach_along(box_at(pose, own), foe.axis[instant]) <= foe.middle[instant];
 }
 
-bool StoppingGuard::admits(const Vec2& velocity) const {
-  if (foes_.empty()) return true;
+bool StoppingGuard::admits(const Vec2& velocity) {
+  if (near_.empty()) return true;
   const AgentGeometry& own = geometry_->agent[row_];
-  const AgentType& type = type_of(model_->types, own.type);
-  const BodyState next = advance_body(type, body_of(*scene_, row_), velocity, model_->options.step);
-  const double curvature = own.on_wheels ? std::tan(next.steering) / type.wheelbase : 0.0;
-  const Braking braking = braking_after(next, own, type, curvature);
-  for (const Foe& foe : foes_)
-    for (std::size_t k = 0; k < kInstants; ++k)
+  const Braking braking = braking_after(velocity);
+  const double way = 0.5 * braking.speed * braking.duration();
+  const OrientedBox swept = swept_box(own, braking.position, braking.forward, braking.direction,
+                                      way, braking.curvature, braking.axle);
+  for (const std::uint32_t other : near_) {
+    if (clear_by_far(swept, other)) continue;
+    const Foe& foe = foe_of(other);
+    for (std::size_t k = 0; !foe.overlaps && k < kInstants; ++k)
       if (!clear_at(foe, k, pose_after(braking, instant_of(foe.duration, k)))) return false;
+  }
   return true;
 }
 
@@ -181,14 +197,14 @@ std::array<double, 3> creeping_turns(const AgentGeometry& own, const AgentType& 
 
 }  // namespace
 
-Vec2 guarded_velocity(const StoppingGuard& guard, const Model& model, const TickGeometry& geometry,
+Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const TickGeometry& geometry,
                       std::size_t row, const Vec2& velocity, const Vec2& preferred,
                       std::span<const HalfPlane> hard) {
   const AgentGeometry& own = geometry.agent[row];
   const AgentType& type = type_of(model.types, own.type);
   const double asked = velocity.norm(), wish = preferred.norm();
-  if (model.options.creep_when_held && asked < 0.5 * kCreep && wish > kCreep &&
-      !guard.overlapping()) {
+  const bool held = model.options.creep_when_held && asked < 0.5 * kCreep && wish > kCreep;
+  if (held && !guard.overlapping()) {
     const Vec2 ahead = own.on_wheels ? own.forward : Vec2(preferred / wish);
     for (const double turn : creeping_turns(own, type, model.options.keep_left)) {
       const Vec2 creep = kCreep * from_body(rotation(turn), ahead);

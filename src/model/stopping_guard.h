@@ -31,21 +31,34 @@ class StoppingGuard {
     Vec2 position, forward;
   };
 
-  /// Takes in the neighbours of one row. `near`: rows that it could touch before both stand.
+  /// A body that holds its wheels and brakes.
+  struct Braking {
+    Vec2 position, forward;
+    Vec2 direction;           ///< of the motion, unit
+    double speed = 0;         ///< [m/s]
+    double deceleration = 1;  ///< [m/s^2]
+    double curvature = 0;     ///< of the rear axle's way [1/m]
+    double axle = 0;          ///< rear axle behind the position [m]
+
+    double duration() const { return speed / deceleration; }  ///< until it stands [s]
+  };
+
+  /// Begins with a row. `near`: rows that it could touch before both stand; must outlive the use of
+  /// this guard.
   void prepare(const Model& model, const Scene& scene, const TickGeometry& geometry,
                std::size_t row, std::span<const std::uint32_t> near);
 
   /// True where the body may be asked for `velocity` [m/s].
-  bool admits(const Vec2& velocity) const;
+  bool admits(const Vec2& velocity);
 
   /// True where the row overlaps somebody.
-  bool overlapping() const { return overlapping_; }
-  bool has_neighbours() const { return !foes_.empty(); }
+  bool overlapping() const;
 
  private:
   /// A neighbour as it brakes.
   struct Foe {
     std::uint32_t row;
+    bool overlaps;    ///< already: left to the push-out of G
     double duration;  ///< until both stand [s]
     double
         free_way;  ///< farther apart than this nothing that the foe does within a tick matters [m]
@@ -57,8 +70,10 @@ class StoppingGuard {
         middle;  ///< of the gap, along the axis from the row's position [m]
   };
 
-  void add_foe(std::uint32_t other);
-  bool clear_of(const Foe& foe, const Pose (&poses)[kInstants]) const;
+  Braking braking_after(const Vec2& velocity) const;
+  const Foe& foe_of(std::uint32_t other);
+  Foe look_closely(std::uint32_t other) const;
+  bool clear_by_far(const OrientedBox& swept, std::uint32_t other) const;
   bool clear_at(const Foe& foe, std::size_t instant, const Pose& pose) const;
   double gap_between(const Pose& own, const Pose& theirs, std::size_t other) const;
 
@@ -66,8 +81,8 @@ class StoppingGuard {
   const Scene* scene_ = nullptr;
   const TickGeometry* geometry_ = nullptr;
   std::size_t row_ = 0;
-  bool overlapping_ = false;
-  std::vector<Foe> foes_;
+  std::span<const std::uint32_t> near_;
+  std::vector<Foe> foes_;  ///< those that were looked at closely so far
 };
 
 /// v_new made safe: `velocity` if the guard admits it, or else the nearest of a few slower ones
@@ -75,7 +90,7 @@ class StoppingGuard {
 /// (asked to stand although it prefers to go) creeps round what is in its way instead, as long as
 /// the guard and the hard planes admit that: to the side that its wheels point to already, else to
 /// the passing side first.
-Vec2 guarded_velocity(const StoppingGuard& guard, const Model& model, const TickGeometry& geometry,
+Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const TickGeometry& geometry,
                       std::size_t row, const Vec2& velocity, const Vec2& preferred,
                       std::span<const HalfPlane> hard);
 

@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "geometry/rotation.h"
 
 namespace sumogamma {
 
 namespace {
 
 // what a driver needs before the brakes bite [s]
-constexpr double kReactionTime = 0.5;
+constexpr double kReactionTime = 0.25;
 
 double square(double x) { return x * x; }
 
@@ -52,11 +53,10 @@ AgentGeometry describe(const Model& model, const Scene& scene, std::size_t row) 
   AgentGeometry agent;
   agent.position = scene.position[row];
   agent.velocity = scene.velocity[row];
-  agent.forward = direction_of(scene.heading[row]);
+  agent.forward = rotation(scene.heading[row]);
   agent.on_wheels = type.kinematics != Kinematics::Holonomic;
-  agent.height = scene.height[row];
   agent.speed = agent.on_wheels ? scene.speed[row] : agent.velocity.norm();
-  agent.curvature = agent.on_wheels ? std::tan(scene.steering[row]) / type.wheelbase : 0.0;
+  agent.curvature = agent.on_wheels ? tangent(scene.steering[row]) / type.wheelbase : 0.0;
   agent.type = scene.type[row];
   agent.attention = scene.behavior[row].attention;
   fill_outline(model.options, scene.footprint[row], agent);
@@ -70,6 +70,12 @@ AgentGeometry describe(const Model& model, const Scene& scene, std::size_t row) 
   agent.throttle_way =
       step * faster + (square(faster) - square(agent.speed)) / (2.0 * type.max_deceleration);
   agent.next_reach = agent.radius + way + agent.throttle_way + model.options.guard_margin;
+  agent.far = std::max(agent.stopping + agent.radius, agent.next_reach);
+  const Vec2 direction =
+      agent.on_wheels ? agent.forward : Vec2(agent.velocity / std::max(agent.speed, 1e-9));
+  if (agent.is_box)
+    agent.braking = swept_box(agent, agent.position, agent.forward, direction, way, agent.curvature,
+                              type.rear_axle_to_center);
   return agent;
 }
 
@@ -84,14 +90,25 @@ void prepare_tick(const Model& model, const Scene& scene, Workers& workers,
     for (std::size_t row = begin; row < end; ++row)
       geometry.agent[row] = describe(model, scene, row);
   });
-  geometry.longest_stopping = 0;
-  geometry.largest_radius = 0;
-  geometry.largest_reach = 0;
-  for (const AgentGeometry& agent : geometry.agent) {
-    geometry.longest_stopping = std::max(geometry.longest_stopping, agent.stopping);
-    geometry.largest_radius = std::max(geometry.largest_radius, agent.radius);
-    geometry.largest_reach = std::max(geometry.largest_reach, agent.next_reach);
-  }
+  geometry.largest_far = 0;
+  for (const AgentGeometry& agent : geometry.agent)
+    geometry.largest_far = std::max(geometry.largest_far, agent.far);
+}
+
+OrientedBox swept_box(const AgentGeometry& agent, const Vec2& position, const Vec2& forward,
+                      const Vec2& direction, double way, double curvature, double axle) {
+  // the box of all poses on the way: forward by the way, aside by the arc and by what the turned
+  // ends swing out
+  const double turn = std::abs(curvature) * way;
+  const double along = way * direction.dot(forward), aside = way * cross(forward, direction);
+  const double arc = 0.5 * turn * way,
+               swing = turn * (agent.half.x() + std::abs(agent.shift) + axle);
+  const double bulge = arc + swing, lean = turn * agent.half.y();
+  OrientedBox box;
+  box.forward = forward;
+  box.half = agent.half + Vec2(0.5 * std::abs(along) + lean, 0.5 * std::abs(aside) + bulge);
+  box.center = position + (agent.shift + 0.5 * along) * forward + (0.5 * aside) * left_of(forward);
+  return box;
 }
 
 ConvexPolygon guarded_polygon(const Model& model, const Scene& scene, const TickGeometry& geometry,

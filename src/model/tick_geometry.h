@@ -24,15 +24,17 @@ struct AgentGeometry {
   double stopping = 0;       ///< way of reacting and braking comfortably [m]
   double next_reach =
       0;  ///< radius and the shortest way to a stop after one more tick at full throttle [m]
+  double far = 0;           ///< from farther than this it matters to nobody on its own account [m]
   double throttle_way = 0;  ///< what that tick adds to the way [m]
   double speed = 0;         ///< [m/s]
-  double height = 0;        ///< of the ground under it [m]
   double curvature = 0;     ///< of the rear axle's way, positive left [1/m]
   AttentionRange attention;
   AgentTypeId type{};
   bool is_box = true;
   bool on_wheels = true;
   bool yields = true;  ///< driven by the model: brakes where it must
+
+  OrientedBox braking;  ///< holds the bare outline until it stands if it brakes now (boxes only)
 
   OrientedBox box() const { return {position + shift * forward, forward, half}; }
   OrientedBox guarded_box() const {
@@ -44,8 +46,7 @@ struct AgentGeometry {
 struct TickGeometry {
   SpatialGrid grid;
   std::vector<AgentGeometry> agent;
-  double longest_stopping = 0;  ///< largest of these [m]
-  double largest_radius = 0, largest_reach = 0;
+  double largest_far = 0;  ///< largest of these [m]
 };
 
 /// Fills `geometry` for the scene. No allocation while the number of agents stays within what was
@@ -55,6 +56,12 @@ void prepare_tick(const Model& model, const Scene& scene, Workers& workers, Tick
 /// The row's outline about its position in world axes, with the margins that avoidance keeps.
 ConvexPolygon guarded_polygon(const Model& model, const Scene& scene, const TickGeometry& geometry,
                               std::size_t row);
+
+/// A box that holds the outline of a body at every point of a `way` [m] along `direction` (unit)
+/// that begins with `forward` and bends with `curvature` [1/m] about a rear axle `axle` [m] behind
+/// its position. Boxes only.
+OrientedBox swept_box(const AgentGeometry& agent, const Vec2& position, const Vec2& forward,
+                      const Vec2& direction, double way, double curvature, double axle);
 
 /// Depth of the overlap of two rows' bare outlines [m]; <= 0 where they are apart.
 double overlap_depth(const Scene& scene, const TickGeometry& geometry, std::size_t row,

@@ -53,18 +53,18 @@ double asked_lock(const AgentType& type, double speed, double forward, double la
 /// The wheels turn towards the asked angle within angle, rate and grip; returns the tangent of the
 /// new angle.
 double turn_wheels(const AgentType& type, const Vec2& asked, double dt, BodyState& next) {
-  double most = std::tan(std::min(type.max_steering, kMostSteering));
+  double most = tangent(std::min(type.max_steering, kMostSteering));
   const double grip = type.max_lateral_acceleration * type.wheelbase;
   if (next.speed * next.speed * most > grip) most = grip / (next.speed * next.speed);
   // a body that is told to stand keeps its wheels as they are
   double lock = asked.squaredNorm() > 1e-12
                     ? asked_lock(type, next.speed, asked.x(), asked.y(), most)
-                    : std::clamp(std::tan(next.steering), -most, most);
+                    : std::clamp(tangent(next.steering), -most, most);
   const double wanted = std::atan(lock);
   const double most_change = type.max_steering_rate * dt;
   const double steering =
       std::clamp(wanted, next.steering - most_change, next.steering + most_change);
-  if (steering != wanted) lock = std::tan(steering);
+  if (steering != wanted) lock = tangent(steering);
   next.steering = steering;
   return lock;
 }
@@ -72,7 +72,7 @@ double turn_wheels(const AgentType& type, const Vec2& asked, double dt, BodyStat
 BodyState advance_single_track(const AgentType& type, const BodyState& body, const Vec2& velocity,
                                double dt) {
   BodyState next = body;
-  const Vec2 forward = direction_of(body.heading);
+  const Vec2 forward = rotation(body.heading);
   const Vec2 asked = to_body(velocity, forward);
 
   const double target = std::clamp(asked.x(), 0.0, type.max_speed);

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <vector>
 
-#include "base/units.h"
+#include "geometry/rotation.h"
 #include "model/gamma_velocity.h"
 #include "model/tracking.h"
 #include "simulation/overlap.h"
@@ -49,13 +49,6 @@ double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Direction that the centre can take within one step at full lock, off the heading [rad].
-double reachable_angle(const AgentType& type, double speed, double dt) {
-  const double lock = std::tan(type.max_steering);
-  return std::atan(type.rear_axle_to_center * lock / type.wheelbase) +
-         speed * dt * lock / type.wheelbase;
-}
-
 /// Judges one request against what was asked of it.
 void count_request(const Model& model, const Scene& scene, std::size_t row, const Vec2& velocity,
                    const Workspace& work, double dt, Counts& counts) {
@@ -77,10 +70,14 @@ void count_request(const Model& model, const Scene& scene, std::size_t row, cons
   if (type.kinematics == Kinematics::Holonomic) return;
   ++counts.wheeled_steps;
   if (velocity.squaredNorm() < 1e-12) return;
-  const double angle = std::abs(wrap_angle(heading_of(velocity) - scene.heading[row]));
-  counts.reversals += angle > kPi / 2;
-  counts.outside_kinematics +=
-      outside || angle > reachable_angle(type, scene.speed[row], dt) + 1e-9;
+  const Vec2 forward = rotation(scene.heading[row]);
+  const double along = forward.dot(velocity), aside = std::abs(cross(forward, velocity));
+  counts.reversals += along < 0;
+  // the slip of the centre at full lock, and the turn within the step
+  const double lock = tangent(type.max_steering) / type.wheelbase;
+  const Vec2 widest =
+      from_body(rotation(scene.speed[row] * dt * lock), Vec2(1.0, type.rear_axle_to_center * lock));
+  counts.outside_kinematics += outside || cross(widest, Vec2(along, aside)) > kHardViolated;
 }
 
 void move_rows(const std::vector<BodyState>& commands, double dt, Scene& scene, Workers& workers) {
@@ -168,8 +165,11 @@ SceneReport run_scene(const SceneFile& file, const ModelOptions& options, std::s
   for (std::size_t step = 0; step <= steps; ++step) {
     const double cpu_begin = cpu_seconds(), wall_begin = wall_seconds();
     prepare_tick(model, scene, workers, geometry);
+    cpu += cpu_seconds() - cpu_begin;
+    wall += wall_seconds() - wall_begin;
     if (step > 0) overlaps.update(scene, geometry, workers);
     if (step == steps) break;
+    const double cpu_model = cpu_seconds(), wall_model = wall_seconds();
     workers.for_each_range(rows, [&](std::size_t worker, std::size_t begin, std::size_t end) {
       for (std::size_t row = begin; row < end; ++row) {
         Workspace& work = workspaces[worker];
@@ -179,8 +179,8 @@ SceneReport run_scene(const SceneFile& file, const ModelOptions& options, std::s
         count_request(model, scene, row, velocity, work, dt, counts[worker]);
       }
     });
-    cpu += cpu_seconds() - cpu_begin;
-    wall += wall_seconds() - wall_begin;
+    cpu += cpu_seconds() - cpu_model;
+    wall += wall_seconds() - wall_model;
     move_rows(commands, dt, scene, workers);
     standstill.update(scene, dt);
     report.state_hash = hash_state(scene, report.state_hash);
