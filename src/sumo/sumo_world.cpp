@@ -57,6 +57,34 @@ SumoWorld::SumoWorld(const Model& model, SumoBackend& backend, SumoWorldOptions 
     signal_order_.push_back(signal == model_.road.signal_by_name.end() ? kNoSignal
                                                                        : signal->second);
   }
+  read_detectors();
+}
+
+void SumoWorld::read_detectors() {
+  for (const SumoBackend::Detector& detector : backend_.detectors()) {
+    const auto lane = model_.road.lane_by_name.find(detector.lane);
+    if (lane == model_.road.lane_by_name.end()) continue;
+    detectors_[lane->second].push_back({detector_ages_.size(), detector.position, time_});
+    detector_ages_.emplace_back(detector.id, 0.0);
+  }
+}
+
+/// Actuated signals don't see ghosts: they are told when one of ours was last on each of their
+/// loops.
+void SumoWorld::feed_detectors(const Scene& scene) {
+  if (detectors_.empty()) return;
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    if (scene.control[row] != Control::Gamma || known_[scene.id[row].value].is_person) continue;
+    const auto lane = detectors_.find(scene.lane[row].lane);
+    if (lane == detectors_.end()) continue;
+    const double half = 0.5 * known_[scene.id[row].value].length;
+    for (LaneDetector& detector : lane->second)
+      if (std::abs(detector.position - scene.lane[row].along) <= half) detector.last_seen = time_;
+  }
+  for (const auto& [lane, list] : detectors_)
+    for (const LaneDetector& detector : list)
+      detector_ages_[detector.index].second = time_ - detector.last_seen;
+  backend_.override_detectors(detector_ages_);
 }
 
 bool SumoWorld::wants_control(const SumoAgentDetails& details, AgentTypeId type) const {
