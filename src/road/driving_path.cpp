@@ -96,12 +96,18 @@ class Builder {
     end_stretch();
   }
 
-  /// Moves over from one lane to its neighbour on the same edge while covering [from, to] of both.
-  void change(LaneId old_lane, LaneId new_lane, double from, double to) {
+  /// Moves over from one lane to its neighbour on the same edge while covering [from, to] of the
+  /// old one. Returns how many metres of the new lane lie beside one of the old: in a bend not one.
+  double change(LaneId old_lane, LaneId new_lane, double from, double to) {
     const Polyline& start = network_.lane(old_lane).centerline;
     const Polyline& end = network_.lane(new_lane).centerline;
     const double scale = start.length() > 0 ? end.length() / start.length() : 1.0;
     begin_stretch(new_lane, from * scale);
+    // the kerb is as near as seen from either lane
+    PathStretch& stretch = path_.stretches.back();
+    const PathStretch beside = stretch_on(old_lane);
+    stretch.room_left = std::min(stretch.room_left, beside.room_left);
+    stretch.room_right = std::min(stretch.room_right, beside.room_right);
     const int steps = std::max(4, static_cast<int>((to - from) / 3.0));
     for (int k = 0; k <= steps; ++k) {
       const double t = static_cast<double>(k) / steps;
@@ -111,6 +117,7 @@ class Builder {
                         blend * end.point_at(along * scale));
     }
     end_stretch();
+    return scale;
   }
 
   /// Crosses a junction by a connection; nullopt-like false where its internal lanes don't lead to
@@ -158,11 +165,18 @@ class Builder {
 
  private:
   void begin_stretch(LaneId id, double lane_from) {
+    PathStretch stretch = stretch_on(id);
+    stretch.from = length();
+    stretch.lane_from = lane_from;
+    path_.stretches.push_back(stretch);
+  }
+  void end_stretch() { path_.stretches.back().to = length(); }
+
+  /// What the lane says about a stretch on it.
+  PathStretch stretch_on(LaneId id) const {
     const Lane& lane = network_.lane(id);
     PathStretch stretch;
     stretch.lane = id;
-    stretch.from = length();
-    stretch.lane_from = lane_from;
     stretch.speed_limit = lane.speed_limit;
     // a junction has no kerb beside each of its lanes, and long bodies swing out
     const double swing = lane.kind == LaneKind::Internal ? 1.5 : 0.0;
@@ -173,9 +187,8 @@ class Builder {
     // lanes count from the kerb, so the inner side is the left one unless traffic keeps left
     stretch.room_left = network_.left_hand ? outer : inner;
     stretch.room_right = network_.left_hand ? inner : outer;
-    path_.stretches.push_back(stretch);
+    return stretch;
   }
-  void end_stretch() { path_.stretches.back().to = length(); }
 
   const RoadNetwork& network_;
   const PathRequest& request_;
@@ -195,15 +208,18 @@ LaneId cover_edge(const RoadNetwork& network, const Edge& edge, int entry, int e
   double along = from;
   if (changes > 0) {
     const double speed = network.lane(edge.lanes[static_cast<std::size_t>(entry)]).speed_limit;
-    const double each = std::min(std::clamp(3.5 * speed, 15.0, 60.0), 0.85 * room / changes);
+    double each = std::min(std::clamp(3.5 * speed, 15.0, 60.0), 0.85 * room / changes);
     const double lead_in = std::min(0.1 * room, 20.0);
     builder.follow(edge.lanes[static_cast<std::size_t>(index)], along, along + lead_in);
     along += lead_in;
     for (int k = 0; k < changes; ++k) {
       const int next = index + (exit > index ? 1 : -1);
-      builder.change(edge.lanes[static_cast<std::size_t>(index)],
-                     edge.lanes[static_cast<std::size_t>(next)], along, along + each);
-      along += each;
+      const double scale =
+          builder.change(edge.lanes[static_cast<std::size_t>(index)],
+                         edge.lanes[static_cast<std::size_t>(next)], along, along + each);
+      along = (along + each) * scale;
+      each *= scale;
+      to *= scale;
       index = next;
     }
   }

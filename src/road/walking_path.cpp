@@ -168,90 +168,122 @@ bool starts_at_end(const Polyline& line, const Vec2& here, const Vec2& next) {
          (points.front() - here).norm() + (points.back() - next).norm();
 }
 
-}  // namespace
+/// How to get from one sidewalk of a walk to the next.
+struct Passage {
+  double cost = std::numeric_limits<double>::infinity();  ///< whole way considered [m]
+  double leave = 0, enter = 0;  ///< along the sidewalk that is left and the one that is entered [m]
+  std::vector<LaneId> lanes;    ///< walking areas and crossings between them
+};
 
-std::optional<Path> build_walking_path(const RoadNetwork& network, const PathRequest& request,
-                                       std::string& why) {
+/// Shortest way from the place `enter` on sidewalk i on, as far as it is known: to the arrival, or
+/// to the junction with the sidewalk after it [m].
+double way_onwards(const RoadNetwork& network, const PathRequest& request,
+                   const std::vector<LaneId>& sidewalks, std::size_t i, double enter) {
+  const Lane& lane = network.lane(sidewalks[i]);
+  const double length = lane.centerline.length();
+  if (i + 1 == sidewalks.size())
+    return request.arrival_position >= 0.0
+               ? std::abs(enter - std::min(request.arrival_position, length))
+               : 0.0;
+  const Edge& edge = network.edge(lane.edge);
+  const Edge& after = network.edge(network.lane(sidewalks[i + 1]).edge);
+  double way = length;
+  if (edge.from == after.from || edge.from == after.to) way = std::min(way, enter);
+  if (edge.to == after.from || edge.to == after.to) way = std::min(way, length - enter);
+  return way;
+}
+
+/// The ends at which sidewalk i is left and the next one entered that together make the shortest
+/// way from `from` on. Infinite cost where there is none.
+Passage find_passage(const RoadNetwork& network, const PathRequest& request,
+                     const std::vector<LaneId>& sidewalks, std::size_t i, double from) {
+  const Polyline& line = network.lane(sidewalks[i]).centerline;
+  const Polyline& next_line = network.lane(sidewalks[i + 1]).centerline;
+  const Edge& edge = network.edge(network.lane(sidewalks[i]).edge);
+  const Edge& next_edge = network.edge(network.lane(sidewalks[i + 1]).edge);
+  Passage best;
+  for (const bool leave_at_end : {true, false})
+    for (const bool enter_at_start : {true, false}) {
+      const JunctionId junction = leave_at_end ? edge.to : edge.from;
+      if (junction != (enter_at_start ? next_edge.from : next_edge.to)) continue;
+      Passage passage;
+      passage.leave = leave_at_end ? line.length() : 0.0;
+      passage.enter = enter_at_start ? 0.0 : next_line.length();
+      passage.lanes =
+          find_junction_walk(network, sidewalks[i], sidewalks[i + 1], line.point_at(passage.leave),
+                             next_line.point_at(passage.enter), passage.cost);
+      // the search knows lanes, not ends: check that it stays on this junction
+      if (std::any_of(passage.lanes.begin(), passage.lanes.end(),
+                      [&](LaneId lane) { return network.lane(lane).junction != junction; }))
+        continue;
+      passage.cost += std::abs(passage.leave - from) +
+                      way_onwards(network, request, sidewalks, i + 1, passage.enter);
+      if (passage.cost < best.cost) best = std::move(passage);
+    }
+  return best;
+}
+
+/// The sidewalks of a walk in order; empty with `why` set where an edge has none.
+std::vector<LaneId> sidewalks_of(const RoadNetwork& network, std::span<const EdgeId> route,
+                                 std::string& why) {
   std::vector<LaneId> sidewalks;
-  for (const EdgeId edge : request.route) {
+  for (const EdgeId edge : route) {
     // SUMO lists crossings and walking areas of a walk too where it was routed intermodally; they
     // are found anew here
     if (network.edge(edge).kind != LaneKind::Normal) continue;
     const LaneId lane = walking_lane(network, edge);
     if (lane == kNoLane) {
       why = "edge '" + network.edge(edge).name + "' has no lane for pedestrians";
-      return std::nullopt;
+      return {};
     }
     if (sidewalks.empty() || sidewalks.back() != lane) sidewalks.push_back(lane);
   }
-  if (sidewalks.empty()) {
-    why = "the walk has no edges";
-    return std::nullopt;
-  }
+  if (sidewalks.empty()) why = "the walk has no edges";
+  return sidewalks;
+}
+
+}  // namespace
+
+std::optional<Path> build_walking_path(const RoadNetwork& network, const PathRequest& request,
+                                       std::string& why) {
+  const std::vector<LaneId> sidewalks = sidewalks_of(network, request.route, why);
+  if (sidewalks.empty()) return std::nullopt;
+  auto line_of = [&](std::size_t i) -> const Polyline& {
+    return network.lane(sidewalks[i]).centerline;
+  };
 
   Walk walk(network);
-  double from = request.start_along;
-  for (std::size_t i = 0; i < sidewalks.size(); ++i) {
-    const Polyline& line = network.lane(sidewalks[i]).centerline;
-    from = std::clamp(from, 0.0, line.length());
-    if (i + 1 == sidewalks.size()) {
-      const double to = request.arrival_position >= 0.0
-                            ? std::min(request.arrival_position, line.length())
-                        : from > 0.5 * line.length() ? 0.0
-                                                     : line.length();
-      walk.along_lane(sidewalks[i], from, to);
-      break;
-    }
-    // leave at the end, and enter the next sidewalk at the end, that together make the shortest way
-    const Polyline& next_line = network.lane(sidewalks[i + 1]).centerline;
-    double best_cost = std::numeric_limits<double>::infinity(), leave = 0.0, enter = 0.0;
-    std::vector<LaneId> best_lanes;
-    const Edge& edge = network.edge(network.lane(sidewalks[i]).edge);
-    const Edge& next_edge = network.edge(network.lane(sidewalks[i + 1]).edge);
-    for (const bool leave_at_end : {true, false})
-      for (const bool enter_at_start : {true, false}) {
-        if ((leave_at_end ? edge.to : edge.from) !=
-            (enter_at_start ? next_edge.from : next_edge.to))
-          continue;
-        const double out = leave_at_end ? line.length() : 0.0;
-        const double in = enter_at_start ? 0.0 : next_line.length();
-        double cost = 0.0;
-        auto lanes = find_junction_walk(network, sidewalks[i], sidewalks[i + 1], line.point_at(out),
-                                        next_line.point_at(in), cost);
-        // the search knows lanes, not ends: check that it stays on this junction
-        const JunctionId junction = leave_at_end ? edge.to : edge.from;
-        if (std::any_of(lanes.begin(), lanes.end(),
-                        [&](LaneId l) { return network.lane(l).junction != junction; }))
-          continue;
-        cost += std::abs(out - from);
-        if (cost < best_cost) {
-          best_cost = cost;
-          leave = out;
-          enter = in;
-          best_lanes = std::move(lanes);
-        }
-      }
-    if (best_cost == std::numeric_limits<double>::infinity()) {
-      why = "no way on foot from edge '" + edge.name + "' to edge '" + next_edge.name + "'";
+  double from = std::clamp(request.start_along, 0.0, line_of(0).length());
+  for (std::size_t i = 0; i + 1 < sidewalks.size(); ++i) {
+    const Passage passage = find_passage(network, request, sidewalks, i, from);
+    if (passage.cost == std::numeric_limits<double>::infinity()) {
+      why = "no way on foot from edge '" + network.edge(network.lane(sidewalks[i]).edge).name +
+            "' to edge '" + network.edge(network.lane(sidewalks[i + 1]).edge).name + "'";
       return std::nullopt;
     }
-    walk.along_lane(sidewalks[i], from, leave);
-    Vec2 here = line.point_at(leave);
-    for (std::size_t k = 0; k < best_lanes.size(); ++k) {
-      const Lane& lane = network.lane(best_lanes[k]);
+    walk.along_lane(sidewalks[i], from, passage.leave);
+    Vec2 here = line_of(i).point_at(passage.leave);
+    for (std::size_t k = 0; k < passage.lanes.size(); ++k) {
+      const Lane& lane = network.lane(passage.lanes[k]);
       if (lane.kind == LaneKind::WalkingArea) {
-        walk.over_area(best_lanes[k]);
+        walk.over_area(passage.lanes[k]);
         continue;
       }
-      const Vec2 target = k + 2 < best_lanes.size() ? middle_of(network.lane(best_lanes[k + 2]))
-                                                    : next_line.point_at(enter);
+      const Vec2 target = k + 2 < passage.lanes.size()
+                              ? middle_of(network.lane(passage.lanes[k + 2]))
+                              : line_of(i + 1).point_at(passage.enter);
       const bool backwards = starts_at_end(lane.centerline, here, target);
       const double length = lane.centerline.length();
-      walk.along_lane(best_lanes[k], backwards ? length : 0.0, backwards ? 0.0 : length);
+      walk.along_lane(passage.lanes[k], backwards ? length : 0.0, backwards ? 0.0 : length);
       here = lane.centerline.point_at(backwards ? 0.0 : length);
     }
-    from = enter;
+    from = passage.enter;
   }
+  const double length = line_of(sidewalks.size() - 1).length();
+  const double to = request.arrival_position >= 0.0 ? std::min(request.arrival_position, length)
+                    : from > 0.5 * length           ? 0.0
+                                                    : length;
+  walk.along_lane(sidewalks.back(), from, to);
   return walk.finish(request);
 }
 

@@ -1,0 +1,390 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "road/path.h"
+#include "road/path_profile.h"
+#include "support/plain_net.h"
+#include "support/small_net.h"
+
+namespace sumogamma {
+namespace {
+
+using testing::crossroads;
+using ::testing::HasSubstr;
+using testing::PlainNet;
+using testing::read_plain_net;
+using testing::route_of;
+
+const std::vector<std::string> kSidewalks = {"--sidewalks.guess", "--crossings.guess"};
+
+PathRequest request_of(const std::vector<EdgeId>& route,
+                       VehicleClassMask vehicle_class = vehicle_class::kPassenger) {
+  PathRequest request;
+  request.route = route;
+  request.vehicle_class = vehicle_class;
+  return request;
+}
+
+Path path_along(const RoadNetwork& network, const std::vector<std::string>& names,
+                const std::string& start_lane = "", double start_along = 0,
+                double turning_radius = 0) {
+  const std::vector<EdgeId> route = route_of(network, names);
+  PathRequest request = request_of(route);
+  if (!start_lane.empty()) request.start_lane = network.lane_by_name.at(start_lane);
+  request.start_along = start_along;
+  request.turning_radius = turning_radius;
+  std::string why;
+  std::optional<Path> path = build_driving_path(network, request, why);
+  if (!path) throw std::runtime_error("no path: " + why);
+  return *path;
+}
+
+/// What every path must obey, whatever it was made from.
+void expect_sound(const Path& path) {
+  ASSERT_FALSE(path.stretches.empty());
+  EXPECT_NEAR(path.stretches.front().from, 0.0, 1e-9);
+  EXPECT_NEAR(path.stretches.back().to, path.line.length(), 1e-6);
+  for (std::size_t i = 0; i + 1 < path.stretches.size(); ++i)
+    EXPECT_NEAR(path.stretches[i].to, path.stretches[i + 1].from, 1e-6) << "gap after " << i;
+  for (std::size_t i = 0; i + 1 < path.links.size(); ++i)
+    EXPECT_LE(path.links[i].end, path.links[i + 1].stop_line + 1e-9);
+  for (const PathLink& link : path.links) EXPECT_LE(link.stop_line, link.end);
+  for (const double speed : path.speed_profile) EXPECT_GT(speed, 0.0);
+  EXPECT_LE(path.arrival, path.line.length() + 1e-9);
+}
+
+/// Sharpest turn between two neighbouring pieces [rad]: a path that doubles back shows pi.
+double sharpest_turn(const Path& path) {
+  double sharpest = 0.0;
+  const auto& points = path.line.points();
+  for (std::size_t i = 2; i < points.size(); ++i)
+    sharpest = std::max(sharpest, std::abs(wrap_angle(heading_of(points[i] - points[i - 1]) -
+                                                      heading_of(points[i - 1] - points[i - 2]))));
+  return sharpest;
+}
+
+std::vector<std::string> lanes_of(const RoadNetwork& network, const Path& path) {
+  std::vector<std::string> names;
+  for (const PathStretch& stretch : path.stretches) {
+    const Lane& lane = network.lane(stretch.lane);
+    if (lane.kind != LaneKind::Normal) continue;
+    if (names.empty() || names.back() != lane.name) names.push_back(lane.name);
+  }
+  return names;
+}
+
+class Crossroads : public ::testing::Test {
+ protected:
+  static const RoadNetwork& right() {
+    static const RoadNetwork network = read_plain_net(crossroads("priority", kSidewalks));
+    return network;
+  }
+  static const RoadNetwork& left() {
+    static const RoadNetwork network = read_plain_net(
+        crossroads("priority", {"--sidewalks.guess", "--crossings.guess", "--lefthand"}));
+    return network;
+  }
+};
+
+TEST_F(Crossroads, StraightOnKeepsTheLane) {
+  const Path path = path_along(right(), {"WC", "CE"}, "WC_1");
+  expect_sound(path);
+  EXPECT_EQ(lanes_of(right(), path), (std::vector<std::string>{"WC_1", "CE_1"}));
+  ASSERT_EQ(path.links.size(), 1u);
+  const Lane& lane = right().lane(right().lane_by_name.at("WC_1"));
+  // the stop line is where the lane ends and the junction begins
+  EXPECT_NEAR(
+      (path.line.point_at(path.links[0].stop_line) - lane.centerline.points().back()).norm(), 0.0,
+      1e-6);
+  const Lane& target = right().lane(right().lane_by_name.at("CE_1"));
+  EXPECT_NEAR((path.line.point_at(path.links[0].end) - target.centerline.points().front()).norm(),
+              0.0, 1e-6);
+  EXPECT_EQ(right().connection(path.links[0].connection).direction, 's');
+}
+
+TEST_F(Crossroads, ATurnThatNeedsTheOtherLaneChangesBeforeTheStopLine) {
+  // lane 0 is the sidewalk; only the inner lane 2 leads to the left
+  const Path path = path_along(right(), {"WC", "CN"}, "WC_1");
+  expect_sound(path);
+  EXPECT_EQ(lanes_of(right(), path), (std::vector<std::string>{"WC_1", "WC_2", "CN_1"}));
+  ASSERT_EQ(path.links.size(), 1u);
+  const Lane& inner = right().lane(right().lane_by_name.at("WC_2"));
+  EXPECT_NEAR(
+      (path.line.point_at(path.links[0].stop_line) - inner.centerline.points().back()).norm(), 0.0,
+      1e-6);
+  // a change is a gentle S, not a jump aside
+  EXPECT_LT(sharpest_turn(path), radians(30));
+}
+
+TEST_F(Crossroads, TakesTheBestLaneWhereNoneIsGiven) {
+  EXPECT_EQ(lanes_of(right(), path_along(right(), {"WC", "CN"})),
+            (std::vector<std::string>{"WC_2", "CN_1"}));
+  EXPECT_EQ(lanes_of(right(), path_along(right(), {"WC", "CS"})),
+            (std::vector<std::string>{"WC_1", "CS_1"}));
+}
+
+TEST_F(Crossroads, StartsAndArrivesWhereAsked) {
+  const std::vector<EdgeId> route = route_of(right(), {"WC", "CE"});
+  PathRequest request = request_of(route);
+  request.start_lane = right().lane_by_name.at("WC_1");
+  request.start_along = 50;
+  request.arrival_position = 30;
+  std::string why;
+  const auto path = build_driving_path(right(), request, why);
+  ASSERT_TRUE(path) << why;
+  const Lane& first = right().lane(request.start_lane);
+  const Lane& last = right().lane(path->stretches.back().lane);
+  EXPECT_NEAR((path->line.point_at(0) - first.centerline.point_at(50)).norm(), 0.0, 1e-6);
+  EXPECT_NEAR((path->line.point_at(path->arrival) - last.centerline.point_at(30)).norm(), 0.0,
+              1e-6);
+}
+
+TEST_F(Crossroads, AnArrivalBehindTheStartIsReachedAtOnce) {
+  const std::vector<EdgeId> route = route_of(right(), {"WC"});
+  PathRequest request = request_of(route);
+  request.start_along = 80;
+  request.arrival_position = 30;
+  std::string why;
+  const auto path = build_driving_path(right(), request, why);
+  ASSERT_TRUE(path) << why;
+  EXPECT_NEAR(path->arrival, 0.0, 1e-9);
+  EXPECT_FALSE(path->speed_profile.empty());
+}
+
+TEST_F(Crossroads, AnImpossibleRouteSaysWhy) {
+  std::string why;
+  const std::vector<EdgeId> backwards = route_of(right(), {"WC", "WC"});
+  EXPECT_FALSE(build_driving_path(right(), request_of(backwards), why));
+  EXPECT_THAT(why, HasSubstr("WC"));
+  const std::vector<EdgeId> apart = route_of(right(), {"CE", "CN"});
+  EXPECT_FALSE(build_driving_path(right(), request_of(apart), why));
+  EXPECT_THAT(why, HasSubstr("CN"));
+  const std::vector<EdgeId> none;
+  EXPECT_FALSE(build_driving_path(right(), request_of(none), why));
+  EXPECT_THAT(why, HasSubstr("no edges"));
+  // the lanes are there, but not for trains
+  const std::vector<EdgeId> through = route_of(right(), {"WC", "CE"});
+  EXPECT_FALSE(build_driving_path(right(), request_of(through, vehicle_class::kPedestrian), why));
+}
+
+TEST_F(Crossroads, RoomEndsWhereTheClassMayNotGo) {
+  // right-hand: kerb to the right of lane 1, lane 2 to its left
+  const Path outer = path_along(right(), {"WC", "CE"}, "WC_1");
+  const double width = right().lane(right().lane_by_name.at("WC_1")).width;
+  EXPECT_NEAR(outer.stretches.front().room_right, 0.5 * width, 1e-9);
+  EXPECT_NEAR(outer.stretches.front().room_left, 1.5 * width, 1e-9);
+  const Path inner = path_along(right(), {"WC", "CE"}, "WC_2");
+  EXPECT_NEAR(inner.stretches.front().room_right, 1.5 * width, 1e-9);
+  EXPECT_NEAR(inner.stretches.front().room_left, 0.5 * width, 1e-9);
+}
+
+TEST_F(Crossroads, RoomIsMirroredWhereTrafficKeepsLeft) {
+  ASSERT_TRUE(left().left_hand);
+  const Path outer = path_along(left(), {"WC", "CE"}, "WC_1");
+  const double width = left().lane(left().lane_by_name.at("WC_1")).width;
+  EXPECT_NEAR(outer.stretches.front().room_left, 0.5 * width, 1e-9);
+  EXPECT_NEAR(outer.stretches.front().room_right, 1.5 * width, 1e-9);
+  // the lane beside lies on that side in fact
+  const Vec2 lane_1 = left().lane(left().lane_by_name.at("WC_1")).centerline.point_at(50);
+  const Vec2 lane_2 = left().lane(left().lane_by_name.at("WC_2")).centerline.point_at(50);
+  EXPECT_LT((lane_2 - lane_1).dot(left_of(outer.line.direction_at(50))), 0.0);
+}
+
+TEST_F(Crossroads, RoomDuringALaneChangeStaysOnTheRoad) {
+  for (const auto* network : {&right(), &left()}) {
+    const Path path = path_along(*network, {"WC", network->left_hand ? "CS" : "CN"}, "WC_1");
+    const Lane& outer = network->lane(network->lane_by_name.at("WC_1"));
+    const Lane& inner = network->lane(network->lane_by_name.at("WC_2"));
+    for (double along = 0; along < path.links.front().stop_line; along += 1.0) {
+      const PathStretch& stretch = path.stretch_at(along);
+      const Vec2 place = path.line.point_at(along);
+      const Vec2 left_side = left_of(Vec2(1, 0));
+      const Vec2 furthest_left = place + stretch.room_left * left_side;
+      const Vec2 furthest_right = place - stretch.room_right * left_side;
+      for (const Vec2& edge : {furthest_left, furthest_right}) {
+        const double beyond = std::min(outer.centerline.project(edge).distance - 0.5 * outer.width,
+                                       inner.centerline.project(edge).distance - 0.5 * inner.width);
+        EXPECT_LT(beyond, 0.15) << "at " << along << " m of a road with "
+                                << (network->left_hand ? "left" : "right") << "-hand traffic";
+      }
+    }
+  }
+}
+
+TEST_F(Crossroads, RoundingKeepsTheEndsAndTheOrder) {
+  const Path sharp = path_along(right(), {"WC", "CS"}, "WC_1");
+  const Path round = path_along(right(), {"WC", "CS"}, "WC_1", 0, 5.0);
+  expect_sound(round);
+  EXPECT_NEAR((round.line.points().front() - sharp.line.points().front()).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((round.line.points().back() - sharp.line.points().back()).norm(), 0.0, 1e-9);
+  EXPECT_LE(round.line.length(), sharp.line.length() + 1e-9);
+  EXPECT_LE(sharpest_turn(round), sharpest_turn(sharp) + 1e-9);
+  // the stop line is carried along
+  EXPECT_NEAR((round.line.point_at(round.links[0].stop_line) -
+               sharp.line.point_at(sharp.links[0].stop_line))
+                  .norm(),
+              0.0, 1.0);
+}
+
+TEST(RoundCorners, TurnsARightAngleAboutTheRadiusAskedFor) {
+  Path path;
+  path.line = Polyline({{0, 0}, {40, 0}, {40, 40}});
+  path.stretches.push_back({});
+  path.stretches.back().to = path.line.length();
+  path.stops.push_back({40.0, 1.0});
+  const double before = path.line.length();
+  round_corners(2.5, path);
+  EXPECT_EQ(path.line.points().front(), Vec2(0, 0));
+  EXPECT_EQ(path.line.points().back(), Vec2(40, 40));
+  EXPECT_LT(path.line.length(), before);
+  EXPECT_NEAR(path.stops.front().along, 0.5 * path.line.length(), 0.3);
+  // tightest circle through neighbouring places, over the length of a wheelbase
+  double radius = 1e9;
+  for (double s = 30; s < 50; s += 0.5) {
+    const double turn = std::abs(wrap_angle(heading_of(path.line.direction_at(s + 1.0)) -
+                                            heading_of(path.line.direction_at(s - 1.0))));
+    if (turn > 1e-6) radius = std::min(radius, 2.0 / turn);
+  }
+  EXPECT_GT(radius, 1.8);
+  EXPECT_LT(radius, 5.0);
+}
+
+TEST(RoundCorners, LeavesShortAndStraightLinesAlone) {
+  Path straight;
+  straight.line = Polyline({{0, 0}, {30, 0}});
+  round_corners(5.0, straight);
+  EXPECT_NEAR(straight.line.length(), 30.0, 1e-9);
+  Path tiny;
+  tiny.line = Polyline({{0, 0}, {1, 0}, {1, 0.5}});
+  round_corners(5.0, tiny);
+  EXPECT_EQ(tiny.line.points().size(), 3u);
+}
+
+TEST(AppendSpan, RunsBothWaysAndKeepsTheVertices) {
+  const Polyline line({{0, 0}, {10, 0}, {10, 10}});
+  std::vector<Vec2> forward, backward;
+  append_span(line, 5, 15, forward);
+  append_span(line, 15, 5, backward);
+  EXPECT_EQ(forward, (std::vector<Vec2>{{5, 0}, {10, 0}, {10, 5}}));
+  std::reverse(backward.begin(), backward.end());
+  EXPECT_EQ(forward, backward);
+}
+
+TEST_F(Crossroads, BrakesBeforeTheBendAtEase) {
+  const std::vector<EdgeId> route = route_of(right(), {"WC", "CS"});
+  PathRequest request = request_of(route);
+  request.turning_radius = 4.0;
+  std::string why;
+  const auto path = build_driving_path(right(), request, why);
+  ASSERT_TRUE(path) << why;
+  const double at_bend = path->profile_at(0.5 * (path->links[0].stop_line + path->links[0].end));
+  EXPECT_LT(at_bend, 7.5);
+  EXPECT_GT(at_bend, 2.5);
+  EXPECT_NEAR(path->profile_at(20), 13, 0.1);
+  for (std::size_t i = 0; i + 1 < path->speed_profile.size(); ++i) {
+    const double v = path->speed_profile[i], next = path->speed_profile[i + 1];
+    EXPECT_LE((v * v - next * next) / (2 * Path::kProfileStep),
+              request.comfortable_deceleration + 1e-9);
+  }
+}
+
+TEST(SpeedProfile, TakesAnArcAtTheComfortLimit) {
+  constexpr double kRadius = 20;
+  std::vector<Vec2> points = {{-150, 0}};
+  for (int degrees = 0; degrees <= 90; ++degrees)
+    points.push_back(
+        {kRadius * std::sin(radians(degrees)), kRadius - kRadius * std::cos(radians(degrees))});
+  points.push_back({kRadius, 200});
+  Path path;
+  path.line = Polyline(points);
+  path.stretches.push_back({});
+  path.stretches.back().to = path.line.length();
+  path.stretches.back().speed_limit = 25;
+  PathRequest request;
+  request.max_lateral_acceleration = 2.0;
+  compute_speed_profile(request, path);
+  const double middle = 150 + 0.5 * kRadius * 0.5 * kPi;
+  EXPECT_NEAR(path.profile_at(middle), std::sqrt(2.0 * kRadius), 0.1);
+  EXPECT_NEAR(path.profile_at(0), 25, 1e-9);
+  // speed is taken up again behind it: the profile only brakes ahead
+  EXPECT_NEAR(path.profile_at(path.line.length()), 25, 1e-9);
+}
+
+TEST_F(Crossroads, TheProfileKnowsLimitsFactorsAndTopSpeed) {
+  const std::vector<EdgeId> route = route_of(right(), {"WC", "CE"});
+  PathRequest request = request_of(route);
+  std::string why;
+  request.speed_factor = 1.2;
+  EXPECT_NEAR(build_driving_path(right(), request, why)->profile_at(50), 1.2 * 13, 0.05);
+  request.max_speed = 6;
+  EXPECT_NEAR(build_driving_path(right(), request, why)->profile_at(50), 6, 1e-9);
+}
+
+TEST(DrivingPath, ALaneChangeInABendNeverDoublesBack) {
+  // a quarter circle of radius 40: its outer lane is some 5 m longer than the inner one
+  std::string shape;
+  for (int degrees = 0; degrees <= 90; degrees += 5) {
+    char point[64];
+    std::snprintf(point, sizeof point, "%.3f,%.3f ", 40 * std::sin(radians(degrees)),
+                  40 - 40 * std::cos(radians(degrees)));
+    shape += point;
+  }
+  PlainNet plain;
+  plain.nodes = R"(<node id="A" x="0" y="0"/><node id="B" x="40" y="40"/>
+                   <node id="L" x="40" y="140"/><node id="R" x="140" y="40"/>)";
+  plain.edges = R"(<edge id="bend" from="A" to="B" numLanes="2" speed="13.9" shape=")" + shape +
+                R"("/><edge id="on" from="B" to="L" numLanes="1" speed="13.9"/>)";
+  for (const char* option : {"", "--lefthand"}) {
+    for (const int target_from : {0, 1}) {
+      PlainNet net = plain;
+      net.connections = "<connection from=\"bend\" to=\"on\" fromLane=\"" +
+                        std::to_string(target_from) + "\" toLane=\"0\"/>";
+      if (*option) net.options = {option};
+      const RoadNetwork network = read_plain_net(net);
+      const std::string start = "bend_" + std::to_string(1 - target_from);
+      const Path path = path_along(network, {"bend", "on"}, start);
+      expect_sound(path);
+      EXPECT_LT(sharpest_turn(path), radians(60)) << start << " " << option;
+      // and reaches the very end of the lane that it changed to
+      const Lane& lane =
+          network.lane(network.lane_by_name.at("bend_" + std::to_string(target_from)));
+      EXPECT_NEAR(
+          (path.line.point_at(path.links.front().stop_line) - lane.centerline.points().back())
+              .norm(),
+          0.0, 1e-6)
+          << start << " " << option;
+    }
+  }
+}
+
+TEST(DrivingPath, ManyChangesOnAShortEdgeStillEndOnTheRightLane) {
+  PlainNet plain;
+  plain.nodes = R"(<node id="A" x="0" y="0"/><node id="B" x="40" y="0"/>
+                   <node id="D" x="140" y="0"/>)";
+  plain.edges = R"(<edge id="wide" from="A" to="B" numLanes="4" speed="13.9"/>
+                   <edge id="on" from="B" to="D" numLanes="1" speed="13.9"/>)";
+  plain.connections = R"(<connection from="wide" to="on" fromLane="3" toLane="0"/>)";
+  const RoadNetwork network = read_plain_net(plain);
+  const Path path = path_along(network, {"wide", "on"}, "wide_0");
+  expect_sound(path);
+  EXPECT_EQ(lanes_of(network, path),
+            (std::vector<std::string>{"wide_0", "wide_1", "wide_2", "wide_3", "on_0"}));
+}
+
+TEST(DrivingPath, FollowsInternalLanesOfSmallNet) {
+  const RoadNetwork network = testing::small_net();
+  const Path path = path_along(network, {"in", "out"});
+  expect_sound(path);
+  ASSERT_EQ(path.links.size(), 1u);
+  EXPECT_NEAR(path.links[0].stop_line, 95, 1e-9);
+  EXPECT_NEAR(path.links[0].end, 105, 1e-9);
+  EXPECT_EQ(network.lane(path.stretch_at(100).lane).name, ":C_0_0");
+  EXPECT_NEAR(path.line.length(), 200, 1e-9);
+}
+
+}  // namespace
+}  // namespace sumogamma

@@ -1,0 +1,182 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/units.h"
+#include "road/path.h"
+#include "support/plain_net.h"
+
+namespace sumogamma {
+namespace {
+
+using testing::crossroads;
+using ::testing::HasSubstr;
+using testing::read_plain_net;
+using testing::route_of;
+
+class WalkingPath : public ::testing::TestWithParam<bool> {
+ protected:
+  const RoadNetwork& network() const {
+    static const RoadNetwork right =
+        read_plain_net(crossroads("traffic_light", {"--sidewalks.guess", "--crossings.guess"}));
+    static const RoadNetwork left = read_plain_net(
+        crossroads("traffic_light", {"--sidewalks.guess", "--crossings.guess", "--lefthand"}));
+    return GetParam() ? left : right;
+  }
+  std::optional<Path> walk(const std::vector<std::string>& names, std::string& why,
+                           double start = 0, double arrival = -1) const {
+    const std::vector<EdgeId> route = route_of(network(), names);
+    PathRequest request;
+    request.route = route;
+    request.vehicle_class = vehicle_class::kPedestrian;
+    request.start_along = start;
+    request.arrival_position = arrival;
+    request.max_speed = 3;
+    return build_walking_path(network(), request, why);
+  }
+  const Lane& lane_at(const Path& path, double along) const {
+    return network().lane(path.stretch_at(along).lane);
+  }
+};
+
+TEST_P(WalkingPath, StaysOnTheSidewalkOfOneEdge) {
+  std::string why;
+  const auto path = walk({"WC"}, why, 20, 120);
+  ASSERT_TRUE(path) << why;
+  EXPECT_TRUE(path->walking);
+  EXPECT_NEAR(path->line.length(), 100, 1e-6);
+  EXPECT_EQ(lane_at(*path, 50).name, "WC_0");
+  EXPECT_FALSE(path->stretches.front().reversed);
+  EXPECT_NEAR(path->stretches.front().room_left, 0.5 * lane_at(*path, 50).width, 1e-9);
+  EXPECT_TRUE(path->links.empty());
+}
+
+TEST_P(WalkingPath, WalksBackwardsToAnArrivalBehindTheStart) {
+  std::string why;
+  const auto path = walk({"WC"}, why, 120, 20);
+  ASSERT_TRUE(path) << why;
+  EXPECT_NEAR(path->line.length(), 100, 1e-6);
+  EXPECT_TRUE(path->stretches.front().reversed);
+  EXPECT_NEAR(path->line.direction_at(10).x(), -1.0, 1e-9);
+}
+
+/// Crossings on a path in order, each checked: entered at its stop line, walked from end to end.
+int count_crossings(const RoadNetwork& network, const Path& path, int& reversed) {
+  reversed = 0;
+  for (const PathLink& link : path.links) {
+    const PathStretch& stretch = path.stretch_at(0.5 * (link.stop_line + link.end));
+    const Lane& lane = network.lane(stretch.lane);
+    EXPECT_EQ(lane.kind, LaneKind::Crossing);
+    EXPECT_NEAR(link.stop_line, stretch.from, 1e-6);
+    EXPECT_NEAR(link.end, stretch.to, 1e-6);
+    EXPECT_NEAR(stretch.to - stretch.from, lane.centerline.length(), 1e-6);
+    const Vec2 entry = path.line.point_at(link.stop_line);
+    const Vec2 end =
+        stretch.reversed ? lane.centerline.points().back() : lane.centerline.points().front();
+    EXPECT_NEAR((entry - end).norm(), 0.0, 1e-6);
+    EXPECT_GE(network.connection(link.connection).junction_link, 0);
+    EXPECT_NE(network.connection(link.connection).signal, kNoSignal);
+    reversed += stretch.reversed;
+  }
+  return static_cast<int>(path.links.size());
+}
+
+TEST_P(WalkingPath, CrossesInBothDirections) {
+  // round the junction, each arm's sidewalk to the one across its road and back
+  const std::vector<std::pair<std::string, std::string>> across = {
+      {"WC", "CW"}, {"EC", "CE"}, {"NC", "CN"}, {"SC", "CS"}};
+  int all_reversed = 0, all_forward = 0;
+  for (const auto& [from, to] : across)
+    for (const bool back : {false, true}) {
+      std::string why;
+      const auto path = back ? walk({to, from}, why, 5, 190) : walk({from, to}, why, 100, 5);
+      ASSERT_TRUE(path) << from << (back ? " back: " : " on: ") << why;
+      int reversed = 0;
+      const int crossings = count_crossings(network(), *path, reversed);
+      EXPECT_EQ(crossings, 1) << from << " " << back;
+      all_reversed += reversed;
+      all_forward += crossings - reversed;
+    }
+  // of the two directions of one crossing exactly one goes against its lane
+  EXPECT_EQ(all_reversed, 4);
+  EXPECT_EQ(all_forward, 4);
+}
+
+TEST_P(WalkingPath, HasNoGapAndNoDetour) {
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {"WC", "CE"}, {"WC", "CN"}, {"WC", "CS"}, {"SC", "CN"}, {"EC", "CS"}}) {
+    std::string why;
+    const auto path = walk({from, to}, why, 150, 50);
+    ASSERT_TRUE(path) << from << to << why;
+    EXPECT_NEAR(path->stretches.front().from, 0.0, 1e-9);
+    for (std::size_t i = 0; i + 1 < path->stretches.size(); ++i)
+      EXPECT_NEAR(path->stretches[i].to, path->stretches[i + 1].from, 1e-6);
+    EXPECT_NEAR(path->stretches.back().to, path->line.length(), 1e-9);
+    // 40-odd metres to the junction, the junction (two crossings at most), 50-odd metres from it
+    EXPECT_LT(path->line.length(), 170) << from << to;
+    EXPECT_LE(path->links.size(), 2u);
+  }
+}
+
+TEST_P(WalkingPath, AreasAreOpenGround) {
+  std::string why;
+  const auto path = walk({"WC", "CE"}, why, 100, 50);
+  ASSERT_TRUE(path) << why;
+  bool seen = false;
+  for (const PathStretch& stretch : path->stretches) {
+    if (network().lane(stretch.lane).kind != LaneKind::WalkingArea) continue;
+    seen = true;
+    EXPECT_TRUE(std::isinf(stretch.room_left));
+    EXPECT_TRUE(std::isinf(stretch.room_right));
+  }
+  EXPECT_TRUE(seen);
+}
+
+TEST_P(WalkingPath, EdgesOfTheJunctionInAWalkAreFoundAnew) {
+  std::string why;
+  const auto plain = walk({"WC", "CE"}, why, 100, 50);
+  std::vector<std::string> names = {"WC"};
+  for (const Edge& edge : network().edges)
+    if (edge.kind == LaneKind::WalkingArea && edge.name.find(":C") == 0) names.push_back(edge.name);
+  names.push_back("CE");
+  const auto with_areas = walk(names, why, 100, 50);
+  ASSERT_TRUE(plain && with_areas) << why;
+  EXPECT_EQ(plain->line.points(), with_areas->line.points());
+}
+
+TEST_P(WalkingPath, TakesTheNearerEndForWhereItArrives) {
+  // from the middle of one side to the junction end of the other: over the crossing at C, not round
+  // by the far end
+  std::string why;
+  const auto path = walk({"WC", "CW"}, why, 100, 5);
+  ASSERT_TRUE(path) << why;
+  EXPECT_LT(path->line.length(), 130);
+}
+
+TEST_P(WalkingPath, AnEmptyWalkSaysWhy) {
+  std::string why;
+  EXPECT_FALSE(walk({}, why));
+  EXPECT_THAT(why, HasSubstr("no edges"));
+}
+
+TEST(WalkingPathWithoutSidewalk, SaysWhichEdge) {
+  const RoadNetwork network = read_plain_net(crossroads("priority"));
+  std::string why;
+  PathRequest request;
+  const std::vector<EdgeId> route = route_of(network, {"CE", "CN"});
+  request.route = route;
+  // pedestrians may use the lanes, but nothing connects the edges on foot
+  EXPECT_FALSE(build_walking_path(network, request, why));
+  EXPECT_THAT(why, HasSubstr("no way on foot from edge 'CE' to edge 'CN'"));
+  RoadNetwork cars_only = network;
+  for (Lane& lane : cars_only.lanes) lane.allowed = vehicle_class::kPassenger;
+  EXPECT_FALSE(build_walking_path(cars_only, request, why));
+  EXPECT_THAT(why, HasSubstr("edge 'CE' has no lane for pedestrians"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Hands, WalkingPath, ::testing::Bool(),
+                         [](const auto& row) { return row.param ? "Left" : "Right"; });
+
+}  // namespace
+}  // namespace sumogamma
