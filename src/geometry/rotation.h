@@ -6,7 +6,7 @@
 
 namespace sumogamma {
 
-/// (cos, sin) of an angle [rad], to 2e-15 for |angle| <= 7, by the C library beyond. A quarter of
+/// (cos, sin) of an angle [rad], to 1e-15 for |angle| <= 7, by the C library beyond. A quarter of
 /// the C library's price, and the same bits with each of them.
 inline Vec2 rotation(double angle) {
   if (!(std::abs(angle) <= 7.0)) return {std::cos(angle), std::sin(angle)};
@@ -25,10 +25,12 @@ inline Vec2 rotation(double angle) {
                           x * (1.0 / 3628800 - x * (1.0 / 479001600 - x * (1.0 / 87178291200)))))));
   const double s =
       rest *
-      (1.0 - x * (1.0 / 6 -
-                  x * (1.0 / 120 -
-                       x * (1.0 / 5040 -
-                            x * (1.0 / 362880 - x * (1.0 / 39916800 - x * (1.0 / 6227020800)))))));
+      (1.0 -
+       x * (1.0 / 6 -
+            x * (1.0 / 120 -
+                 x * (1.0 / 5040 - x * (1.0 / 362880 -
+                                        x * (1.0 / 39916800 - x * (1.0 / 6227020800 -
+                                                                   x * (1.0 / 1307674368000))))))));
   switch (quarter & 3) {
     case 0:
       return {c, s};
