@@ -72,7 +72,7 @@ case "$mode" in
     test_stage dev '.'
     test_stage asan '^(unit|property|golden)$' tests_unit tests_property tests_golden
     # the other compiler must give the same bits
-    test_stage clang '^(golden|fuzz)$'
+    test_stage clang '^(unit|property|golden|fuzz)$'
     # g++ 12's thread sanitizer cannot place its memory where the kernel randomises addresses a lot
     setarch "$(uname -m)" -R true 2> /dev/null && runner=(setarch "$(uname -m)" -R)
     test_stage tsan '^(unit|property)$' tests_unit tests_property
