@@ -53,6 +53,9 @@ void find_neighbours(const TickGeometry& geometry, std::size_t row, const Attent
         if (gap > 0 && gap * distance > horizon * (approach + kSideStep * distance)) return;
         neighbours.attended.push_back({other_row, distance});
       });
+  // in order of id, so that nothing depends on where the grid's cells happen to lie
+  std::sort(neighbours.attended.begin(), neighbours.attended.end(),
+            [](const Attended& a, const Attended& b) { return a.row < b.row; });
 }
 
 }  // namespace sumogamma

@@ -20,7 +20,7 @@ bool attends(const AgentGeometry& agent, const AgentGeometry& other, const Atten
 
 /// Who matters to one row.
 struct Neighbours {
-  std::vector<Attended> attended;  ///< Att, in the grid's order (by cell, then by row)
+  std::vector<Attended> attended;  ///< Att, in order of id
   std::vector<std::uint32_t>
       near;  ///< rows that it could touch before both stand: the stopping guard's concern
 };
