@@ -183,7 +183,9 @@ class Document {
             });
         fail(value, "unknown key '" + full + "', the nearest known one is '" + nearest->key + "'");
       }
-      std::visit([&](const auto& target) { assign(value, *found, target); }, found->target);
+      // clang 14 can't capture a structured binding
+      const toml::node& node = value;
+      std::visit([&](const auto& target) { assign(node, *found, target); }, found->target);
     }
   }
 

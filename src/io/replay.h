@@ -50,8 +50,8 @@ class ReplayRecorder {
  private:
   struct Agent {
     AgentId id;
-    std::int64_t x, y, heading;   ///< as last written
-    std::int64_t step_x, step_y;  ///< last differences
+    std::int64_t x = 0, y = 0, heading = 0;  ///< as last written
+    std::int64_t step_x = 0, step_y = 0;     ///< last differences
   };
   void append_changes(const Scene& scene, const AgentName& name_of);
   void append_poses(const Scene& scene);

@@ -133,7 +133,7 @@ std::string html_row(std::span<const RunColumn> runs, const std::string& key,
     else if (value->is_number && compared)
       row += number_cell(*value, largest, value == first ? nullptr : first);
     else
-      row += "<td class=\"text\" colspan=\"2\">" + escape_html(value->text) + "</td>";
+      row += R"(<td class="text" colspan="2">)" + escape_html(value->text) + "</td>";
   }
   return row + "</tr>\n";
 }
@@ -156,7 +156,8 @@ std::vector<RunColumn> read_runs(std::span<const std::filesystem::path> folders)
     const std::filesystem::path whole =
         std::filesystem::absolute(file).lexically_normal().parent_path();
     run.name = whole.filename().string();
-    if (used.count(run.name)) run.name = whole.parent_path().filename().string() + "/" + run.name;
+    if (used.contains(run.name))
+      run.name = whole.parent_path().filename().string() + "/" + run.name;
     for (int copy = 2; !used.insert(run.name).second; ++copy)
       run.name = whole.filename().string() + " (" + std::to_string(copy) + ")";
     flatten(json, "", run.values);

@@ -352,8 +352,9 @@ class NetBuilder {
 
   static std::vector<bool> parse_bits(std::string_view text) {
     // SUMO writes the bit of link 0 last
-    std::vector<bool> bits;
-    for (auto bit = text.rbegin(); bit != text.rend(); ++bit) bits.push_back(*bit == '1');
+    std::vector<bool> bits(text.size());
+    for (std::size_t link = 0; link < bits.size(); ++link)
+      bits[link] = text[text.size() - 1 - link] == '1';
     return bits;
   }
 

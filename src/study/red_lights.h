@@ -25,7 +25,7 @@ class RedLights {
   bool ahead(LaneId lane);
 
  private:
-  bool search(LaneId lane, double room, int depth) const;
+  bool search(LaneId id, double room, int depth) const;
 
   const RoadNetwork& network_;
   RoadState shown_;
