@@ -1,0 +1,119 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+#include "base/error.h"
+#include "prediction/methods.h"
+#include "prediction/report.h"
+
+namespace sumogamma {
+
+namespace {
+
+struct PredictOptions {
+  std::vector<std::string> files;
+  std::string protocol = "C";
+  std::vector<std::string> methods;
+  std::size_t samples = 0;
+  double noise = 0;
+  bool ablations = false;
+  std::string json, plots;
+  bool list_parameters = false;
+};
+
+PredictorParameters parameters_from(const CommonOptions& common) {
+  PredictorParameters parameters = default_predictor_parameters();
+  constexpr std::string_view kPrefix = "predict.";
+  for (const std::string& assignment : common.set) {
+    if (!assignment.starts_with(kPrefix))
+      throw Error("--set " + assignment, "predict knows keys that begin with predict.");
+    set_parameter(parameters, std::string_view(assignment).substr(kPrefix.size()));
+  }
+  return parameters;
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  if (!file.flush()) throw Error(path, "cannot be written");
+}
+
+int run(const PredictOptions& options, const CommonOptions& common) {
+  PredictorParameters parameters = parameters_from(common);
+  if (options.list_parameters) {
+    for (const NamedParameter& parameter : named_parameters(parameters))
+      std::printf("predict.%s=%.10g\n", parameter.name.c_str(), *parameter.value);
+    return kExitDone;
+  }
+  if (options.files.empty())
+    throw Error("predict", "no recording given, expected one or more files");
+  const Protocol protocol = protocol_from_letter(options.protocol);
+  const MethodSettings settings{parameters, options.samples, common.seed};
+  const std::vector<std::string> names =
+      options.methods.empty() ? default_methods(options.ablations) : options.methods;
+  std::vector<Evaluation> evaluations;
+  for (const std::string& file : options.files) {
+    const TrackSet truth = read_track_set(file);
+    const TrackSet seen = options.noise > 0 ? with_noise(truth, options.noise, common.seed) : truth;
+    for (const std::string& name : names) {
+      if (interrupted()) return kExitInterrupted;
+      if (!common.quiet) std::fprintf(stderr, "%s: %s\n", truth.name.c_str(), name.c_str());
+      evaluations.push_back(
+          evaluate(make_method(name, settings, truth.period), seen, truth, protocol));
+    }
+  }
+  std::printf("%s", to_table(evaluations, protocol, common.seed).c_str());
+  if (options.json.empty()) return kExitDone;
+  nlohmann::ordered_json json = {{"protocol", std::string(1, protocol.letter)},
+                                 {"seed", common.seed},
+                                 {"samples", options.samples},
+                                 {"added_noise_m", options.noise}};
+  for (const NamedParameter& parameter : named_parameters(parameters))
+    json["parameters"][parameter.name] = *parameter.value;
+  json["evaluations"] = nlohmann::ordered_json::array();
+  for (const Evaluation& evaluation : evaluations)
+    json["evaluations"].push_back(to_json(evaluation, common.seed));
+  write_text(options.json, json.dump(2) + "\n");
+  return kExitDone;
+}
+
+}  // namespace
+
+CommandRunner add_predict_command(CLI::App& parent) {
+  CLI::App* command =
+      parent.add_subcommand("predict", "the prediction benchmark on recorded trajectories");
+  auto options = std::make_shared<PredictOptions>();
+  command->add_option("FILES", options->files,
+                      "recordings: CSV or the common text format (frame id x y)");
+  command
+      ->add_option(
+          "--protocol", options->protocol,
+          "A (the paper's script), B (same windows, 12 true steps) or C (8 seen, 12 predicted)")
+      ->capture_default_str();
+  command
+      ->add_option("--method", options->methods,
+                   "predictors to run; default: gamma and all baselines")
+      ->delimiter(',');
+  command->add_flag("--ablations", options->ablations,
+                    "gamma with one part left out at a time, and the bound over its hypotheses");
+  command
+      ->add_option("--samples", options->samples,
+                   "samples a prediction, for best-of-N, likelihood and calibration; 0: none")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
+  command
+      ->add_option("--noise", options->noise,
+                   "disturb what is observed by normal noise of this deviation [m]")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command->add_option("--json", options->json, "write all figures to this file");
+  command->add_flag("--parameters", options->list_parameters, "print the parameters and end");
+  return [options](const CommonOptions& common) { return run(*options, common); };
+}
+
+}  // namespace sumogamma

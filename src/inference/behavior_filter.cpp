@@ -1,0 +1,89 @@
+#include "inference/behavior_filter.h"
+
+namespace sumogamma {
+
+Belief initial_belief(const FilterParameters& parameters) {
+  return {Histogram<kIntentions>::from(parameters.intention_prior),
+          Histogram<kAttentions>::from(parameters.attention_prior),
+          Histogram<kResponsibilities>::from(parameters.responsibility_prior)};
+}
+
+BehaviorState likeliest_behavior(const AgentType& type, const Belief& belief) {
+  BehaviorState behavior;
+  behavior.intention.kind = IntentionKind::Goal;
+  behavior.attention = attention_of(type, belief.attention.most_likely());
+  behavior.responsibility = responsibility_of(belief.responsibility.most_likely());
+  return behavior;
+}
+
+void set_wanted_velocity(Scene& scene, std::size_t row, const Vec2& velocity) {
+  // far enough that the goal's own braking never begins
+  constexpr double kFar = 60.0;  // [s]
+  scene.behavior[row].intention.kind = IntentionKind::Goal;
+  scene.behavior[row].intention.goal = scene.position[row] + kFar * velocity;
+  scene.preferred_speed[row] = velocity.norm();
+}
+
+Expectation expect_next(const Model& model, Scene& scene, const TickGeometry& geometry,
+                        std::size_t row, const Belief& belief,
+                        const std::array<Vec2, kIntentions>& wanted, const Vec2& position,
+                        double period, Workspace& work) {
+  const AgentType& type = type_of(model.types, scene.type[row]);
+  const std::size_t likeliest = belief.intention.most_likely();
+  Expectation expectation;
+  expectation.valid = true;
+  auto pass = [&](std::size_t intention, std::size_t attention, std::size_t responsibility) {
+    set_wanted_velocity(scene, row, wanted[intention]);
+    BehaviorState behavior = scene.behavior[row];
+    behavior.attention = attention_of(type, attention);
+    behavior.responsibility = responsibility_of(responsibility);
+    const Vec2 velocity = gamma_velocity(model, scene, geometry, row, behavior, work);
+    return Vec2(position + period * velocity);
+  };
+  const std::size_t attention = belief.attention.most_likely();
+  const std::size_t responsibility = belief.responsibility.most_likely();
+  bool neighbour_binds = false;
+  for (std::size_t k = 0; k < kIntentions; ++k) {
+    // what the prior rules out needs no pass
+    if (belief.intention.log_weight[k] <= -1e299) {
+      expectation.by_intention[k] = position;
+      continue;
+    }
+    expectation.by_intention[k] = pass(k, attention, responsibility);
+    if (k == likeliest && work.binding_source() != nullptr)
+      neighbour_binds = work.binding_source()->kind == ConstraintKind::Neighbour;
+  }
+  expectation.by_attention.fill(expectation.by_intention[likeliest]);
+  expectation.by_responsibility.fill(expectation.by_intention[likeliest]);
+  if (!neighbour_binds) return expectation;
+  for (std::size_t k = 0; k < kAttentions; ++k)
+    if (k != attention) expectation.by_attention[k] = pass(likeliest, k, responsibility);
+  for (std::size_t k = 0; k < kResponsibilities; ++k)
+    if (k != responsibility) expectation.by_responsibility[k] = pass(likeliest, attention, k);
+  return expectation;
+}
+
+namespace {
+template <std::size_t N>
+std::array<double, N> log_likelihoods(const std::array<Vec2, N>& expected, const Vec2& seen,
+                                      double deviation) {
+  std::array<double, N> result{};
+  for (std::size_t k = 0; k < N; ++k)
+    result[k] = log_likelihood((seen - expected[k]).norm(), deviation);
+  return result;
+}
+}  // namespace
+
+void update_belief(const FilterParameters& parameters, const Expectation& expectation,
+                   const Vec2& seen, double noise, Belief& belief) {
+  belief.intention.forget(parameters.change_of_mind, parameters.intention_prior);
+  belief.attention.forget(parameters.change_of_mind, parameters.attention_prior);
+  belief.responsibility.forget(parameters.change_of_mind, parameters.responsibility_prior);
+  if (!expectation.valid) return;
+  const double deviation = std::hypot(parameters.deviation, noise);
+  belief.intention.update(log_likelihoods(expectation.by_intention, seen, deviation));
+  belief.attention.update(log_likelihoods(expectation.by_attention, seen, deviation));
+  belief.responsibility.update(log_likelihoods(expectation.by_responsibility, seen, deviation));
+}
+
+}  // namespace sumogamma

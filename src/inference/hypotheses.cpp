@@ -1,0 +1,73 @@
+#include "inference/hypotheses.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/rotation.h"
+
+namespace sumogamma {
+
+std::string_view name_of(IntentionHypothesis intention) {
+  switch (intention) {
+    case IntentionHypothesis::KeepVelocity:
+      return "keep_velocity";
+    case IntentionHypothesis::KeepAcceleration:
+      return "keep_acceleration";
+    case IntentionHypothesis::ConstantTurnRate:
+      return "constant_turn_rate";
+    case IntentionHypothesis::Stop:
+      break;
+  }
+  return "stop";
+}
+
+namespace {
+/// Way at unit speed that is lost at a rate [s].
+double faded_time(double rate, double time) {
+  return rate > 1e-9 ? (1.0 - std::exp(-rate * time)) / rate : time;
+}
+
+/// Speed and direction, each with its own fading change. Integrated by the midpoint of each period.
+void turning_path(const MotionEstimate& motion, const IntentionShape& shape, double period,
+                  std::span<Vec2> displacement) {
+  const double speed = motion.velocity.norm();
+  const Vec2 forward = speed > 1e-9 ? Vec2(motion.velocity / speed) : Vec2(1, 0);
+  const double pull = motion.acceleration.dot(forward);
+  Vec2 place = Vec2::Zero();
+  for (std::size_t k = 0; k < displacement.size(); ++k) {
+    const double middle = (static_cast<double>(k) + 0.5) * period;
+    const double turned = motion.turn_rate * faded_time(1.0 / shape.turn_decay, middle);
+    const double gained = pull * faded_time(1.0 / shape.acceleration_decay, middle);
+    const double kept = speed * std::exp(-shape.speed_decay * middle);
+    place += std::max(0.0, kept + gained) * period * from_body(rotation(turned), forward);
+    displacement[k] = place;
+  }
+}
+}  // namespace
+
+void intended_path(IntentionHypothesis intention, const MotionEstimate& motion,
+                   const IntentionShape& shape, double period, std::span<Vec2> displacement) {
+  if (intention == IntentionHypothesis::ConstantTurnRate) {
+    turning_path(motion, shape, period, displacement);
+    return;
+  }
+  for (std::size_t k = 0; k < displacement.size(); ++k) {
+    const double time = (static_cast<double>(k) + 1.0) * period;
+    if (intention == IntentionHypothesis::Stop) {
+      displacement[k] = motion.velocity * faded_time(1.0 / shape.stop_time, time);
+      continue;
+    }
+    displacement[k] = motion.velocity * faded_time(shape.speed_decay, time);
+    if (intention == IntentionHypothesis::KeepAcceleration)
+      displacement[k] += motion.acceleration * shape.acceleration_decay *
+                         (time - faded_time(1.0 / shape.acceleration_decay, time));
+  }
+}
+
+AttentionRange attention_of(const AgentType& type, std::size_t k) {
+  return {type.attention_front + 2.0 * static_cast<double>(k), type.attention_rear};
+}
+
+double responsibility_of(std::size_t k) { return k == 0 ? 0.5 : 0.2; }
+
+}  // namespace sumogamma

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "prediction/accuracy.h"
+#include "prediction/observed_scene.h"
+#include "prediction/protocol.h"
+
+namespace sumogamma {
+
+/// A predictor as the evaluation calls it: `observe` once a frame in order (may be empty), then
+/// `predict` for the same scene, then `sample` (may be empty) for its distribution.
+struct Method {
+  std::string name, title;
+  std::function<void(const ObservedScene&)> observe;
+  std::function<Forecast(const ObservedScene&, std::size_t steps)> predict;
+  std::function<std::vector<Forecast>(const ObservedScene&, std::size_t steps)> sample;
+};
+
+/// Scores of one window.
+struct WindowScore {
+  std::size_t track = 0;
+  int frame = 0;
+  AgentTypeId type{};
+  double speed = 0;                         ///< of the last displacement [m/s]
+  WindowError error;                        ///< of the prediction [m]
+  double best_average = 0, best_final = 0;  ///< least over the samples, each by itself [m]
+  double log_loss = 0;                      ///< mean negative log density over the steps [nat]
+  double energy = 0;                        ///< mean energy score over the steps [m]
+  double inside_50 = 0, inside_90 = 0;      ///< share of the steps whose truth lies in the region
+};
+
+/// One method on one recording.
+struct Evaluation {
+  std::string set, method, title;
+  std::vector<WindowScore> windows;
+  CollisionCount collisions, true_collisions;
+  bool has_samples = false;
+  double cpu_seconds = 0;        ///< in observe and predict, without samples
+  std::int64_t predictions = 0;  ///< agents predicted with a full history
+};
+
+/// Runs a method over a recording, frame by frame from its beginning, and scores all windows. `set`
+/// is what the method sees, `truth` what it is scored against (the same recording, unless noise was
+/// added).
+Evaluation evaluate(const Method& method, const TrackSet& set, const TrackSet& truth,
+                    const Protocol& protocol);
+
+/// Means over the windows for which `chosen` holds; null for none.
+struct Summary {
+  std::size_t windows = 0;
+  double average = 0, final = 0, miss_rate = 0;  ///< miss: final error over 2 m
+  double best_average = 0, best_final = 0, log_loss = 0, energy = 0, inside_50 = 0, inside_90 = 0;
+};
+Summary summarize(const Evaluation& evaluation,
+                  const std::function<bool(const WindowScore&)>& chosen = {});
+
+}  // namespace sumogamma

@@ -1,0 +1,133 @@
+#include "prediction/methods.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "prediction/baselines.h"
+#include "prediction/gamma_predictor.h"
+
+namespace sumogamma {
+
+namespace {
+
+/// A row of the ablation table.
+struct Variant {
+  const char *name, *title;
+  void (*change)(PredictorOptions&);
+};
+constexpr Variant kVariants[] = {
+    {"gamma", "sumo-gamma", [](PredictorOptions&) {}},
+    {"gamma-no-kinematics", "  without K and bodies",
+     [](PredictorOptions& o) { o.use_kinematics = false; }},
+    {"gamma-no-polygons", "  without polygons (discs)",
+     [](PredictorOptions& o) { o.use_polygons = false; }},
+    {"gamma-no-inference", "  without inference (keeps velocity)",
+     [](PredictorOptions& o) { o.use_inference = false; }},
+    {"gamma-no-avoidance", "  without avoidance",
+     [](PredictorOptions& o) { o.use_avoidance = false; }},
+    {"gamma-no-flow", "  without the flow of predecessors",
+     [](PredictorOptions& o) { o.use_flow = false; }},
+    {"gamma-no-smoothing", "  without the motion filter",
+     [](PredictorOptions& o) { o.use_smoothing = false; }},
+    {"gamma-most-likely", "  likeliest intention instead of the mean",
+     [](PredictorOptions& o) { o.most_likely = true; }},
+};
+
+Method gamma_method(const Variant& variant, const MethodSettings& settings, double period) {
+  PredictorOptions options;
+  variant.change(options);
+  auto predictor = std::make_shared<GammaPredictor>(recorded_agent_types(), settings.parameters,
+                                                    options, period);
+  Method method{variant.name, variant.title, {}, {}, {}};
+  method.observe = [predictor](const ObservedScene& scene) { predictor->observe(scene); };
+  method.predict = [predictor](const ObservedScene&, std::size_t steps) {
+    return predictor->forecast(steps);
+  };
+  if (settings.samples > 1)
+    method.sample = [predictor, settings](const ObservedScene&, std::size_t steps) {
+      std::vector<Forecast> samples;
+      for (std::size_t k = 0; k < settings.samples; ++k)
+        samples.push_back(predictor->sample(k, settings.samples, steps, settings.seed));
+      return samples;
+    };
+  return method;
+}
+
+/// The bound over the hypotheses: every intention alone counts as a sample, the best is taken.
+Method oracle_method(const MethodSettings& settings, double period) {
+  auto predictor = std::make_shared<GammaPredictor>(recorded_agent_types(), settings.parameters,
+                                                    PredictorOptions{}, period);
+  Method method{"oracle", "  bound: best single intention (min columns)", {}, {}, {}};
+  method.observe = [predictor](const ObservedScene& scene) { predictor->observe(scene); };
+  method.predict = [predictor](const ObservedScene&, std::size_t steps) {
+    return predictor->forecast(steps);
+  };
+  method.sample = [predictor](const ObservedScene&, std::size_t steps) {
+    std::vector<Forecast> all;
+    for (std::size_t k = 0; k < kIntentions; ++k)
+      all.push_back(predictor->forecast_intention(static_cast<IntentionHypothesis>(k), steps));
+    all.push_back(predictor->forecast(steps));
+    return all;
+  };
+  return method;
+}
+
+/// Constant velocity along a fan of directions and speeds: what best-of-N measures without a model.
+/// Five speeds times N/5 directions within 20 degrees.
+std::vector<Forecast> velocity_fan(const ObservedScene& scene, std::size_t count,
+                                   std::size_t steps) {
+  constexpr double kSpeeds[] = {1.0, 0.75, 1.15, 0.5, 0.9};
+  const std::size_t directions = std::max<std::size_t>((count + 4) / 5, 1);
+  const Forecast straight = constant_velocity(scene, steps);
+  std::vector<Forecast> fan;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t d = k / 5;
+    const double share =
+        directions > 1 ? static_cast<double>(d) / static_cast<double>(directions - 1) : 0.5;
+    const Vec2 turn = kSpeeds[k % 5] * direction_of(radians(-20.0 + 40.0 * share));
+    Forecast one = straight;
+    for (std::size_t row = 0; row < scene.agents.size(); ++row)
+      for (std::size_t step = 0; step < steps; ++step) {
+        Vec2& position = one.position[row * steps + step];
+        position = scene.agents[row].now() + from_body(position - scene.agents[row].now(), turn);
+      }
+    fan.push_back(std::move(one));
+  }
+  return fan;
+}
+
+Method baseline_method(const Baseline& baseline) {
+  return {std::string(baseline.name), std::string(baseline.title), {}, baseline.predict, {}};
+}
+
+}  // namespace
+
+std::vector<std::string> default_methods(bool ablations) {
+  std::vector<std::string> names;
+  if (ablations) {
+    for (const Variant& variant : kVariants) names.emplace_back(variant.name);
+    return names;
+  }
+  names.emplace_back("gamma");
+  for (const Baseline& baseline : baselines()) names.emplace_back(baseline.name);
+  return names;
+}
+
+Method make_method(const std::string& name, const MethodSettings& settings, double period) {
+  for (const Variant& variant : kVariants)
+    if (variant.name == name) return gamma_method(variant, settings, period);
+  if (name == "oracle") return oracle_method(settings, period);
+  if (name == "cv-fan") {
+    Method method{"cv-fan", "constant velocity, fan of directions", {}, constant_velocity, {}};
+    if (settings.samples > 1)
+      method.sample = [count = settings.samples](const ObservedScene& scene, std::size_t steps) {
+        return velocity_fan(scene, count, steps);
+      };
+    return method;
+  }
+  return baseline_method(find_baseline(name));
+}
+
+}  // namespace sumogamma

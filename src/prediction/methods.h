@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "prediction/evaluation.h"
+#include "prediction/predictor_parameters.h"
+
+namespace sumogamma {
+
+/// What all methods of an evaluation share.
+struct MethodSettings {
+  PredictorParameters parameters;
+  std::size_t samples = 0;  ///< 0: no distribution; else 2 or more
+  std::uint64_t seed = 1;
+};
+
+/// Names for a table: gamma and the baselines, or (ablations) gamma and its parts.
+std::vector<std::string> default_methods(bool ablations);
+
+/// A fresh predictor by name: gamma, gamma-no-..., oracle, cv-fan or one of the baselines. Throws
+/// Error on an unknown name.
+Method make_method(const std::string& name, const MethodSettings& settings, double period);
+
+}  // namespace sumogamma

@@ -1,0 +1,92 @@
+#include "prediction/predictor_parameters.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace sumogamma {
+
+PredictorParameters default_predictor_parameters() {
+  PredictorParameters p;
+  p.walker.noise = {.observation = 0.0097,
+                    .acceleration_variance = 0.157,
+                    .acceleration_time = 0.134,
+                    .velocity_drift = 0.043};
+  p.walker.noise_scale = 10;
+  p.walker.noise_power = 1.925;
+  p.walker.shape.acceleration_decay = 2.75;
+  p.walker.shape.speed_decay = 0.04;
+  p.walker.flow = {.distance = 1.92, .speed = 0.214, .prior = 3.16};
+  p.walker.filter.intention_prior = {0, 1, 0, 0};
+  p.wheels.noise = {.observation = 0.02,
+                    .acceleration_variance = 1.23,
+                    .acceleration_time = 1.28,
+                    .velocity_drift = 0.0078};
+  p.wheels.shape.acceleration_decay = 2.05;
+  p.wheels.shape.speed_decay = 0.0015;
+  p.wheels.flow = {.distance = 1.59, .speed = 0.76, .prior = 13};
+  p.wheels.filter.intention_prior = {0, 1, 0, 0};
+  return p;
+}
+
+namespace {
+void append_kind(const std::string& prefix, KindParameters& kind,
+                 std::vector<NamedParameter>& all) {
+  auto add = [&](const char* name, double& value) { all.push_back({prefix + name, &value}); };
+  add("observation_noise", kind.noise.observation);
+  add("noise_scale", kind.noise_scale);
+  add("noise_power", kind.noise_power);
+  add("acceleration_variance", kind.noise.acceleration_variance);
+  add("acceleration_time", kind.noise.acceleration_time);
+  add("velocity_drift", kind.noise.velocity_drift);
+  add("acceleration_decay", kind.shape.acceleration_decay);
+  add("speed_decay", kind.shape.speed_decay);
+  add("turn_decay", kind.shape.turn_decay);
+  add("stop_time", kind.shape.stop_time);
+  add("prior_keep_velocity", kind.filter.intention_prior[0]);
+  add("prior_keep_acceleration", kind.filter.intention_prior[1]);
+  add("prior_turn", kind.filter.intention_prior[2]);
+  add("prior_stop", kind.filter.intention_prior[3]);
+  add("likelihood_deviation", kind.filter.deviation);
+  add("change_of_mind", kind.filter.change_of_mind);
+  add("flow_distance", kind.flow.distance);
+  add("flow_speed", kind.flow.speed);
+  add("flow_prior", kind.flow.prior);
+  add("flow_sideways", kind.sideways);
+  add("along_fixed", kind.along_fixed);
+  add("along_by_speed", kind.along_by_speed);
+  add("across_fixed", kind.across_fixed);
+  add("across_by_speed", kind.across_by_speed);
+  add("growth", kind.growth);
+}
+}  // namespace
+
+std::vector<NamedParameter> named_parameters(PredictorParameters& parameters) {
+  std::vector<NamedParameter> all;
+  append_kind("walker.", parameters.walker, all);
+  append_kind("wheels.", parameters.wheels, all);
+  all.push_back({"rejoin", &parameters.rejoin});
+  all.push_back({"horizon_walker", &parameters.horizon_walker});
+  all.push_back({"horizon_wheels", &parameters.horizon_wheels});
+  return all;
+}
+
+void set_parameter(PredictorParameters& parameters, std::string_view assignment) {
+  const std::size_t equals = assignment.find('=');
+  const std::string name(assignment.substr(0, equals));
+  for (const NamedParameter& parameter : named_parameters(parameters)) {
+    if (parameter.name != name) continue;
+    if (equals == std::string_view::npos) break;
+    const std::string_view text = assignment.substr(equals + 1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) break;
+    *parameter.value = value;
+    return;
+  }
+  throw Error("--set " + std::string(assignment),
+              "expected predict.NAME=NUMBER with one of the parameters of docs/prediction.md");
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "inference/behavior_filter.h"
+#include "prediction/flow_memory.h"
+
+namespace sumogamma {
+
+/// Everything the predictor takes from data about one kind of agent (on foot, or on wheels).
+struct KindParameters {
+  MotionNoise noise;  ///< `observation` is the least deviation that is assumed
+  double noise_scale =
+      0;  ///< observations count as noisy as scale * 2 cm * (measured / 2 cm)^power
+  double noise_power = 1;
+  IntentionShape shape;
+  FilterParameters filter;
+  FlowKernel flow;
+  double sideways = 1.0;  ///< share of the flow correction across the motion that is believed
+
+  // how far truth lies from the mean prediction, along the motion and across: fixed + by_speed * v
+  // at one second, growing with time to the power `growth` [m]
+  double along_fixed = 0.2, along_by_speed = 0.1, across_fixed = 0.15, across_by_speed = 0.1;
+  double growth = 1.3;
+};
+
+/// The one parameter set, chosen by tools/tune_prediction.py on the training recordings.
+struct PredictorParameters {
+  KindParameters walker, wheels;
+  double rejoin = 1.0;          ///< see RollOutOptions
+  double horizon_walker = 3.0;  ///< tau of avoidance [s]
+  double horizon_wheels = 3.0;  ///< likewise
+};
+
+PredictorParameters default_predictor_parameters();
+
+/// A parameter by its name, such as "walker.flow_distance".
+struct NamedParameter {
+  std::string name;
+  double* value;
+};
+/// All of them, in a fixed order.
+std::vector<NamedParameter> named_parameters(PredictorParameters& parameters);
+
+/// Sets "name=value". Throws Error on an unknown name or a value that is no finite number.
+void set_parameter(PredictorParameters& parameters, std::string_view assignment);
+
+}  // namespace sumogamma

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "prediction/track_set.h"
+
+namespace sumogamma {
+
+/// How windows are cut and scored.
+enum class ProtocolId {
+  A,  ///< the paper's script: 5 frames seen, the present one counts as the first of 12 predictions
+  B,  ///< the same windows, 12 true steps
+  C,  ///< the standard: 8 frames seen, 12 predicted
+};
+
+struct Protocol {
+  ProtocolId id = ProtocolId::C;
+  char letter = 'C';
+  int observed = 8;             ///< frames seen before a prediction, the present one included
+  int steps = 12;               ///< frames predicted and scored
+  bool counts_present = false;  ///< the first scored row is the present: error 0
+};
+
+/// Throws Error on a letter that is none of A, B, C.
+Protocol protocol_from_letter(std::string_view letter);
+
+/// One prediction to score: a track, seen up to and including `frame`.
+struct Window {
+  std::size_t track = 0;
+  int frame = 0;
+};
+
+/// All windows of a recording, stride 1, by frame and then by track. Under A and B the recordings
+/// zara1 and zara2 lose their last frames as in the paper's script.
+std::vector<Window> windows_of(const TrackSet& set, const Protocol& protocol);
+
+}  // namespace sumogamma

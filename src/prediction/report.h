@@ -1,0 +1,29 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "prediction/evaluation.h"
+
+namespace sumogamma {
+
+/// Figures published for a recording, to stand beside ours; marked as published in every table.
+struct PublishedResult {
+  std::string set, method;
+  double average = 0, final = 0;
+};
+/// Deterministic and best-of-20 rows of the paper's tables (protocol A for GAMMA; the data-driven
+/// methods as their papers have it).
+const std::vector<PublishedResult>& published_results();
+
+/// Everything of one evaluation: summary with bootstrap intervals over agents, per class, per speed
+/// band, collisions, time.
+nlohmann::ordered_json to_json(const Evaluation& evaluation, std::uint64_t seed);
+
+/// Lines of a table of evaluations, one row a method, grouped by recording, with the published rows
+/// below.
+std::string to_table(const std::vector<Evaluation>& evaluations, const Protocol& protocol,
+                     std::uint64_t seed);
+
+}  // namespace sumogamma
