@@ -1,0 +1,118 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/units.h"
+#include "model/approaches.h"
+#include "model/locate.h"
+#include "model/model.h"
+#include "model/road_context.h"
+#include "model/tick_geometry.h"
+#include "support/plain_net.h"
+
+namespace sumogamma::testing {
+
+/// A network with agents that are put on paths by hand: the model's view of the road without SUMO.
+class RoadScene {
+ public:
+  explicit RoadScene(RoadNetwork network) {
+    model.types = default_agent_types();
+    model.kinematics = kinematic_tables();
+    model.road = std::move(network);
+    model.conflicts = build_conflict_table(model.road);
+    model.options.keep_left = model.road.left_hand;
+    road.signal_states.resize(model.road.signals.size());
+  }
+
+  /// Somebody of a type whose centre is `along` metres along its path over the named edges.
+  std::size_t add(const std::string& type_name, const std::vector<std::string>& edges, double along,
+                  double speed, double start = 0, double arrival = -1,
+                  const std::string& start_lane = "") {
+    const AgentTypeId type = find_agent_type(model.types, type_name);
+    const AgentType& row = type_of(model.types, type);
+    const std::vector<EdgeId> route = route_of(model.road, edges);
+    PathRequest request;
+    request.route = route;
+    request.vehicle_class = vehicle_class_from_name(row.sumo_class);
+    request.start_along = start;
+    request.arrival_position = arrival;
+    if (!start_lane.empty()) request.start_lane = model.road.lane_by_name.at(start_lane);
+    std::string why;
+    const bool walks = row.kinematics == Kinematics::Holonomic;
+    std::optional<Path> path = walks ? build_walking_path(model.road, request, why)
+                                     : build_driving_path(model.road, request, why);
+    if (!path) throw std::runtime_error(why);
+    return add(type, std::make_shared<const Path>(std::move(*path)), along, speed);
+  }
+
+  std::size_t add(AgentTypeId type, std::shared_ptr<const Path> path, double along, double speed) {
+    const AgentType& row = type_of(model.types, type);
+    AgentState agent;
+    agent.id = AgentId{static_cast<std::uint32_t>(scene.size())};
+    agent.type = type;
+    agent.footprint = box_footprint(row.length, row.width);
+    agent.position = path->line.point_at(along);
+    agent.heading = heading_of(path->line.direction_at(along));
+    agent.speed = speed;
+    agent.preferred_speed = row.preferred_speed;
+    agent.behavior.intention.kind = IntentionKind::Path;
+    agent.path = static_cast<PathId>(road.paths.size());
+    road.paths.push_back(std::move(path));
+    append_agent(scene, agent);
+    scene.path_along.back() = along;
+    return scene.size() - 1;
+  }
+
+  /// A place of a row's path moves under it: along [m], to the left of the path [m].
+  void move(std::size_t row, double along, double offset = 0) {
+    const Polyline& line = path(row).line;
+    scene.position[row] = line.point_at(along) + offset * left_of(line.direction_at(along));
+    scene.heading[row] = heading_of(line.direction_at(along));
+    scene.velocity[row] = scene.speed[row] * line.direction_at(along);
+    scene.path_along[row] = along;
+  }
+  void set_speed(std::size_t row, double speed) {
+    scene.speed[row] = speed;
+    scene.velocity[row] = speed * direction_of(scene.heading[row]);
+  }
+
+  /// The contexts of everybody in the present state, `times` ticks in a row without moving.
+  void update(int times = 1, double dt = 0.05) {
+    Workers workers;
+    for (int k = 0; k < times; ++k) {
+      for (std::size_t row = 0; row < scene.size(); ++row)
+        locate_on_path(model.road, road, scene, row);
+      prepare_tick(model, scene, workers, geometry);
+      update_road_contexts(model, road, geometry.grid, dt, workers, approaches, scene);
+    }
+  }
+
+  const Path& path(std::size_t row) const { return *road.path(scene.path[row]); }
+  const RoadContext& context(std::size_t row) const { return scene.context[row]; }
+  /// Front of a row past a link's stop line [m].
+  double past_line(std::size_t row, std::size_t link = 0) const {
+    return scene.path_along[row] + half_extent(scene, row, direction_of(scene.heading[row])) -
+           path(row).links.at(link).stop_line;
+  }
+
+  Model model;
+  RoadState road;
+  Scene scene;
+  TickGeometry geometry;
+  ApproachTable approaches;
+
+ private:
+  static const std::vector<KinematicTable>& kinematic_tables() {
+    static const std::vector<KinematicTable> tables = [] {
+      Workers workers;
+      return build_kinematic_tables(default_agent_types(), workers);
+    }();
+    return tables;
+  }
+};
+
+}  // namespace sumogamma::testing

@@ -1,0 +1,156 @@
+#include <gtest/gtest.h>
+
+#include "model/context.h"
+#include "model/preferred_velocity.h"
+#include "support/road_scene.h"
+#include "support/small_net.h"
+
+namespace sumogamma {
+namespace {
+
+using testing::RoadScene;
+
+class ContextTest : public ::testing::Test {
+ protected:
+  ConstraintSet planes_of(std::size_t row) const {
+    ConstraintSet set;
+    append_contextual_constraints(here_.model, here_.scene, row, set);
+    return set;
+  }
+  bool admits(std::size_t row, const Vec2& velocity) const {
+    for (const HalfPlane& plane : planes_of(row).planes)
+      if (slack(plane, velocity) < -1e-9) return false;
+    return true;
+  }
+  RoadScene here_{testing::small_net()};
+};
+
+TEST_F(ContextTest, OffTheRoadNothingIsSaid) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 40, 5);
+  here_.scene.path[own] = kNoPath;
+  here_.update();
+  EXPECT_FALSE(here_.context(own).active);
+  EXPECT_TRUE(planes_of(own).planes.empty());
+}
+
+TEST_F(ContextTest, AtmostTheRoomOverTheHorizonSideways) {
+  const std::size_t own = here_.add("pedestrian", {"in"}, 40, 1);
+  here_.update();
+  const RoadContext& context = here_.context(own);
+  // sidewalk of 2 m, body of 0.48 m in its middle
+  EXPECT_NEAR(context.room_left, 1.0 - 0.24, 1e-9);
+  EXPECT_NEAR(context.room_right, 1.0 - 0.24, 1e-9);
+  const double horizon = type_of(here_.model.types, here_.scene.type[own]).horizon;
+  const double limit = context.room_left / horizon;
+  EXPECT_TRUE(admits(own, {1.0, limit - 1e-6}));
+  EXPECT_FALSE(admits(own, {1.0, limit + 1e-3}));
+  EXPECT_FALSE(admits(own, {1.0, -limit - 1e-3}));
+}
+
+TEST_F(ContextTest, BeyondTheBoundaryOnlyBackOrAlong) {
+  const std::size_t own = here_.add("pedestrian", {"in"}, 40, 1);
+  here_.move(own, 40, 1.5);
+  here_.update();
+  EXPECT_LT(here_.context(own).room_left, 0.0);
+  EXPECT_TRUE(admits(own, Vec2::Zero()));
+  EXPECT_TRUE(admits(own, {1.0, 0.0}));
+  EXPECT_TRUE(admits(own, {1.0, -0.5}));
+  EXPECT_FALSE(admits(own, {1.0, 0.1}));
+}
+
+TEST_F(ContextTest, WheelsNeverGoAgainstTheirDirection) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 40, 5);
+  here_.update();
+  EXPECT_FALSE(admits(own, {-1.0, 0.0}));
+  EXPECT_TRUE(admits(own, {1.0, 0.0}));
+  // people may step back
+  const std::size_t walker = here_.add("pedestrian", {"in"}, 40, 1);
+  here_.update();
+  EXPECT_TRUE(admits(walker, {-1.0, 0.0}));
+}
+
+TEST_F(ContextTest, TheAllowedSpeedCapsTheSpeedAlongThePath) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 68, 10);
+  here_.road.signal_states[0] = "rr";
+  here_.update();
+  const double allowed = here_.context(own).allowed_speed;
+  ASSERT_LT(allowed, 10.0);
+  EXPECT_TRUE(admits(own, {allowed - 1e-6, 0}));
+  EXPECT_FALSE(admits(own, {allowed + 1e-3, 0}));
+  bool found = false;
+  const ConstraintSet set = planes_of(own);
+  for (const ConstraintSource& source : set.sources)
+    found |= source.kind == ConstraintKind::RoadLimit;
+  EXPECT_TRUE(found);
+}
+
+TEST_F(ContextTest, TheSubGoalLiesAheadOnThePath) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 40, 10);
+  here_.update();
+  const RoadContext& context = here_.context(own);
+  EXPECT_GT(context.sub_goal.x(), 42.25);
+  EXPECT_LT(context.sub_goal.x(), 60.0);
+  EXPECT_NEAR(context.sub_goal.y(), 0.0, 1e-9);
+  EXPECT_NEAR(context.tangent.x(), 1.0, 1e-9);
+  EXPECT_NEAR(context.speed_limit, 13.9, 1e-9);
+}
+
+TEST_F(ContextTest, ThePlaceThatAnAgentLikesBesideItsPathIsKeptOnTheRoad) {
+  const std::size_t own = here_.add("bicycle", {"in", "out"}, 40, 4);
+  here_.scene.path_offset[own] = -0.5;
+  here_.update();
+  EXPECT_NEAR(here_.context(own).sub_goal.y(), -0.5, 1e-9);
+  here_.scene.path_offset[own] = -30;
+  here_.update();
+  // lane of 3.2 m, body of 0.65 m
+  EXPECT_NEAR(here_.context(own).sub_goal.y(), -(1.6 - 0.325 - 0.1), 1e-9);
+}
+
+TEST_F(ContextTest, APlannedHaltIsApproachedAndHeld) {
+  const std::size_t own = here_.add("bus", {"in", "out"}, 40, 8);
+  Path path = here_.path(own);
+  path.stops.push_back({70, 20});
+  here_.road.paths[static_cast<std::size_t>(here_.scene.path[own])] =
+      std::make_shared<const Path>(path);
+  here_.update();
+  EXPECT_EQ(here_.context(own).reason, LimitReason::Stop);
+  // with its front at the stop it stands
+  here_.move(own, 70 - 6);
+  here_.set_speed(own, 0);
+  here_.update();
+  EXPECT_LT(here_.context(own).allowed_speed, 0.05);
+  // served: the next one, of which there is none
+  here_.scene.next_stop[own] = 1;
+  here_.update();
+  EXPECT_GT(here_.context(own).allowed_speed, 0.05);
+}
+
+TEST_F(ContextTest, ThePathIsPreferredAtTheRoadsSpeed) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 40, 10);
+  here_.update();
+  const Vec2 preferred =
+      preferred_velocity(here_.model, here_.scene, own, here_.scene.behavior[own].intention);
+  EXPECT_NEAR(preferred.x(), 13.9, 1e-9);
+  EXPECT_NEAR(preferred.y(), 0.0, 1e-9);
+}
+
+TEST_F(ContextTest, IntentionsAreWhatTheySay) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 40, 10);
+  here_.update();
+  here_.scene.acceleration[own] = {1.0, 0};
+  auto preferred = [&](IntentionKind kind, const Vec2& goal = Vec2::Zero()) {
+    return preferred_velocity(here_.model, here_.scene, own, {kind, goal});
+  };
+  EXPECT_EQ(preferred(IntentionKind::Stop), Vec2(0, 0));
+  EXPECT_EQ(preferred(IntentionKind::KeepVelocity), here_.scene.velocity[own]);
+  EXPECT_NEAR(preferred(IntentionKind::KeepAcceleration).x(), 12.0, 1e-9);
+  EXPECT_NEAR(preferred(IntentionKind::Goal, Vec2(40, 300)).y(), 13.9, 1e-9);
+  EXPECT_NEAR(preferred(IntentionKind::Goal, Vec2(40, 2)).norm(), 2.0, 1e-9);
+  EXPECT_EQ(preferred(IntentionKind::Goal, Vec2(40, 0)), Vec2(0, 0));
+  here_.scene.acceleration[own] = {100, 0};
+  EXPECT_LE(preferred(IntentionKind::KeepAcceleration).norm(),
+            type_of(here_.model.types, here_.scene.type[own]).max_speed + 1e-9);
+}
+
+}  // namespace
+}  // namespace sumogamma

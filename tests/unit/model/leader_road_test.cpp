@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include "model/leader.h"
+#include "support/road_scene.h"
+#include "support/small_net.h"
+
+namespace sumogamma {
+namespace {
+
+using testing::RoadScene;
+
+//   in_1 -> out_0, 200 m eastwards at y = 0; back_in_0 -> back_0 westwards at y = -3.2
+class LeaderTest : public ::testing::Test {
+ protected:
+  Leader leader_of(std::size_t row, double reach = 100) {
+    here_.update();
+    return find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, row, reach);
+  }
+  RoadScene here_{testing::small_net()};
+};
+
+TEST_F(LeaderTest, NobodyAheadIsAFreeRoad) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 20, 10);
+  here_.add("car", {"in", "out"}, 5, 10);  // behind
+  const Leader leader = leader_of(own);
+  EXPECT_EQ(leader.id, -1);
+  EXPECT_TRUE(std::isinf(leader.gap));
+}
+
+TEST_F(LeaderTest, GapIsFromBumperToBumper) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 20, 10);
+  here_.add("bus", {"in", "out"}, 60, 7);
+  const Leader leader = leader_of(own);
+  EXPECT_EQ(leader.id, 1);
+  EXPECT_NEAR(leader.gap, 40 - 2.25 - 6.0, 1e-9);
+  EXPECT_NEAR(leader.speed, 7, 1e-9);
+  EXPECT_NEAR(leader.along, 54, 1e-9);
+}
+
+TEST_F(LeaderTest, TheNearestOfSeveralBinds) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 20, 10);
+  here_.add("car", {"in", "out"}, 80, 0);
+  here_.add("bicycle", {"in", "out"}, 40, 4);
+  EXPECT_EQ(leader_of(own).id, 2);
+}
+
+TEST_F(LeaderTest, OncomingTrafficAndTheNextLaneDoNotBind) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 20, 10);
+  here_.add("car", {"back_in", "back"}, 150, 10);
+  EXPECT_EQ(leader_of(own).id, -1);
+  // even one that stands across or against on the own lane is no leader: avoidance sees to it
+  const std::size_t wrong = here_.add("car", {"in", "out"}, 50, 0);
+  here_.scene.heading[wrong] = kPi;
+  EXPECT_EQ(leader_of(own).id, -1);
+}
+
+TEST_F(LeaderTest, SomebodyBesideTheWayCountsOnlyWhereBodiesWouldMeet) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 20, 10);
+  const std::size_t rider = here_.add("bicycle", {"in", "out"}, 60, 4);
+  here_.move(rider, 60, 1.0);
+  EXPECT_EQ(leader_of(own).id, 1);
+  here_.move(rider, 60, 1.8);
+  EXPECT_EQ(leader_of(own).id, -1);
+}
+
+TEST_F(LeaderTest, PeopleOnFootCountOnceNear) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 20, 5);
+  const std::size_t walker = here_.add("pedestrian", {"in"}, 30, 1);
+  here_.scene.position[walker] = {60, 0};
+  here_.scene.heading[walker] = kPi / 2;
+  here_.set_speed(walker, 1);
+  EXPECT_EQ(leader_of(own).id, -1);
+  here_.scene.position[walker] = {30, 0};
+  const Leader leader = leader_of(own);
+  EXPECT_EQ(leader.id, 1);
+  EXPECT_NEAR(leader.speed, 0.0, 1e-9);
+}
+
+TEST_F(LeaderTest, TrafficOnABridgeIsNotInTheWay) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 20, 10);
+  const std::size_t above = here_.add("car", {"bridge"}, 60, 0);
+  here_.scene.heading[above] = 0;  // as if it were aligned: only its height keeps it apart
+  EXPECT_EQ(leader_of(own).id, -1);
+  EXPECT_NEAR(here_.scene.height[above], 6.0, 1e-9);
+}
+
+TEST_F(LeaderTest, WhoeverDrivesItAndHoweverFarItReaches) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 20, 10);
+  const std::size_t other = here_.add("car", {"in", "out"}, 90, 3);
+  here_.scene.control[other] = Control::External;
+  EXPECT_EQ(leader_of(own, 100).id, 1);
+  EXPECT_EQ(leader_of(own, 50).id, -1);
+}
+
+}  // namespace
+}  // namespace sumogamma

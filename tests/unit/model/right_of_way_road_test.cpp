@@ -1,0 +1,253 @@
+#include <gtest/gtest.h>
+
+#include "model/right_of_way.h"
+#include "support/road_scene.h"
+#include "support/small_net.h"
+
+namespace sumogamma {
+namespace {
+
+using testing::crossroads;
+using testing::read_plain_net;
+using testing::RoadScene;
+
+// --- signals: small_net, where link 0 of signal C drives from `in` to `out`
+
+class SignalTest : public ::testing::Test {
+ protected:
+  void show(char letter) { here_.road.signal_states[0] = std::string(1, letter) + "r"; }
+  RoadScene here_{testing::small_net()};
+};
+
+TEST_F(SignalTest, RedStopsAndGreenDoesNot) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 68, 10);
+  show('r');
+  here_.update();
+  EXPECT_EQ(here_.context(own).reason, LimitReason::Signal);
+  EXPECT_LT(here_.context(own).allowed_speed, 10.0);
+  show('G');
+  here_.update();
+  EXPECT_NE(here_.context(own).reason, LimitReason::Signal);
+  EXPECT_GT(here_.context(own).allowed_speed, 10.0);
+}
+
+TEST_F(SignalTest, RedHoldsWhoStandsAtTheLine) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 95 - 2.25 - 0.5, 0);
+  show('r');
+  here_.update();
+  EXPECT_EQ(here_.context(own).reason, LimitReason::Signal);
+  EXPECT_LT(here_.context(own).allowed_speed, 0.1);
+}
+
+TEST_F(SignalTest, AmberStopsWhoCanStopAtEaseAndLetsTheOthersThrough) {
+  show('y');
+  const std::size_t far = here_.add("car", {"in", "out"}, 50, 10);
+  here_.update();
+  EXPECT_EQ(here_.context(far).reason, LimitReason::Signal);
+  RoadScene other(testing::small_net());
+  other.road.signal_states[0] = "yr";
+  const std::size_t near = other.add("car", {"in", "out"}, 83, 13);
+  other.update();
+  EXPECT_NE(other.context(near).reason, LimitReason::Signal);
+}
+
+TEST_F(SignalTest, WhoIsInsideClearsTheJunction) {
+  show('r');
+  const std::size_t own = here_.add("car", {"in", "out"}, 97, 5);
+  here_.update();
+  EXPECT_NE(here_.context(own).reason, LimitReason::Signal);
+  EXPECT_GT(here_.context(own).allowed_speed, 5.0);
+}
+
+TEST_F(SignalTest, AnUnknownStateIsNoSignal) {
+  here_.road.signal_states.clear();
+  const std::size_t own = here_.add("car", {"in", "out"}, 60, 10);
+  here_.update();
+  EXPECT_NE(here_.context(own).reason, LimitReason::Signal);
+}
+
+// --- priority: WE is the major road, NS gives way
+
+class PriorityTest : public ::testing::Test {
+ protected:
+  static const RoadNetwork& net() {
+    static const RoadNetwork network = read_plain_net(crossroads("priority"));
+    return network;
+  }
+  RoadScene here_{net()};
+};
+
+TEST_F(PriorityTest, TheMinorRoadWaitsForWhoArrivesAtTheSameTime) {
+  const std::size_t minor = here_.add("car", {"SC", "CN"}, 172, 8);
+  const std::size_t major = here_.add("car", {"WC", "CE"}, 150, 12);
+  here_.update();
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
+  EXPECT_EQ(here_.context(minor).foe, here_.scene.id[major].value);
+  EXPECT_LT(here_.context(minor).allowed_speed, 8.0);
+  EXPECT_NE(here_.context(major).reason, LimitReason::Yield);
+  EXPECT_GT(here_.context(major).allowed_speed, 12.0);
+}
+
+TEST_F(PriorityTest, TheMinorRoadGoesThroughAGap) {
+  const std::size_t minor = here_.add("car", {"SC", "CN"}, 185, 6);
+  here_.add("car", {"WC", "CE"}, 20, 8);  // twenty seconds away
+  here_.update();
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::None);
+}
+
+TEST_F(PriorityTest, SomebodyWhoHasPassedHoldsNobody) {
+  const std::size_t minor = here_.add("car", {"SC", "CN"}, 185, 6);
+  here_.add("car", {"WC", "CE"}, 225, 10);
+  here_.update();
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::None);
+}
+
+TEST_F(PriorityTest, WhoStandsOnTheJunctionHoldsEvenTheMajorRoad) {
+  const std::size_t blocker = here_.add("bus", {"SC", "CN"}, 0, 0);
+  // across the eastbound lanes
+  here_.move(blocker, here_.path(blocker).line.project(Vec2(0, -3)).along);
+  const std::size_t major = here_.add("car", {"WC", "CE"}, 150, 12);
+  here_.update();
+  EXPECT_EQ(here_.context(major).reason, LimitReason::Yield);
+  EXPECT_EQ(here_.context(major).foe, here_.scene.id[blocker].value);
+  EXPECT_LT(here_.context(major).allowed_speed, 12.0);
+}
+
+TEST_F(PriorityTest, ALeftTurnWaitsForOncomingTraffic) {
+  const std::size_t turning = here_.add("car", {"WC", "CN"}, 175, 6);
+  const std::size_t oncoming = here_.add("car", {"EC", "CW"}, 160, 12);
+  here_.update();
+  EXPECT_EQ(here_.context(turning).reason, LimitReason::Yield);
+  EXPECT_EQ(here_.context(turning).foe, here_.scene.id[oncoming].value);
+  EXPECT_NE(here_.context(oncoming).reason, LimitReason::Yield);
+}
+
+TEST_F(PriorityTest, OfTwoThatWaitForEachOtherOneGoes) {
+  // both stand at their lines and each says that it waits for the other
+  const std::size_t a = here_.add("car", {"WC", "CN"}, 0, 0);
+  const std::size_t b = here_.add("car", {"EC", "CW"}, 0, 0);
+  for (const std::size_t row : {a, b})
+    here_.move(row, here_.path(row).links.front().stop_line - 2.25 - 0.6);
+  for (const std::size_t row : {a, b}) {
+    here_.scene.context[row].reason = LimitReason::Yield;
+    here_.scene.context[row].foe = here_.scene.id[row == a ? b : a].value;
+  }
+  here_.scene.standing_time[a] = 20;
+  here_.scene.standing_time[b] = 10;
+  here_.update();
+  const bool first_goes = here_.context(a).reason != LimitReason::Yield;
+  const bool second_goes = here_.context(b).reason != LimitReason::Yield;
+  EXPECT_TRUE(first_goes || second_goes);
+}
+
+TEST_F(PriorityTest, NobodyEntersAJunctionWithoutRoomBehindIt) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 5, 0, -1, "WC_0");
+  const double end = here_.path(own).links.front().end;
+  here_.move(own, here_.path(own).links.front().stop_line - 12);
+  const std::size_t queue = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  here_.move(queue, end + 2.25 + 1.0);
+  here_.set_speed(queue, 0);
+  here_.update();
+  EXPECT_EQ(here_.context(own).reason, LimitReason::BlockedJunction);
+  EXPECT_EQ(here_.context(own).foe, here_.scene.id[queue].value);
+}
+
+TEST_F(PriorityTest, AStopSignIsHaltedAt) {
+  RoadNetwork network = net();
+  for (Connection& connection : network.connections)
+    if (connection.state == 'm') connection.state = 's';
+  RoadScene here(network);
+  const std::size_t own = here.add("car", {"SC", "CN"}, 0, 8);
+  const double line = here.path(own).links.front().stop_line;
+  here.move(own, line - 20);
+  here.update();
+  EXPECT_EQ(here.context(own).reason, LimitReason::Yield);
+  // having stood at the line, it goes
+  here.move(own, line - 2.25 - 0.7);
+  here.set_speed(own, 0);
+  here.scene.standing_time[own] = 1.0;
+  here.update();
+  EXPECT_NE(here.context(own).reason, LimitReason::Yield);
+}
+
+// --- crossings: drivers yield on the crossroads with sidewalks
+
+class CrossingTest : public ::testing::Test {
+ protected:
+  static const RoadNetwork& net() {
+    static const RoadNetwork network = [] {
+      testing::PlainNet plain = crossroads("priority", {"--sidewalks.guess", "--crossings.guess"});
+      return read_plain_net(plain);
+    }();
+    return network;
+  }
+  RoadScene here_{net()};
+};
+
+// The crossing over the west arm runs from north (y = 6.4) to south: its own direction is that of a
+// walk from CW to WC.
+TEST_F(CrossingTest, DriversWaitForSomebodyOnTheirSideOfTheRoad) {
+  const std::size_t walker = here_.add("pedestrian", {"CW", "WC"}, 0, 1.3, 5, 195);
+  ASSERT_EQ(here_.path(walker).links.size(), 1u);
+  const PathLink& walk = here_.path(walker).links.at(0);
+  const std::size_t driver = here_.add("car", {"WC", "CE"}, 0, 6, 0, -1, "WC_1");
+  here_.move(driver, here_.path(driver).links.at(0).stop_line - 2.25 - 9);
+  here_.move(walker, walk.stop_line + 10);
+  here_.update();
+  EXPECT_EQ(here_.context(driver).foe, here_.scene.id[walker].value);
+  EXPECT_LT(here_.context(driver).allowed_speed, 6.0);
+  // on the other half of the road it holds nobody yet
+  here_.move(walker, walk.stop_line + 3);
+  here_.update();
+  EXPECT_EQ(here_.context(driver).reason, LimitReason::None);
+}
+
+TEST_F(CrossingTest, WalkersDoNotStepInFrontOfWhoCanNotStop) {
+  const std::size_t walker = here_.add("pedestrian", {"CW", "WC"}, 0, 1.3, 5, 195);
+  here_.move(walker, here_.path(walker).links.at(0).stop_line - 1.2);
+  // westbound, about to leave the junction over the near half of the crossing
+  const std::size_t driver = here_.add("car", {"EC", "CW"}, 0, 13, 0, -1, "EC_1");
+  here_.move(driver, here_.path(driver).links.at(0).stop_line + 2);
+  here_.update();
+  EXPECT_EQ(here_.context(walker).foe, here_.scene.id[driver].value);
+  EXPECT_LT(here_.context(walker).allowed_speed, 1.3);
+}
+
+TEST_F(CrossingTest, AnEmptyCrossingHoldsNobody) {
+  const std::size_t driver = here_.add("car", {"EC", "CW"}, 0, 6, 0, -1, "EC_1");
+  here_.move(driver, here_.path(driver).links.at(0).stop_line - 14);
+  here_.update();
+  EXPECT_EQ(here_.context(driver).reason, LimitReason::None);
+}
+
+TEST(ApproachTable, ListsWhoIsOnOrNearALinkByRow) {
+  RoadScene here(testing::small_net());
+  const std::size_t far = here.add("car", {"in", "out"}, 5, 2);
+  const std::size_t near = here.add("car", {"in", "out"}, 80, 5);
+  const std::size_t on = here.add("car", {"in", "out"}, 100, 0.2);
+  const std::size_t past = here.add("car", {"in", "out"}, 150, 5);
+  here.update();
+  const ConnectionId link = here.path(near).links.front().connection;
+  const auto approaches = here.approaches.of(link);
+  ASSERT_EQ(approaches.size(), 2u);
+  EXPECT_EQ(approaches[0].row, near);
+  EXPECT_NEAR(approaches[0].front, 80 + 2.25 - 95, 1e-9);
+  EXPECT_FALSE(approaches[0].stands);
+  EXPECT_EQ(approaches[1].row, on);
+  EXPECT_NEAR(approaches[1].length, 4.5, 1e-9);
+  EXPECT_TRUE(approaches[1].stands);
+  EXPECT_TRUE(here.approaches.of(kNoConnection).empty());
+  EXPECT_NE(far, past);
+}
+
+TEST(HalfExtent, IsOfTheTurnedBox) {
+  RoadScene here(testing::small_net());
+  const std::size_t own = here.add("car", {"in", "out"}, 5, 2);
+  EXPECT_NEAR(half_extent(here.scene, own, Vec2(1, 0)), 2.25, 1e-12);
+  EXPECT_NEAR(half_extent(here.scene, own, Vec2(0, 1)), 0.9, 1e-12);
+  here.scene.heading[own] = kPi / 2;
+  EXPECT_NEAR(half_extent(here.scene, own, Vec2(1, 0)), 0.9, 1e-12);
+}
+
+}  // namespace
+}  // namespace sumogamma
