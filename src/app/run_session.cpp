@@ -99,9 +99,11 @@ std::unique_ptr<Simulation> make_simulation(const RunPlan& plan, unsigned thread
   sim->workers = std::make_unique<Workers>(threads);
   sim->model.types = plan.config.types;
   sim->model.options = plan.config.model;
+  sim->model.options.step = plan.step;
   sim->model.kinematics = build_kinematic_tables(sim->model.types, *sim->workers);
   sim->model.road = read_sumo_net(plan.input.network);
   for (const auto& file : plan.input.additional) read_obstacles(file, sim->model.road);
+  sim->model.obstacles = ObstacleIndex(sim->model.road.obstacles);
   sim->model.conflicts = build_conflict_table(sim->model.road);
   sim->model.options.keep_left = sim->model.road.left_hand;
   return sim;

@@ -6,6 +6,7 @@
 #include "model/context.h"
 #include "model/geometric_constraints.h"
 #include "model/kinematic_set.h"
+#include "model/obstacle_constraints.h"
 #include "model/preferred_velocity.h"
 
 namespace sumogamma {
@@ -54,6 +55,7 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
   append_kinematic_constraints(model, scene, row, geometry.agent[row].forward,
                                constraints);                      // K, III-A
   append_contextual_constraints(model, scene, row, constraints);  // C, III-C
+  append_obstacle_constraints(model, scene, geometry, row, work.sides, constraints);
   constraints.hard_count = constraints.planes.size();
   append_geometric_constraints(model, scene, geometry, row, behavior, work.preferred,
                                work.neighbours.attended, constraints);  // G, III-B

@@ -18,8 +18,9 @@ struct Workspace {
   ConstraintSet constraints;
   ProgramScratch program;
   StoppingGuard guard;
-  Vec2 preferred = Vec2::Zero();  ///< v_pref [m/s]
-  ProgramResult result;           ///< of Eq. 7; result.binding is an index into constraints
+  std::vector<std::uint32_t> sides;  ///< of solid things nearby
+  Vec2 preferred = Vec2::Zero();     ///< v_pref [m/s]
+  ProgramResult result;              ///< of Eq. 7; result.binding is an index into constraints
 
   /// Where the plane that holds the velocity comes from; null where v_pref itself was feasible.
   const ConstraintSource* binding_source() const {

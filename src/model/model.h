@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/kinematic_set.h"
+#include "model/obstacle_index.h"
 #include "road/conflict_zones.h"
 #include "road/road_network.h"
 #include "scene/agent_type.h"
@@ -46,6 +47,7 @@ struct Model {
   std::vector<KinematicTable> kinematics;  ///< K by type, in the order of `types`
   RoadNetwork road;                        ///< empty for a standalone scene
   ConflictTable conflicts;                 ///< by connection of `road`
+  ObstacleIndex obstacles;                 ///< sides of the solid things of `road`
   ModelOptions options;
 };
 
