@@ -68,7 +68,12 @@ void bind_model(ModelOptions& model, std::vector<Binding>& bindings) {
   bindings.push_back({"model.use_kinematics", &model.use_kinematics});
   bindings.push_back({"model.use_polygons", &model.use_polygons});
   bindings.push_back({"model.use_avoidance", &model.use_avoidance});
-  bindings.push_back({"model.keep_left", &model.keep_left});
+  // keep_left isn't here: the network says on which side traffic keeps
+  bindings.push_back({"model.use_guard", &model.use_guard});
+  bindings.push_back({"model.guard_margin", &model.guard_margin, 0});
+  bindings.push_back({"model.pass_as_intended", &model.pass_as_intended});
+  bindings.push_back({"model.look_aside", &model.look_aside});
+  bindings.push_back({"model.creep_when_held", &model.creep_when_held});
   bindings.push_back({"model.constrain_safe_pairs", &model.constrain_safe_pairs});
   bindings.push_back({"model.share_responsibility", &model.share_responsibility});
   bindings.push_back(
@@ -77,6 +82,7 @@ void bind_model(ModelOptions& model, std::vector<Binding>& bindings) {
                                                   {"shortest", PairHorizon::Shortest},
                                                   {"longest", PairHorizon::Longest}}}});
   bindings.push_back({"model.separation_time", &model.separation_time, 0, true});
+  bindings.push_back({"model.walker_separation_time", &model.walker_separation_time, 0, true});
   bindings.push_back({"model.front_margin", &model.front_margin, 0});
   bindings.push_back({"model.rear_margin", &model.rear_margin, 0});
   bindings.push_back({"model.side_margin", &model.side_margin, 0});
