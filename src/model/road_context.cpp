@@ -36,11 +36,20 @@ void set_geometry(const Scene& scene, const Course& course, RoadContext& context
   const double half_width = half_extent(scene, course.row, left_of(direction_of(scene.heading[course.row])));
   const double offset = std::clamp(scene.path_offset[course.row], -std::max(target.room_right - half_width - 0.1, 0.0),
                                    std::max(target.room_left - half_width - 0.1, 0.0));
-  context.sub_goal = line.point_at(ahead) + beyond * direction + offset * left_of(direction);
-
-  // boundaries run along the chord to the look-ahead point: on a bend the tangent here would forbid the bend itself
-  const Vec2 chord = line.point_at(ahead) + beyond * direction - line.point_at(course.along);
-  context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : line.direction_at(course.along);
+  if (course.path.walking) {
+    context.sub_goal = line.point_at(ahead) + beyond * direction + offset * left_of(direction);
+    const Vec2 chord = line.point_at(ahead) + beyond * direction - line.point_at(course.along);
+    context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : direction;
+  } else {
+    // the sub-goal lies ahead in the path's own coordinates: aimed at straight, it would cut every bend by the look-ahead
+    // squared over twice the radius, which is metres for a bus. The direction is taken a little ahead, for the time that
+    // steering takes
+    const double preview = course.along + 0.4 + 0.3 * course.speed;
+    const Vec2 chord = line.point_at(preview + 1.0) - line.point_at(preview - 1.0);
+    context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : direction;
+    context.sub_goal = scene.position[course.row] + look_ahead(course) * context.tangent +
+                       (offset - course.offset) * left_of(context.tangent);
+  }
   const PathStretch& here = course.path.stretch_at(course.along);
   const double extent = half_extent(scene, course.row, left_of(context.tangent));
   context.room_left = here.room_left - course.offset - extent;

@@ -272,6 +272,11 @@ bool SumoWorld::insert(const Pending& pending, Scene& scene, RoadState& road) {
                    half_width + (details.is_person ? 0.05 : 0.2)};
   double speed = details.is_person ? agent.preferred_speed
                                    : std::min(path.profile_at(0.0), agent.preferred_speed);
+  // no faster than stops at ease before the first line, whatever the signal there shows
+  if (!details.is_person && !path.links.empty()) {
+    const double room = std::max(path.links.front().stop_line - half_length - 1.0, 0.0);
+    speed = std::min(speed, std::sqrt(2.0 * 0.7 * type.comfortable_deceleration * room));
+  }
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const Vec2 relative = to_body(scene.position[row] - agent.position, direction);
     if (std::abs(relative.x()) > 80.0 || std::abs(relative.y()) > 30.0) continue;
