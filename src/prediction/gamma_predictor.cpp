@@ -30,10 +30,16 @@ Model predictor_model(const AgentTypeTable& types, const PredictorParameters& pa
   model.options.use_kinematics = options.use_kinematics;
   model.options.use_polygons = options.use_polygons;
   model.options.use_avoidance = options.use_avoidance;
-  model.options.constrain_safe_pairs = false;
+  // a step of 0.4 s is long: pairs that are safe now must stay so, or they meet within the step
+  model.options.constrain_safe_pairs = true;
+  model.options.pass_as_intended = false;
   model.options.use_guard = false;
   model.options.look_aside = false;
   model.options.creep_when_held = false;
+  model.options.front_margin = model.options.rear_margin = model.options.side_margin =
+      parameters.margin;
+  model.options.walker_margin = parameters.margin;
+  model.options.separation_time = model.options.walker_separation_time = parameters.separation_time;
   model.options.step = period;
   return model;
 }

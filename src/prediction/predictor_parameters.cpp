@@ -18,7 +18,7 @@ PredictorParameters default_predictor_parameters() {
   p.walker.shape.acceleration_decay = 2.75;
   p.walker.shape.speed_decay = 0.04;
   p.walker.flow = {.distance = 1.92, .speed = 0.214, .prior = 3.16};
-  p.walker.filter.intention_prior = {0, 1, 0, 0};
+  p.walker.filter.intention_prior = {0.2, 1, 0.1, 0.02};
   p.wheels.noise = {.observation = 0.02,
                     .acceleration_variance = 1.23,
                     .acceleration_time = 1.28,
@@ -26,7 +26,7 @@ PredictorParameters default_predictor_parameters() {
   p.wheels.shape.acceleration_decay = 2.05;
   p.wheels.shape.speed_decay = 0.0015;
   p.wheels.flow = {.distance = 1.59, .speed = 0.76, .prior = 13};
-  p.wheels.filter.intention_prior = {0, 1, 0, 0};
+  p.wheels.filter.intention_prior = {0.2, 1, 0.3, 0.02};
   return p;
 }
 
@@ -69,6 +69,8 @@ std::vector<NamedParameter> named_parameters(PredictorParameters& parameters) {
   all.push_back({"rejoin", &parameters.rejoin});
   all.push_back({"horizon_walker", &parameters.horizon_walker});
   all.push_back({"horizon_wheels", &parameters.horizon_wheels});
+  all.push_back({"margin", &parameters.margin});
+  all.push_back({"separation_time", &parameters.separation_time});
   return all;
 }
 

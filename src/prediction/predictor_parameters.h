@@ -29,9 +29,11 @@ struct KindParameters {
 /// The one parameter set, chosen by tools/tune_prediction.py on the training recordings.
 struct PredictorParameters {
   KindParameters walker, wheels;
-  double rejoin = 1.0;          ///< see RollOutOptions
-  double horizon_walker = 3.0;  ///< tau of avoidance [s]
-  double horizon_wheels = 3.0;  ///< likewise
+  double rejoin = 0.7;           ///< see RollOutOptions
+  double horizon_walker = 1.0;   ///< tau of avoidance [s]
+  double horizon_wheels = 1.0;   ///< likewise
+  double margin = 0.05;          ///< kept around bodies [m]
+  double separation_time = 2.0;  ///< over which bodies that overlap come apart [s]
 };
 
 PredictorParameters default_predictor_parameters();
