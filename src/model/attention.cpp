@@ -40,6 +40,8 @@ void find_neighbours(const TickGeometry& geometry, std::size_t row, const Attent
         const AgentGeometry& other = geometry.agent[other_row];
         const double far = own_far + other.far;
         if (square > far * far) return;
+        // above or below on a bridge: never met
+        if (std::abs(other.height - own.height) > kStorey) return;
         const double near = own.next_reach + other.next_reach;
         if (square <= near * near) neighbours.near.push_back(other_row);
         const Vec2 offset = other.position - own.position;

@@ -27,6 +27,7 @@ struct AgentGeometry {
   double far = 0;           ///< from farther than this it matters to nobody on its own account [m]
   double throttle_way = 0;  ///< what that tick adds to the way [m]
   double speed = 0;         ///< [m/s]
+  double height = 0;        ///< of the ground under it [m]
   double curvature = 0;     ///< of the rear axle's way, positive left [1/m]
   AttentionRange attention;
   AgentTypeId type{};
