@@ -94,7 +94,9 @@ SumoAgentDetails vehicle_details(const std::string& id, double time) {
 
 SumoAgentDetails person_details(const std::string& id) {
   SumoAgentDetails details = common_details<libsumo::Person>(id);
-  details.max_speed = walking_speed(details.max_speed);
+  // the type's, as over the socket: Person::getMaxSpeed has the person's own factor in it already
+  details.max_speed = walking_speed(value_or(
+      details.max_speed, [&] { return libsumo::VehicleType::getMaxSpeed(details.type_id); }));
   const auto stage = value_or(libsumo::TraCIStage(), [&] { return libsumo::Person::getStage(id); });
   if (stage.type == libsumo::STAGE_WALKING) {
     details.route = stage.edges;
