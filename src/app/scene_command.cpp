@@ -1,9 +1,12 @@
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
 #include "base/error.h"
+#include "io/config.h"
+#include "io/replay.h"
 #include "simulation/scene_run.h"
 
 namespace sumogamma {
@@ -15,6 +18,7 @@ struct SceneOptions {
   std::string actuation = "car-like";
   std::size_t steps = 200;
   double dt = 0.05;
+  std::string replay;  ///< page to write, empty for none
 };
 
 nlohmann::ordered_json to_json(const std::string& scene, const SceneReport& report) {
@@ -44,8 +48,29 @@ nlohmann::ordered_json to_json(const std::string& scene, const SceneReport& repo
 int run(const SceneOptions& options, const CommonOptions& common) {
   const Actuation actuation = options.actuation == "ideal" ? Actuation::Ideal : Actuation::CarLike;
   const SceneFile file = read_scene_file(options.file, actuation);
+  const ScenarioConfig config = read_config({}, common.set);
   Workers workers(common.threads);
-  const SceneReport report = run_scene(file, ModelOptions{}, options.steps, options.dt, workers);
+
+  const std::filesystem::path page = options.replay;
+  const std::filesystem::path recording = std::filesystem::path(page).replace_extension(".bin");
+  std::unique_ptr<ReplayRecorder> recorder;
+  std::string name;
+  SceneObserver observer;
+  if (!page.empty()) {
+    recorder = std::make_unique<ReplayRecorder>(recording, file.name, RoadNetwork{}, file.types);
+    observer = [&](const Scene& scene) {
+      recorder->add(scene, nullptr, [&](AgentId id) -> std::string_view {
+        name = std::to_string(id.value);
+        return name;
+      });
+    };
+  }
+  const SceneReport report =
+      run_scene(file, config.model, options.steps, options.dt, workers, observer);
+  if (recorder) {
+    recorder->close();
+    write_replay_page(page, recording);
+  }
   std::printf("%s\n", to_json(file.name, report).dump(2).c_str());
   return kExitDone;
 }
@@ -66,6 +91,7 @@ CommandRunner add_scene_command(CLI::App& parent) {
   command->add_option("--dt", options->dt, "length of a tick [s]")
       ->check(CLI::Range(0.001, 1.0))
       ->capture_default_str();
+  command->add_option("--replay", options->replay, "page to write for watching it: FILE.html");
   return [options](const CommonOptions& common) { return run(*options, common); };
 }
 

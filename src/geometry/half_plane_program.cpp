@@ -10,6 +10,10 @@ namespace {
 
 // two lines whose directions differ by less than this sine never meet in practice
 constexpr double kParallel = 1e-9;
+// two opposite planes that leave a gap of no more than this share a line [m/s]
+constexpr double kSameLine = 1e-9;
+// likewise along a line
+constexpr double kSamePoint = 1e-9;
 // how far above the least violation the answer may stay, so that it moves continuously with its
 // input [m/s]
 constexpr double kViolationSlack = 0.01;
@@ -54,7 +58,7 @@ bool best_on_line(std::span<const HalfPlane> planes, std::size_t index, double r
     const double along = direction.dot(other.normal);
     const double gap = slack(other, line.point);
     if (std::abs(along) <= kParallel) {
-      if (gap < 0) return false;
+      if (gap < -kSameLine) return false;
       continue;
     }
     const double t = -gap / along;
@@ -62,8 +66,11 @@ bool best_on_line(std::span<const HalfPlane> planes, std::size_t index, double r
       low = std::max(low, t);
     else
       high = std::min(high, t);
-    if (low > high) return false;
+    if (low > high + kSamePoint) return false;
   }
+  // three lines through one point, as the faces of a hull that is a single point: what is left of
+  // it is rounding
+  if (low > high) low = high = 0.5 * (low + high);
   answer = line.point + objective.best(line.point, direction, low, high) * direction;
   return true;
 }
@@ -130,6 +137,9 @@ ProgramResult closest_point(std::span<const HalfPlane> planes, std::size_t hard_
   if (stopped < hard_count) {
     result.point = Vec2::Zero();
     result.binding = static_cast<int>(stopped);
+    for (std::size_t k = hard_count; k < planes.size(); ++k)
+      if (is_finite(planes[k]))
+        result.violation = std::max(result.violation, -slack(planes[k], result.point));
     return result;
   }
 

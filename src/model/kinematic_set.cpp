@@ -14,12 +14,12 @@ namespace {
 // grid of target speeds and angles of Eq. 1
 constexpr double kSpeedStep = 0.1;  // [m/s]
 constexpr int kAnglesASide = 6;
-constexpr int kAnglesAround = 16;
 constexpr int kTrackingSteps = 40;  // over the horizon
 // a steering rate above this reaches any angle at once, so that the present angle doesn't matter
 // [rad/s]
 constexpr double kInstantSteering = 12.0;
 // deviations beyond the slip of the centre must be reached within this time at walking speed
+constexpr double kShuffle = 0.05;      // [m/s]
 constexpr double kTurnTime = 0.3;      // [s]
 constexpr double kWalkingSpeed = 1.0;  // [m/s]
 // planes that lie this far beyond the speed limit can't bind
@@ -82,13 +82,19 @@ KinematicSet wheeled_set(const AgentType& type, double speed, double steering,
 }
 
 KinematicSet holonomic_set(const AgentType& type, double speed, const std::vector<Vec2>& normals) {
+  // finer ahead, where a fast body has all it can track
+  constexpr double kAngles[] = {0, 4, 8, 15, 25, 45, 70, 90, 115, 135, 160, 180};
   std::vector<Vec2> fan;
-  for (int k = 0; k < kAnglesAround; ++k) {
-    const double angle = k * (2.0 * kPi / kAnglesAround);
-    fan.push_back(largest_speed(type, speed, 0, angle) * direction_of(angle));
+  for (const double angle : kAngles) {
+    const double most = largest_speed(type, speed, 0, radians(angle));
+    fan.push_back(most * direction_of(radians(angle)));
+    fan.push_back(most * direction_of(radians(-angle)));
   }
   KinematicSet set;
   hull_supports(fan, normals, set);
+  // a shuffle in any direction, so that the set never shrinks to a line
+  for (std::size_t k = 0; k < normals.size(); ++k)
+    set.support[k] = std::max(set.support[k], kShuffle);
   return set;
 }
 

@@ -8,8 +8,9 @@ namespace sumogamma {
 
 namespace {
 
-// kept from walls [m]: what the corners of a turning body swing out between two ticks
+// kept from walls [m]: what the corners of a rolling body swing out between two ticks
 constexpr double kWallMargin = 0.1;
+constexpr double kLittle = 0.02;  // [m]
 // share of the emergency braking that approaching a wall counts on
 constexpr double kBrakingShare = 0.6;
 
@@ -30,6 +31,12 @@ Vec2 way_out(const Vec2& from, const Vec2& to) {
     return normal.dot(-from) >= 0 ? normal : Vec2(-normal);
   }
   return away.norm() > 1e-9 ? Vec2(away / away.norm()) : Vec2(1, 0);
+}
+
+/// Room kept from walls [m]. People turn on the spot: their shoulders swing out all they can.
+double wall_margin(const AgentGeometry& agent, const Footprint& footprint) {
+  if (agent.on_wheels) return kWallMargin;
+  return footprint.radius - (agent.is_box ? agent.half.minCoeff() : 0.0) + kLittle;
 }
 
 /// Fastest approach from which `distance` suffices to stop, a tick of reaction included [m/s].
@@ -86,8 +93,9 @@ void append_obstacle_constraints(const Model& model, const Scene& scene,
   const AgentType& type = type_of(model.types, agent.type);
   const double deceleration = kBrakingShare * type.max_deceleration;
   const double speed = std::max(agent.speed, std::min(scene.preferred_speed[row], type.max_speed));
-  const double reach = agent.radius + kWallMargin + speed * model.options.step +
-                       speed * speed / (2.0 * deceleration);
+  const double margin = wall_margin(agent, scene.footprint[row]);
+  const double reach =
+      agent.radius + margin + speed * model.options.step + speed * speed / (2.0 * deceleration);
   model.obstacles.find_near(agent.position, reach, found);
   if (found.empty()) return;
   const ConvexPolygon outline = place_polygon(scene.footprint[row].outline(), agent.forward);
@@ -95,8 +103,8 @@ void append_obstacle_constraints(const Model& model, const Scene& scene,
     const ObstacleIndex::Side& side = model.obstacles.side(index);
     const Clearance clear =
         clearance(outline, side.from - agent.position, side.to - agent.position);
-    const double most = approach_speed(std::max(clear.distance - kWallMargin, 0.0), deceleration,
-                                       model.options.step);
+    const double most =
+        approach_speed(std::max(clear.distance - margin, 0.0), deceleration, model.options.step);
     constraints.append({-most * clear.outward, clear.outward},
                        {ConstraintKind::Obstacle, side.obstacle});
   }

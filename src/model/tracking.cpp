@@ -22,11 +22,13 @@ BodyState advance_holonomic(const AgentType& type, const BodyState& body, const 
   const double asked_speed = velocity.norm();
   const Vec2 asked =
       asked_speed > type.max_speed ? Vec2(velocity * (type.max_speed / asked_speed)) : velocity;
+  // turning and slowing down take what braking takes, getting faster takes more time
   const Vec2 change = asked - body.velocity;
-  const bool speeding_up = asked.squaredNorm() > body.velocity.squaredNorm();
-  const double most = (speeding_up ? type.max_acceleration : type.max_deceleration) * dt;
-  const double length = change.norm();
+  const double length = change.norm(), most = type.max_deceleration * dt;
   next.velocity = length > most ? Vec2(body.velocity + change * (most / length)) : asked;
+  const double fastest = body.velocity.norm() + type.max_acceleration * dt,
+               speed = next.velocity.norm();
+  if (speed > fastest) next.velocity *= fastest / speed;
   next.position = body.position + next.velocity * dt;
   next.speed = next.velocity.norm();
   next.steering = 0;
