@@ -92,7 +92,10 @@ void append_obstacle_constraints(const Model& model, const Scene& scene,
   const AgentGeometry& agent = geometry.agent[row];
   const AgentType& type = type_of(model.types, agent.type);
   const double deceleration = kBrakingShare * type.max_deceleration;
-  const double speed = std::max(agent.speed, std::min(scene.preferred_speed[row], type.max_speed));
+  // as fast as it can be within half a second: what lies beyond that way to a stop is met later
+  const double soon = agent.speed + 0.5 * type.max_acceleration;
+  const double speed =
+      std::max(agent.speed, std::min({soon, scene.preferred_speed[row], type.max_speed}));
   const double margin = wall_margin(agent, scene.footprint[row]);
   const double reach =
       agent.radius + margin + speed * model.options.step + speed * speed / (2.0 * deceleration);
