@@ -90,6 +90,8 @@ void append_obstacle_constraints(const Model& model, const Scene& scene,
                                  std::vector<std::uint32_t>& found, ConstraintSet& constraints) {
   if (model.obstacles.empty()) return;
   const AgentGeometry& agent = geometry.agent[row];
+  // on the carriageway the boundaries of the lanes hold, and nothing solid stands within them
+  if (scene.context[row].active && agent.on_wheels) return;
   const AgentType& type = type_of(model.types, agent.type);
   const double deceleration = kBrakingShare * type.max_deceleration;
   // as fast as it can be within half a second: what lies beyond that way to a stop is met later
