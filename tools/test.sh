@@ -2,6 +2,7 @@
 # Builds and tests sumo-gamma; installs what that takes.
 #   tools/test.sh          everything, under the sanitizers, too
 #   tools/test.sh quick    build, unit and property tests
+#   tools/test.sh deep     everything and more: all of it with clang, too, and under the thread sanitizer
 #   tools/test.sh tidy     clang-tidy on every file (slow)
 # The last line adds it all up; the exit code is 0 only where nothing failed.
 set -euo pipefail
@@ -9,13 +10,13 @@ source "$(dirname "${BASH_SOURCE[0]}")/lib/common.sh"
 
 mode=${1:-full}
 case "$mode" in
-  full | quick | tidy) ;;
+  full | quick | deep | tidy) ;;
   -h | --help)
-    sed -n '2,6s/^# \{0,1\}//p' "$0"
+    sed -n '2,7s/^# \{0,1\}//p' "$0"
     exit 0
     ;;
   *)
-    sed -n '2,6s/^# \{0,1\}//p' "$0" >&2
+    sed -n '2,7s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac
@@ -68,14 +69,17 @@ runner=()
 
 case "$mode" in
   quick) test_stage dev '^(unit|property)$' ;;
-  full)
+  full | deep)
     test_stage dev '.'
     test_stage asan '^(unit|property|golden)$' tests_unit tests_property tests_golden
     # the other compiler must give the same bits
-    test_stage clang '^(unit|property|golden|fuzz)$'
+    test_stage clang '^(golden|fuzz)$' tests_golden tests_fuzz
     # g++ 12's thread sanitizer cannot place its memory where the kernel randomises addresses a lot
     setarch "$(uname -m)" -R true 2> /dev/null && runner=(setarch "$(uname -m)" -R)
-    test_stage tsan '^(unit|property)$' tests_unit tests_property
+    if [[ $mode == deep ]]; then
+      test_stage clang '^(unit|property)$' tests_unit tests_property
+      test_stage tsan '^(unit|property)$' tests_unit tests_property
+    fi
     ;;
 esac
 
