@@ -84,7 +84,13 @@ RunPlan make_plan(const RunOptions& options, const CommonOptions& common) {
   plan.input = find_scenario(options.scenario);
   plan.config = read_config(plan.input.settings, common.set);
   plan.step = options.step.value_or(plan.config.step);
-  plan.duration = options.duration.value_or(plan.config.duration);
+  // a user's own .sumocfg may say itself how long it is
+  const bool set = std::any_of(common.set.begin(), common.set.end(), [](const std::string& key) {
+    return key.rfind("run.duration", 0) == 0;
+  });
+  const double length = plan.input.end - plan.input.begin;
+  const bool own_length = plan.input.settings.empty() && !set && length > 0.0;
+  plan.duration = options.duration.value_or(own_length ? length : plan.config.duration);
   // the cap of scenario.toml belongs to imported demand; a user's own .sumocfg brings as many as it
   // likes
   const long cap = options.agents.value_or(plan.input.settings.empty() ? 0 : plan.config.agents);
@@ -274,6 +280,25 @@ bool failed(const RunOptions& options, const RunResults& results) {
   return failed;
 }
 
+/// Makes the output folder, and takes it away again where the run ends before it wrote anything.
+class OutputFolder {
+ public:
+  explicit OutputFolder(std::filesystem::path folder)
+      : folder_(std::move(folder)), existed_(std::filesystem::exists(folder_)) {
+    make_output_folder(folder_);
+  }
+  ~OutputFolder() {
+    std::error_code not_empty;
+    if (!existed_) std::filesystem::remove(folder_, not_empty);
+  }
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  std::filesystem::path folder_;
+  bool existed_;
+};
+
 /// Ticks until the duration is over, the user interrupts, or nothing is left. Returns how it ended.
 std::string run_ticks(const RunPlan& plan, Simulation& sim, SumoWorld& world, Observers& observers,
                       bool quiet) {
@@ -302,7 +327,7 @@ std::string run_ticks(const RunPlan& plan, Simulation& sim, SumoWorld& world, Ob
 
 int run_session(const RunOptions& options, const CommonOptions& common) {
   const RunPlan plan = make_plan(options, common);
-  make_output_folder(options.output);
+  const OutputFolder folder(options.output);
   if (!common.quiet) std::fprintf(stderr, "run: reading %s\n", plan.input.network.string().c_str());
   const std::unique_ptr<Simulation> sim = make_simulation(plan, common.threads);
   RunResults results;

@@ -1,5 +1,8 @@
 #include "sumo/scenario_input.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <pugixml.hpp>
 
 #include "base/error.h"
@@ -10,15 +13,26 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Value of an option by any of its names; empty where it isn't set. Options stand inside sections
+/// such as <input> or directly below the root.
+std::string value_of(const pugi::xml_node& root, std::initializer_list<std::string_view> names) {
+  const pugi::xml_node node = root.find_node([&](const pugi::xml_node& n) {
+    return std::find(names.begin(), names.end(), n.name()) != names.end();
+  });
+  return node.attribute("value") ? node.attribute("value").value() : node.attribute("v").value();
+}
+
+/// A time in plain seconds; `otherwise` where there is none or it is written in another way.
+double seconds_of(const std::string& value, double otherwise) {
+  char* end = nullptr;
+  const double seconds = std::strtod(value.c_str(), &end);
+  return end != value.c_str() && *end == '\0' && std::isfinite(seconds) ? seconds : otherwise;
+}
+
 /// Files of a comma-separated option value, relative to the config's folder as SUMO resolves them.
-std::vector<fs::path> files_of(const fs::path& config, const pugi::xml_node& root,
-                               const char* option) {
+std::vector<fs::path> files_of(const fs::path& config, const std::string& option,
+                               const std::string& value) {
   std::vector<fs::path> files;
-  // options stand inside sections such as <input> or directly below the root
-  const pugi::xml_node node =
-      root.find_node([&](const pugi::xml_node& n) { return std::string_view(n.name()) == option; });
-  std::string value =
-      node.attribute("value") ? node.attribute("value").value() : node.attribute("v").value();
   for (std::size_t start = 0; start < value.size();) {
     const std::size_t end = std::min(value.find(',', start), value.size());
     std::string name = value.substr(start, end - start);
@@ -29,7 +43,7 @@ std::vector<fs::path> files_of(const fs::path& config, const pugi::xml_node& roo
           fs::path(name).is_absolute() ? fs::path(name) : config.parent_path() / name;
       if (!fs::exists(file))
         throw Error(config.string(),
-                    std::string(option) + " names '" + file.string() + "', which does not exist");
+                    option + " names '" + file.string() + "', which does not exist");
       files.push_back(file);
     }
     start = end + 1;
@@ -65,15 +79,16 @@ ScenarioInput find_scenario(const fs::path& scenario) {
                                            parsed.description() + " at byte " +
                                            std::to_string(parsed.offset));
   const pugi::xml_node root = document.document_element();
-  const auto networks = files_of(files.config, root, "net-file");
+  const auto networks =
+      files_of(files.config, "net-file", value_of(root, {"net-file", "net", "n"}));
   if (networks.empty())
     throw Error(files.config.string(), "names no net-file, expected one in <input>");
   files.network = networks.front();
-  files_of(files.config, root, "route-files");
-  files.additional = files_of(files.config, root, "additional-files");
-  const pugi::xml_node begin =
-      root.find_node([](const pugi::xml_node& n) { return std::string_view(n.name()) == "begin"; });
-  files.begin = begin.attribute("value").as_double(0.0);
+  files_of(files.config, "route-files", value_of(root, {"route-files", "routes", "r"}));
+  files.additional = files_of(files.config, "additional-files",
+                              value_of(root, {"additional-files", "additional", "a"}));
+  files.begin = seconds_of(value_of(root, {"begin", "b"}), 0.0);
+  files.end = seconds_of(value_of(root, {"end", "e"}), -1.0);
   return files;
 }
 

@@ -14,6 +14,7 @@ struct ScenarioInput {
   std::filesystem::path network;   ///< the net file that the config names
   std::vector<std::filesystem::path> additional;  ///< its additional files
   double begin = 0;                               ///< [s]
+  double end = -1;                                ///< [s]; negative where it says none
 };
 
 /// Resolves SCENARIO (a folder with scenario.sumocfg, or a .sumocfg file). Throws Error naming the
