@@ -1,0 +1,145 @@
+#include "sumo/sumo_agents.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "support/small_net.h"
+
+namespace sumogamma {
+namespace {
+
+using ::testing::HasSubstr;
+
+Model small_model() {
+  Model model;
+  model.types = default_agent_types();
+  model.road = testing::small_net();
+  return model;
+}
+
+std::string type_for(const std::string& type_id, const std::string& vehicle_class,
+                     bool is_person = false) {
+  const AgentTypeTable types = default_agent_types();
+  SumoAgentDetails details;
+  details.type_id = type_id;
+  details.vehicle_class = vehicle_class;
+  details.is_person = is_person;
+  const auto type = agent_type_of(types, details);
+  return type ? type_of(types, *type).name : "";
+}
+
+TEST(AgentTypeOf, TheTypesOwnNameWins) {
+  EXPECT_EQ(type_for("electric_tricycle", "moped"), "electric_tricycle");
+  EXPECT_EQ(type_for("bus", "passenger"), "bus");
+}
+
+TEST(AgentTypeOf, ElseTheVehicleClassDecides) {
+  EXPECT_EQ(type_for("DEFAULT_VEHTYPE", "passenger"), "car");
+  EXPECT_EQ(type_for("sedan", "taxi"), "car");
+  EXPECT_EQ(type_for("x", "delivery"), "van");
+  EXPECT_EQ(type_for("x", "coach"), "bus");
+  EXPECT_EQ(type_for("x", "trailer"), "truck");
+  EXPECT_EQ(type_for("x", "moped"), "motorcycle");
+  EXPECT_EQ(type_for("x", "bicycle"), "bicycle");
+  EXPECT_EQ(type_for("DEFAULT_PEDTYPE", "pedestrian", true), "pedestrian");
+  EXPECT_EQ(type_for("x", "wheelchair", true), "pedestrian");
+}
+
+TEST(AgentTypeOf, WhatRunsOnRailsOrWaterIsNotDriven) {
+  for (const char* other : {"tram", "rail", "rail_urban", "rail_electric", "rail_fast", "ship"})
+    EXPECT_EQ(type_for("x", other), "") << other;
+}
+
+TEST(PathOf, StartsAtTheCentreOfTheBody) {
+  const Model model = small_model();
+  SumoAgentDetails details;
+  details.route = {"in", "out"};
+  details.vehicle_class = "passenger";
+  details.length = 4.5;
+  details.lane = "in_1";
+  details.lane_position = 20;  // of the front bumper
+  details.speed_factor = 1;
+  details.max_speed = 50;
+  std::string why;
+  const auto path = path_of(model, details, find_agent_type(model.types, "car"), why);
+  ASSERT_NE(path, nullptr) << why;
+  EXPECT_NEAR(path->line.point_at(0).x(), 17.75, 1e-9);
+  EXPECT_NEAR(path->arrival, 200 - 17.75, 1e-9);
+  EXPECT_FALSE(path->walking);
+}
+
+TEST(PathOf, CarriesPlannedHaltsInOrder) {
+  const Model model = small_model();
+  SumoAgentDetails details;
+  details.route = {"in", "out"};
+  details.vehicle_class = "bus";
+  details.length = 12;
+  details.lane = "in_1";
+  details.lane_position = 12;
+  details.stops = {{"out_0", 20, 40, 15}, {"in_1", 50, 60, 5}, {"nowhere_0", 1, 2, 3}};
+  std::string why;
+  const auto path = path_of(model, details, find_agent_type(model.types, "bus"), why);
+  ASSERT_NE(path, nullptr) << why;
+  ASSERT_EQ(path->stops.size(), 2u);
+  EXPECT_NEAR(path->stops[0].along, 60 - 6, 0.6);
+  EXPECT_EQ(path->stops[0].duration, 5);
+  EXPECT_NEAR(path->stops[1].along, 105 + 40 - 6, 0.6);
+}
+
+TEST(PathOf, SaysWhyThereIsNone) {
+  const Model model = small_model();
+  SumoAgentDetails details;
+  details.vehicle_class = "passenger";
+  details.route = {"in", "moon"};
+  std::string why;
+  EXPECT_EQ(path_of(model, details, find_agent_type(model.types, "car"), why), nullptr);
+  EXPECT_THAT(why, HasSubstr("edge 'moon' is not in the network"));
+  details.route = {"in", "bridge"};
+  EXPECT_EQ(path_of(model, details, find_agent_type(model.types, "car"), why), nullptr);
+  EXPECT_THAT(why, HasSubstr("bridge"));
+  details.is_person = true;
+  details.route = {"out"};
+  EXPECT_EQ(path_of(model, details, find_agent_type(model.types, "pedestrian"), why), nullptr);
+  EXPECT_THAT(why, HasSubstr("pedestrians"));
+}
+
+TEST(DrawBehavior, IsAPureFunctionOfSeedAndId) {
+  const AgentTypeTable types = default_agent_types();
+  const AgentType& car = type_of(types, find_agent_type(types, "car"));
+  std::set<double> seen;
+  for (std::uint32_t id = 0; id < 200; ++id) {
+    const BehaviorState drawn = draw_behavior(car, 7, {id}), again = draw_behavior(car, 7, {id});
+    EXPECT_EQ(drawn.responsibility, again.responsibility);
+    EXPECT_EQ(drawn.attention.front, again.attention.front);
+    EXPECT_EQ(drawn.intention.kind, IntentionKind::Path);
+    EXPECT_GE(drawn.responsibility, 0.0);
+    EXPECT_LE(drawn.responsibility, 1.0);
+    EXPECT_GT(drawn.attention.front, 0.5 * car.attention_front);
+    EXPECT_LT(drawn.attention.front, 2.0 * car.attention_front);
+    EXPECT_NEAR(drawn.attention.front / drawn.attention.rear,
+                car.attention_front / car.attention_rear, 1e-9);
+    seen.insert(drawn.responsibility);
+  }
+  EXPECT_EQ(seen.size(), 200u);
+  EXPECT_NE(draw_behavior(car, 7, {1}).responsibility, draw_behavior(car, 8, {1}).responsibility);
+}
+
+TEST(DrawPathOffset, TheSlowKeepToTheKerb) {
+  Model model = small_model();
+  for (const bool left_hand : {false, true}) {
+    model.road.left_hand = left_hand;
+    for (std::uint32_t id = 0; id < 100; ++id)
+      for (const AgentType& type : model.types) {
+        const double offset = draw_path_offset(model, type, 1, {id});
+        EXPECT_LE(std::abs(offset), 1.0);
+        if (type.width >= 1.2) continue;
+        // positive is left, where the kerb is with left-hand traffic
+        EXPECT_GT(left_hand ? offset : -offset, 0.0) << type.name;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace sumogamma
