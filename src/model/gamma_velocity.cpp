@@ -71,7 +71,8 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
   const std::span hard(constraints.planes.data(), constraints.hard_count);
   const double wish = work.preferred.norm();
   const Vec2 allowed = wish > fastest ? Vec2(work.preferred * (fastest / wish)) : work.preferred;
-  return guarded_velocity(work.guard, model, geometry, row, work.result.point, allowed, hard);
+  return guarded_velocity(work.guard, model, scene, geometry, row, work.result.point, allowed,
+                          hard);
 }
 
 }  // namespace sumogamma

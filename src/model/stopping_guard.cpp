@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "base/random.h"
+#include "base/units.h"
 #include "geometry/rotation.h"
 #include "model/tracking.h"
 
@@ -13,7 +16,9 @@ namespace {
 
 // a body slower than this is held up, and creeps at most this fast [m/s]
 constexpr double kCreep = 0.5;
-// rounding that doesn't make a gap smaller [m]
+// people shuffle without turning round, see tracking
+constexpr double kShuffle = 0.28;  // [m/s]
+// rounding: neither an overlap nor a smaller gap [m]
 constexpr double kSame = 1e-6;
 
 using Braking = StoppingGuard::Braking;
@@ -87,7 +92,7 @@ void StoppingGuard::prepare(const Model& model, const Scene& scene, const TickGe
 
 bool StoppingGuard::overlapping() const {
   return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t other) {
-    return overlap_depth(*scene_, *geometry_, row_, other) > 0;
+    return overlap_depth(*scene_, *geometry_, row_, other) > kSame;
   });
 }
 
@@ -117,7 +122,7 @@ StoppingGuard::Foe StoppingGuard::look_closely(std::uint32_t other) const {
   const AgentGeometry &own = geometry_->agent[row_], &their = geometry_->agent[other];
   Foe foe;
   foe.row = other;
-  foe.overlaps = overlap_depth(*scene_, *geometry_, row_, other) > 0;
+  foe.overlaps = overlap_depth(*scene_, *geometry_, row_, other) > kSame;
   if (foe.overlaps) return foe;
   const double step = model_->options.step;
   const Braking mine = braking_now(own, type_of(model_->types, own.type));
@@ -182,47 +187,72 @@ bool StoppingGuard::admits(const Vec2& velocity) {
 
 namespace {
 
-/// Creeping directions of a body that is held up, best first, as turns [rad] from its heading
-/// (wheels) or preferred direction (on foot).
-std::array<double, 3> creeping_turns(const AgentGeometry& own, const AgentType& type,
-                                     bool keep_left) {
-  const double passing = keep_left ? 1.0 : -1.0;
-  if (!own.on_wheels) return {passing, -passing, 0.0};
+/// A way to creep: turn [rad] from the heading (wheels) or the preferred direction (on foot), and
+/// speed [m/s].
+struct Creep {
+  double turn = 0, speed = kCreep;
+};
+
+std::array<Creep, 3> wheeled_creeps(const AgentGeometry& own, const AgentType& type,
+                                    double passing) {
   const double lock = std::tan(type.max_steering) * type.rear_axle_to_center / type.wheelbase;
   const double most = 0.999 * std::atan(std::max(lock, 0.2));
   // wheels that point somewhere already decide, so that it doesn't dither
   const double side = std::abs(own.curvature) > 0.02 ? std::copysign(1.0, own.curvature) : passing;
-  return {side * most, -side * most, 0.0};
+  return {Creep{side * most}, Creep{-side * most}, Creep{0.0}};
+}
+
+/// People shuffle aside to the passing side, or back, by a turn that every second is drawn anew
+/// from id and time alone: this opens crowds in which everybody waits for everybody, however even
+/// they are.
+std::array<Creep, 3> walking_creeps(const Scene& scene, std::size_t row, double passing) {
+  const auto second = static_cast<std::uint64_t>(scene.time);
+  const double turn =
+      passing * random_uniform(0, scene.id[row].value, second, Draw::Intention, 0.3, kPi);
+  return {Creep{turn, kShuffle}, Creep{-turn, kShuffle}, Creep{0.0, kShuffle}};
+}
+
+/// The first way to creep that the hard planes and the guard admit.
+std::optional<Vec2> creep_round(StoppingGuard& guard, const Model& model, const Scene& scene,
+                                const AgentGeometry& own, std::size_t row, const Vec2& preferred,
+                                std::span<const HalfPlane> hard) {
+  const double passing = model.options.keep_left ? 1.0 : -1.0;
+  const Vec2 ahead = own.on_wheels ? own.forward : Vec2(preferred.normalized());
+  const auto creeps = own.on_wheels ? wheeled_creeps(own, type_of(model.types, own.type), passing)
+                                    : walking_creeps(scene, row, passing);
+  for (const Creep& creep : creeps) {
+    const Vec2 velocity = creep.speed * from_body(rotation(creep.turn), ahead);
+    const bool within = std::all_of(hard.begin(), hard.end(),
+                                    [&](const HalfPlane& p) { return slack(p, velocity) >= 0; });
+    if (within && guard.admits(velocity)) return velocity;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
-Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const TickGeometry& geometry,
-                      std::size_t row, const Vec2& velocity, const Vec2& preferred,
-                      std::span<const HalfPlane> hard) {
+Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const Scene& scene,
+                      const TickGeometry& geometry, std::size_t row, const Vec2& velocity,
+                      const Vec2& preferred, std::span<const HalfPlane> hard) {
   const AgentGeometry& own = geometry.agent[row];
-  const AgentType& type = type_of(model.types, own.type);
-  const double asked = velocity.norm(), wish = preferred.norm();
-  const bool held = model.options.creep_when_held && asked < 0.5 * kCreep && wish > kCreep;
-  if (held && !guard.overlapping()) {
-    const Vec2 ahead = own.on_wheels ? own.forward : Vec2(preferred / wish);
-    for (const double turn : creeping_turns(own, type, model.options.keep_left)) {
-      const Vec2 creep = kCreep * from_body(rotation(turn), ahead);
-      const bool within = std::all_of(hard.begin(), hard.end(),
-                                      [&](const HalfPlane& p) { return slack(p, creep) >= 0; });
-      if (within && guard.admits(creep)) return creep;
-    }
+  const double asked = velocity.norm(), now = own.velocity.norm();
+  const double brake = type_of(model.types, own.type).max_deceleration * model.options.step;
+  // as asked, or the same way but slower: no faster than now, braking by half, braking
+  const bool stands = asked < 0.5 * kCreep;
+  if (!stands && guard.admits(velocity)) return velocity;
+  const Vec2 along = asked > 1e-6 ? Vec2(velocity / asked) : Vec2(Vec2::Zero());
+  for (const double speed : {now, now - 0.5 * brake, now - brake})
+    if (!stands && speed < asked && speed >= 0.5 * kCreep && guard.admits(speed * along))
+      return speed * along;
+
+  if (model.options.creep_when_held && preferred.norm() > kCreep && now < 2.0 * kCreep &&
+      !guard.overlapping()) {
+    const auto creep = creep_round(guard, model, scene, own, row, preferred, hard);
+    if (creep) return *creep;
   }
-  if (guard.admits(velocity)) return velocity;
-  if (asked < 1e-6) return Vec2::Zero();
-  // the same way, but slower: no faster than now, braking by half, braking
-  const Vec2 along = velocity / asked;
-  const double now = own.velocity.norm(), brake = type.max_deceleration * model.options.step;
-  for (const double speed : {now, now - 0.5 * brake, now - brake}) {
-    if (speed >= asked) continue;
-    const Vec2 slower = std::max(speed, 0.01 * asked) * along;
-    if (guard.admits(slower)) return slower;
-  }
+  const Vec2 least = std::min(asked, std::max(now - brake, 0.01 * asked)) * along;
+  for (const Vec2& last : {stands ? velocity : least, least})
+    if (guard.admits(last)) return last;
   return Vec2::Zero();
 }
 

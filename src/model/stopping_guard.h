@@ -89,9 +89,11 @@ class StoppingGuard {
 /// along it that it admits, or null: braking with the wheels as they are. A body that is held up
 /// (asked to stand although it prefers to go) creeps round what is in its way instead, as long as
 /// the guard and the hard planes admit that: to the side that its wheels point to already, else to
-/// the passing side first.
-Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const TickGeometry& geometry,
-                      std::size_t row, const Vec2& velocity, const Vec2& preferred,
-                      std::span<const HalfPlane> hard);
+/// the passing side first. Somebody on foot who has stood for seconds shuffles some way or other,
+/// back as well, drawn anew every second from id and time alone: this opens crowds in which
+/// everybody waits for everybody.
+Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const Scene& scene,
+                      const TickGeometry& geometry, std::size_t row, const Vec2& velocity,
+                      const Vec2& preferred, std::span<const HalfPlane> hard);
 
 }  // namespace sumogamma

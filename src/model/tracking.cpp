@@ -11,8 +11,8 @@ namespace {
 
 // the heading comes round to the asked direction within about this time at speed [s]
 constexpr double kSteeringTime = 0.25;
-// below this speed a pedestrian keeps facing where it faced [m/s]
-constexpr double kFacingSpeed = 0.05;
+// below this speed somebody on foot shuffles: sideways and back as well, without turning [m/s]
+constexpr double kFacingSpeed = 0.3;
 // nothing on wheels locks farther [rad]
 const double kMostSteering = radians(80);
 

@@ -96,7 +96,7 @@ TEST(StoppingGuard, LeavesAFreeBodyAlone) {
   prepare_tick(model, scene, workers, geometry);
   StoppingGuard guard;
   guard.prepare(model, scene, geometry, 0, {});
-  EXPECT_EQ(guarded_velocity(guard, model, geometry, 0, Vec2(5, 0.3), Vec2(5, 0), {}),
+  EXPECT_EQ(guarded_velocity(guard, model, scene, geometry, 0, Vec2(5, 0.3), Vec2(5, 0), {}),
             Vec2(5, 0.3));
 }
 
