@@ -34,6 +34,7 @@ build() {
     shift
   done
   logged "$project/build/$preset/configure.log" cmake --preset "$preset" -S "$project" || return 1
+  echo "compiling with $jobs jobs: a few minutes the first time (log: build/$preset/build.log)"
   logged "$project/build/$preset/build.log" \
     cmake --build "$project/build/$preset" -j "$jobs" "${targets[@]}" "$@"
 }
