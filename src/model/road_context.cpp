@@ -45,7 +45,9 @@ void set_geometry(const Scene& scene, const Course& course, RoadContext& context
     // squared over twice the radius, which is metres for a bus. The direction is taken a little ahead, for the time that
     // steering takes
     const double preview = course.along + 0.4 + 0.3 * course.speed;
-    const Vec2 chord = line.point_at(preview + 1.0) - line.point_at(preview - 1.0);
+    // over half a second and more, so that the corners of a coarse line don't ask for a jerk of the wheel
+    const double window = 1.0 + 0.5 * course.speed;
+    const Vec2 chord = line.point_at(preview + window) - line.point_at(preview - window);
     context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : direction;
     context.sub_goal = scene.position[course.row] + look_ahead(course) * context.tangent +
                        (offset - course.offset) * left_of(context.tangent);
