@@ -6,7 +6,8 @@
 
 namespace sumogamma {
 
-/// The outside is wrong (a file, an option): one line "<file or id>: what, expected what". Exit code 2.
+/// The outside is wrong (a file, an option): one line "<file or id>: what, expected what". Exit
+/// code 2.
 class Error : public std::runtime_error {
  public:
   Error(std::string_view where, std::string_view what)

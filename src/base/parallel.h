@@ -6,8 +6,9 @@
 
 namespace sumogamma {
 
-/// A pool that runs a function over a fixed partition of rows: worker w of n gets [w*rows/n, (w+1)*rows/n).
-/// Each row writes only its own output, so results are the same bits for any number of workers.
+/// A pool that runs a function over a fixed partition of rows: worker w of n gets [w*rows/n,
+/// (w+1)*rows/n). Each row writes only its own output, so results are the same bits for any number
+/// of workers.
 class Workers {
  public:
   /// count >= 1: threads in use, the calling one included.
@@ -18,10 +19,11 @@ class Workers {
 
   std::size_t count() const { return count_; }
 
-  /// Calls body(worker, begin, end) once for every worker with rows and waits for all. The first exception thrown by a
-  /// body is rethrown here. Does not allocate.
-  void for_each_range(std::size_t rows,
-                      const std::function<void(std::size_t worker, std::size_t begin, std::size_t end)>& body);
+  /// Calls body(worker, begin, end) once for every worker with rows and waits for all. The first
+  /// exception thrown by a body is rethrown here. Does not allocate.
+  void for_each_range(
+      std::size_t rows,
+      const std::function<void(std::size_t worker, std::size_t begin, std::size_t end)>& body);
 
  private:
   struct Pool;

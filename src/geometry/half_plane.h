@@ -11,6 +11,8 @@ struct HalfPlane {
 };
 
 /// Signed slack of v [unit of v]: negative where v violates the plane.
-inline double slack(const HalfPlane& plane, const Vec2& v) { return (v - plane.point).dot(plane.normal); }
+inline double slack(const HalfPlane& plane, const Vec2& v) {
+  return (v - plane.point).dot(plane.normal);
+}
 
 }  // namespace sumogamma

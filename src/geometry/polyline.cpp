@@ -18,7 +18,8 @@ Polyline::Polyline(std::vector<Vec2> points) {
 std::size_t Polyline::segment_at(double along) const {
   if (points_.size() < 2) return 0;
   const auto after = std::upper_bound(along_.begin(), along_.end(), along);
-  const auto index = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - along_.begin() - 1, 0));
+  const auto index =
+      static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - along_.begin() - 1, 0));
   return std::min(index, points_.size() - 2);
 }
 
@@ -45,7 +46,8 @@ PolylinePosition Polyline::project(const Vec2& point, double from, double to) co
   return project_segments(point, segment_at(from), segment_at(to));
 }
 
-PolylinePosition Polyline::project_segments(const Vec2& point, std::size_t first, std::size_t last) const {
+PolylinePosition Polyline::project_segments(const Vec2& point, std::size_t first,
+                                            std::size_t last) const {
   PolylinePosition best;
   if (points_.empty()) return best;
   if (points_.size() == 1) {

@@ -15,7 +15,8 @@ struct PolylinePosition {
   std::size_t segment = 0;
 };
 
-/// An immutable open chain of at least one point with its arc length. Consecutive duplicates are dropped.
+/// An immutable open chain of at least one point with its arc length. Consecutive duplicates are
+/// dropped.
 class Polyline {
  public:
   Polyline() = default;
@@ -35,7 +36,8 @@ class Polyline {
 
   /// Nearest point of the whole line.
   PolylinePosition project(const Vec2& point) const;
-  /// Nearest point among the segments that meet [from, to] [m]: follows one's own path where it crosses itself.
+  /// Nearest point among the segments that meet [from, to] [m]: follows one's own path where it
+  /// crosses itself.
   PolylinePosition project(const Vec2& point, double from, double to) const;
 
  private:

@@ -21,9 +21,13 @@ inline Vec2 direction_of(double heading) { return {std::cos(heading), std::sin(h
 inline double heading_of(const Vec2& v) { return std::atan2(v.y(), v.x()); }
 
 /// v expressed in world axes, given in axes whose x points along `forward` (unit).
-inline Vec2 from_body(const Vec2& v, const Vec2& forward) { return v.x() * forward + v.y() * left_of(forward); }
+inline Vec2 from_body(const Vec2& v, const Vec2& forward) {
+  return v.x() * forward + v.y() * left_of(forward);
+}
 
 /// World vector v expressed in axes whose x points along `forward` (unit).
-inline Vec2 to_body(const Vec2& v, const Vec2& forward) { return {forward.dot(v), cross(forward, v)}; }
+inline Vec2 to_body(const Vec2& v, const Vec2& forward) {
+  return {forward.dot(v), cross(forward, v)};
+}
 
 }  // namespace sumogamma

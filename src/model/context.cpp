@@ -10,7 +10,8 @@ namespace {
 constexpr double kCreep = 1.0;  // [m/s]
 }  // namespace
 
-void append_contextual_constraints(const Model& model, const Scene& scene, std::size_t row, ConstraintSet& constraints) {
+void append_contextual_constraints(const Model& model, const Scene& scene, std::size_t row,
+                                   ConstraintSet& constraints) {
   const RoadContext& context = scene.context[row];
   if (!context.active) return;
   const AgentType& type = type_of(model.types, scene.type[row]);
@@ -20,14 +21,16 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
   const KinematicSet trackable = model.kinematics[static_cast<std::size_t>(scene.type[row])].at(
       std::min(scene.speed[row], kCreep), scene.steering[row]);
 
-  // lane boundaries: lateral speed under d/tau (III-C); beyond a boundary no further, but standing stays allowed
+  // lane boundaries: lateral speed under d/tau (III-C); beyond a boundary no further, but standing
+  // stays allowed
   auto boundary = [&](double room, const Vec2& outward) {
     if (!std::isfinite(room)) return;
     double limit = std::max(room, 0.0) / type.horizon;
-    // differs from the paper: a wheeled body that points outward can only come back by rolling on while it turns, so it
-    // may creep along the inmost direction that it can track
+    // differs from the paper: a wheeled body that points outward can only come back by rolling on
+    // while it turns, so it may creep along the inmost direction that it can track
     if (on_wheels) {
-      const double turn = std::abs(heading_of(sumogamma::cross(forward, outward) > 0.0 ? trackable.right : trackable.left));
+      const double turn = std::abs(
+          heading_of(sumogamma::cross(forward, outward) > 0.0 ? trackable.right : trackable.left));
       const double away = std::asin(std::clamp(forward.dot(outward), -1.0, 1.0));
       limit = std::max(limit, kCreep * std::sin(std::clamp(away - 0.9 * turn, 0.0, 0.5 * kPi)));
     }
@@ -36,7 +39,8 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
   boundary(context.room_left, left);
   boundary(context.room_right, -left);
 
-  // driving direction: wheeled agents never go against their path; one that was turned away from it has to turn back first
+  // driving direction: wheeled agents never go against their path; one that was turned away from it
+  // has to turn back first
   if (on_wheels && forward.dot(context.tangent) > 0.3)
     constraints.append({Vec2::Zero(), context.tangent}, {ConstraintKind::Direction, -1});
 

@@ -6,8 +6,8 @@
 
 namespace sumogamma {
 
-Leader find_leader(const Model& model, const RoadState& road, const Scene& scene, const SpatialGrid& grid, std::size_t row,
-                   double reach) {
+Leader find_leader(const Model& model, const RoadState& road, const Scene& scene,
+                   const SpatialGrid& grid, std::size_t row, double reach) {
   Leader leader;
   const Path* path = road.path(scene.path[row]);
   if (path == nullptr) return leader;
@@ -38,10 +38,11 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     if (gap < -own_half_length) return;
     const Vec2 velocity = scene.velocity[other];
     const double other_speed = std::max(0.0, velocity.dot(direction));
-    // two vehicles across each other's way would wait for ever as leaders: that is for right of way and avoidance.
-    // Somebody on foot in the way is waited for, once near
+    // two vehicles across each other's way would wait for ever as leaders: that is for right of way
+    // and avoidance. Somebody on foot in the way is waited for, once near
     const bool aligned = direction.dot(direction_of(scene.heading[other])) > 0.5;
-    const bool on_foot = type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic;
+    const bool on_foot =
+        type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic;
     if (!aligned && (!on_foot || gap > 2.0 * speed + 3.0)) return;
     if (gap < leader.gap || (gap == leader.gap && scene.id[other].value < leader.id))
       leader = {gap, other_speed, rear, scene.id[other].value};

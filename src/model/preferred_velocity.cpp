@@ -13,40 +13,49 @@ Vec2 towards(const Vec2& from, const Vec2& to, double speed) {
   return distance > 1e-9 ? Vec2(delta * (speed / distance)) : Vec2(Vec2::Zero());
 }
 
-/// A wheeled body can't head for what lies beside or behind it: it asks for its tightest slow turn towards it instead.
+/// A wheeled body can't head for what lies beside or behind it: it asks for its tightest slow turn
+/// towards it instead.
 Vec2 within_turning(const Vec2& preferred, double heading) {
-  constexpr double kWidest = 0.9;      // [rad]
-  constexpr double kTurnSpeed = 2.0;   // [m/s]
+  constexpr double kWidest = 0.9;     // [rad]
+  constexpr double kTurnSpeed = 2.0;  // [m/s]
   const Vec2 forward = direction_of(heading);
   const double angle = std::atan2(cross(forward, preferred), forward.dot(preferred));
   if (std::abs(angle) <= kWidest) return preferred;
-  return std::min(preferred.norm(), kTurnSpeed) * direction_of(heading + std::copysign(kWidest, angle));
+  return std::min(preferred.norm(), kTurnSpeed) *
+         direction_of(heading + std::copysign(kWidest, angle));
 }
 
-/// Somebody on foot who stands although nothing on the road holds him tries another way round every second: a turn of up
-/// to a right angle and more, drawn from id and time alone.
+/// Somebody on foot who stands although nothing on the road holds him tries another way round every
+/// second: a turn of up to a right angle and more, drawn from id and time alone.
 Vec2 around(const Vec2& preferred, const Scene& scene, std::size_t row) {
   constexpr double kPatience = 2.0;  // [s]
-  if (scene.standing_time[row] < kPatience || scene.context[row].reason != LimitReason::None) return preferred;
-  const double turn = random_uniform(0, scene.id[row].value, static_cast<std::uint64_t>(scene.time), Draw::Intention, -2.2, 2.2);
+  if (scene.standing_time[row] < kPatience || scene.context[row].reason != LimitReason::None)
+    return preferred;
+  const double turn = random_uniform(0, scene.id[row].value, static_cast<std::uint64_t>(scene.time),
+                                     Draw::Intention, -2.2, 2.2);
   return 0.6 * from_body(preferred, direction_of(turn));
 }
 }  // namespace
 
-Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row, const Intention& intention) {
+Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row,
+                        const Intention& intention) {
   const AgentType& type = type_of(model.types, scene.type[row]);
   switch (intention.kind) {
     case IntentionKind::Goal: {
       // slower within the last second, so that it comes to rest there
       const double distance = (intention.goal - scene.position[row]).norm();
-      return towards(scene.position[row], intention.goal, std::min(scene.preferred_speed[row], distance));
+      return towards(scene.position[row], intention.goal,
+                     std::min(scene.preferred_speed[row], distance));
     }
     case IntentionKind::Path: {
       const RoadContext& context = scene.context[row];
-      if (!context.active) return towards(scene.position[row], intention.goal, scene.preferred_speed[row]);
-      const Vec2 preferred =
-          towards(scene.position[row], context.sub_goal, std::min(context.speed_limit, scene.preferred_speed[row]));
-      return type.kinematics == Kinematics::Holonomic ? around(preferred, scene, row) : within_turning(preferred, scene.heading[row]);
+      if (!context.active)
+        return towards(scene.position[row], intention.goal, scene.preferred_speed[row]);
+      const Vec2 preferred = towards(scene.position[row], context.sub_goal,
+                                     std::min(context.speed_limit, scene.preferred_speed[row]));
+      return type.kinematics == Kinematics::Holonomic
+                 ? around(preferred, scene, row)
+                 : within_turning(preferred, scene.heading[row]);
     }
     case IntentionKind::KeepVelocity:
       return scene.velocity[row];

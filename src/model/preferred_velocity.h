@@ -4,9 +4,10 @@
 
 namespace sumogamma {
 
-/// v_pref of III-D [m/s] for one row under an intention: Goal and Path point at the sub-goal with the preferred (or the
-/// road's) speed; KeepVelocity, KeepAcceleration (over half the horizon, speed kept in [0, max]), ConstantTurnRate and Stop
-/// need no context. Null at the goal itself.
-Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row, const Intention& intention);
+/// v_pref of III-D [m/s] for one row under an intention: Goal and Path point at the sub-goal with
+/// the preferred (or the road's) speed; KeepVelocity, KeepAcceleration (over half the horizon,
+/// speed kept in [0, max]), ConstantTurnRate and Stop need no context. Null at the goal itself.
+Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row,
+                        const Intention& intention);
 
 }  // namespace sumogamma

@@ -10,26 +10,30 @@ namespace sumogamma {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kStopMargin = 0.6;   ///< front halts this far before a line [m]
-constexpr double kTimeMargin = 1.0;   ///< left between two users of a conflict zone [s]
+constexpr double kStopMargin = 0.6;  ///< front halts this far before a line [m]
+constexpr double kTimeMargin = 1.0;  ///< left between two users of a conflict zone [s]
 
 /// When a body is inside a conflict zone [s from now].
 struct Occupation {
   double begin = 0, end = 0;
 };
 
-Occupation occupation(const AgentType& type, const Approach& who, double begin, double end, double top_speed) {
+Occupation occupation(const AgentType& type, const Approach& who, double begin, double end,
+                      double top_speed) {
   if (who.front - who.length > end) return {kNever, kNever};  // its rear has passed
   const double a = type.max_acceleration;
   // somebody who stands in the zone stays there as far as anyone can tell
   if (who.front > begin && who.speed < 0.3) return {0.0, kNever};
   return {time_to_cover(begin - who.front, who.speed, top_speed, a),
-          time_to_cover(end + who.length - who.front, who.speed, std::max(who.speed, 0.6 * top_speed), a)};
+          time_to_cover(end + who.length - who.front, who.speed,
+                        std::max(who.speed, 0.6 * top_speed), a)};
 }
 
-/// True where a foe that stands and waits lets `row` go first: it waits for a signal or in a queue, for this very agent, or
-/// it came later. Of two that wait for each other exactly one goes: who is on foot, else who has stood longer.
-bool waits_behind(const Model& model, const Scene& scene, const ApproachTable& approaches, const Approach& foe, std::size_t row) {
+/// True where a foe that stands and waits lets `row` go first: it waits for a signal or in a queue,
+/// for this very agent, or it came later. Of two that wait for each other exactly one goes: who is
+/// on foot, else who has stood longer.
+bool waits_behind(const Model& model, const Scene& scene, const ApproachTable& approaches,
+                  const Approach& foe, std::size_t row) {
   if (!foe.stands) return false;
   const Waiting& waiting = approaches.waiting(foe.row);
   switch (waiting.reason) {
@@ -46,7 +50,9 @@ bool waits_behind(const Model& model, const Scene& scene, const ApproachTable& a
     default:
       return false;
   }
-  auto on_foot = [&](std::size_t r) { return type_of(model.types, scene.type[r]).kinematics == Kinematics::Holonomic; };
+  auto on_foot = [&](std::size_t r) {
+    return type_of(model.types, scene.type[r]).kinematics == Kinematics::Holonomic;
+  };
   if (waiting.foe == scene.id[row].value && on_foot(row) != on_foot(foe.row)) return on_foot(row);
   const double own = scene.standing_time[row], other = scene.standing_time[foe.row];
   return own > other || (own == other && scene.id[row] < scene.id[foe.row]);
@@ -70,23 +76,30 @@ struct Judge {
     if (!foe_inside && foe.front < 0.0 && is_red(road.signal(foe_link))) return false;
 
     const Path* foe_path = road.path(scene.path[foe.row]);
-    const double foe_top = std::min(foe_path->profile_at(scene.path_along[foe.row]), foe_type.max_speed);
+    const double foe_top =
+        std::min(foe_path->profile_at(scene.path_along[foe.row]), foe_type.max_speed);
     const Occupation theirs = occupation(foe_type, foe, zone.foe_begin, zone.foe_end, foe_top);
     if (theirs.begin == kNever) return false;
-    const Approach own{link.connection, 0, traveller.front - link.stop_line, traveller.length, traveller.speed, false};
+    const Approach own{link.connection, 0,    traveller.front - link.stop_line, traveller.length,
+                       traveller.speed, false};
     const Occupation ours = occupation(own_type, own, zone.begin, zone.end, traveller.top_speed);
-    const bool overlap = ours.begin < theirs.end + kTimeMargin && theirs.begin < ours.end + kTimeMargin;
+    const bool overlap =
+        ours.begin < theirs.end + kTimeMargin && theirs.begin < ours.end + kTimeMargin;
     if (!overlap) return false;
-    const bool waits_for_us = foe.stands && approaches.waiting(foe.row).foe == scene.id[traveller.row].value;
+    const bool waits_for_us =
+        foe.stands && approaches.waiting(foe.row).foe == scene.id[traveller.row].value;
     if (foe_inside && !waits_for_us) return theirs.end + 0.3 > ours.begin;
-    // no rule for this pair, or past the line already: who gets there first goes first, the other waits for it
+    // no rule for this pair, or past the line already: who gets there first goes first, the other
+    // waits for it
     const bool past_line = traveller.front > link.stop_line + 0.3;
     if ((zone.unruled || past_line) && !foe_inside)
-      return theirs.begin < ours.begin || (theirs.begin == ours.begin && scene.id[foe.row] < scene.id[traveller.row]);
+      return theirs.begin < ours.begin ||
+             (theirs.begin == ours.begin && scene.id[foe.row] < scene.id[traveller.row]);
     if (!zone.yields && !foe_inside) {
       // right of way, but nobody steps in front of a vehicle that can no longer stop
       const bool vulnerable = own_type.kinematics == Kinematics::Holonomic;
-      const bool unstoppable = deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) > 0.7 * foe_type.max_deceleration;
+      const bool unstoppable = deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) >
+                               0.7 * foe_type.max_deceleration;
       return vulnerable && unstoppable && foe_type.kinematics != Kinematics::Holonomic;
     }
     return !waits_behind(model, scene, approaches, foe, traveller.row);
@@ -95,24 +108,29 @@ struct Judge {
 
 }  // namespace
 
-LinkDecision decide_link(const Model& model, const RoadState& road, const Scene& scene, const ApproachTable& approaches,
-                         const Traveller& traveller, const PathLink& link) {
+LinkDecision decide_link(const Model& model, const RoadState& road, const Scene& scene,
+                         const ApproachTable& approaches, const Traveller& traveller,
+                         const PathLink& link) {
   const Connection& connection = model.road.connection(link.connection);
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const char signal = road.signal(connection);
   const double to_line = link.stop_line - traveller.front;
   LinkDecision decision;
 
-  // signals: red always; amber where braking at ease still does it. Once past the line, clear the junction.
+  // signals: red always; amber where braking at ease still does it. Once past the line, clear the
+  // junction.
   if (to_line > -1.0) {
     const double needed = deceleration_to_stop(traveller.speed, to_line - 0.2);
     const bool amber_stop = is_amber(signal) && needed < type.comfortable_deceleration;
-    const bool red_stop = is_red(signal) && (needed < type.max_deceleration || traveller.speed < 1.0);
-    if (amber_stop || red_stop) return {true, link.stop_line - kStopMargin, LimitReason::Signal, -1};
+    const bool red_stop =
+        is_red(signal) && (needed < type.max_deceleration || traveller.speed < 1.0);
+    if (amber_stop || red_stop)
+      return {true, link.stop_line - kStopMargin, LimitReason::Signal, -1};
   }
   if (connection.state == 's' && signal == 'O' && to_line > -0.2) {
     const bool halted = to_line < 2.5 && scene.standing_time[traveller.row] > 0.3;
-    if (!halted && scene.standing_time[traveller.row] < 0.3) decision = {true, link.stop_line - kStopMargin, LimitReason::Yield, -1};
+    if (!halted && scene.standing_time[traveller.row] < 0.3)
+      decision = {true, link.stop_line - kStopMargin, LimitReason::Yield, -1};
   }
 
   const bool free_green = signal == 'G';
@@ -125,8 +143,12 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
     for (const Approach& foe : approaches.of(zone.foe)) {
       if (!judge.blocks(zone, foe)) continue;
       // wait at the line; inside the junction only where the own body is past the line already
-      const double line = to_line > -0.2 ? link.stop_line - kStopMargin : link.stop_line + zone.begin - kStopMargin;
-      if (deceleration_to_stop(traveller.speed, line - traveller.front) > 0.8 * type.max_deceleration && traveller.speed > 1.0) continue;
+      const double line =
+          to_line > -0.2 ? link.stop_line - kStopMargin : link.stop_line + zone.begin - kStopMargin;
+      if (deceleration_to_stop(traveller.speed, line - traveller.front) >
+              0.8 * type.max_deceleration &&
+          traveller.speed > 1.0)
+        continue;
       if (!decision.must_stop || line < decision.stop_at)
         decision = {true, line, zone.foe_is_crossing ? LimitReason::Crossing : LimitReason::Yield,
                     static_cast<std::int64_t>(scene.id[foe.row].value)};

@@ -15,14 +15,15 @@ struct LinkDecision {
 /// The traveller whose link is judged.
 struct Traveller {
   std::size_t row = 0;
-  double front = 0;        ///< along its path [m]
-  double length = 0;       ///< [m]
-  double speed = 0;        ///< along its path [m/s]
-  double top_speed = 0;    ///< that it would like to reach [m/s]
+  double front = 0;      ///< along its path [m]
+  double length = 0;     ///< [m]
+  double speed = 0;      ///< along its path [m/s]
+  double top_speed = 0;  ///< that it would like to reach [m/s]
 };
 
 /// Signals, priority and occupied conflict zones (facts of the network) applied to one link.
-LinkDecision decide_link(const Model& model, const RoadState& road, const Scene& scene, const ApproachTable& approaches,
-                         const Traveller& traveller, const PathLink& link);
+LinkDecision decide_link(const Model& model, const RoadState& road, const Scene& scene,
+                         const ApproachTable& approaches, const Traveller& traveller,
+                         const PathLink& link);
 
 }  // namespace sumogamma

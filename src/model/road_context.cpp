@@ -33,19 +33,22 @@ void set_geometry(const Scene& scene, const Course& course, RoadContext& context
   const double beyond = std::max(0.0, ahead - line.length());
   const Vec2 direction = line.direction_at(ahead);
   const PathStretch& target = course.path.stretch_at(ahead);
-  const double half_width = half_extent(scene, course.row, left_of(direction_of(scene.heading[course.row])));
-  const double offset = std::clamp(scene.path_offset[course.row], -std::max(target.room_right - half_width - 0.1, 0.0),
+  const double half_width =
+      half_extent(scene, course.row, left_of(direction_of(scene.heading[course.row])));
+  const double offset = std::clamp(scene.path_offset[course.row],
+                                   -std::max(target.room_right - half_width - 0.1, 0.0),
                                    std::max(target.room_left - half_width - 0.1, 0.0));
   if (course.path.walking) {
     context.sub_goal = line.point_at(ahead) + beyond * direction + offset * left_of(direction);
     const Vec2 chord = line.point_at(ahead) + beyond * direction - line.point_at(course.along);
     context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : direction;
   } else {
-    // the sub-goal lies ahead in the path's own coordinates: aimed at straight, it would cut every bend by the look-ahead
-    // squared over twice the radius, which is metres for a bus. The direction is taken a little ahead, for the time that
-    // steering takes
+    // the sub-goal lies ahead in the path's own coordinates: aimed at straight, it would cut every
+    // bend by the look-ahead squared over twice the radius, which is metres for a bus. The
+    // direction is taken a little ahead, for the time that steering takes
     const double preview = course.along + 0.4 + 0.3 * course.speed;
-    // over half a second and more, so that the corners of a coarse line don't ask for a jerk of the wheel
+    // over half a second and more, so that the corners of a coarse line don't ask for a jerk of the
+    // wheel
     const double window = 1.0 + 0.5 * course.speed;
     const Vec2 chord = line.point_at(preview + window) - line.point_at(preview - window);
     context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : direction;
@@ -59,7 +62,8 @@ void set_geometry(const Scene& scene, const Course& course, RoadContext& context
 }
 
 /// Tightens the context's acceleration for something to stop for or to follow.
-void limit(double acceleration, LimitReason reason, std::int64_t foe, double& binding, RoadContext& context) {
+void limit(double acceleration, LimitReason reason, std::int64_t foe, double& binding,
+           RoadContext& context) {
   if (acceleration >= binding) return;
   binding = acceleration;
   context.reason = reason;
@@ -70,25 +74,28 @@ void limit(double acceleration, LimitReason reason, std::int64_t foe, double& bi
 double stop_acceleration(const Scene& scene, const Course& course, double free_speed) {
   const auto next = static_cast<std::size_t>(scene.next_stop[course.row]);
   if (next >= course.path.stops.size()) return course.type.max_acceleration;
-  const double gap = course.path.stops[next].along - course.along - course.half_length + course.type.min_gap;
+  const double gap =
+      course.path.stops[next].along - course.along - course.half_length + course.type.min_gap;
   return following_acceleration(course.type, course.speed, free_speed, gap, 0.0);
 }
 
-void set_allowed_speed(const Model& model, const RoadState& road, const Scene& scene, const SpatialGrid& grid,
-                       const ApproachTable& approaches, const Course& course, double dt, RoadContext& context) {
+void set_allowed_speed(const Model& model, const RoadState& road, const Scene& scene,
+                       const SpatialGrid& grid, const ApproachTable& approaches,
+                       const Course& course, double dt, RoadContext& context) {
   const AgentType& type = course.type;
   const double front = course.along + course.half_length;
   const double free_speed = context.speed_limit;
   const double braking = course.speed * course.speed / (2.0 * type.comfortable_deceleration);
   const double reach = std::min(15.0 + 2.5 * course.speed + braking, 250.0);
 
-  double binding = following_acceleration(type, course.speed, free_speed, std::numeric_limits<double>::infinity(), 0.0);
+  double binding = following_acceleration(type, course.speed, free_speed,
+                                          std::numeric_limits<double>::infinity(), 0.0);
   Leader leader;
   if (!course.path.walking) {
     leader = find_leader(model, road, scene, grid, course.row, reach);
     if (leader.id >= 0)
-      limit(following_acceleration(type, course.speed, free_speed, leader.gap, leader.speed), LimitReason::Leader,
-            leader.id, binding, context);
+      limit(following_acceleration(type, course.speed, free_speed, leader.gap, leader.speed),
+            LimitReason::Leader, leader.id, binding, context);
   }
   const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed, free_speed};
   for (const PathLink& link : course.path.links) {
@@ -97,13 +104,14 @@ void set_allowed_speed(const Model& model, const RoadState& road, const Scene& s
     LinkDecision decision = decide_link(model, road, scene, approaches, traveller, link);
     // keep clear: no entering a junction without room behind it
     const bool conflicts = !model.conflicts[index_of(link.connection)].empty();
-    if (!decision.must_stop && conflicts && leader.id >= 0 && link.stop_line > front - 0.3 && leader.speed < 1.0 &&
-        leader.along > link.stop_line && leader.along < link.end + 2.0 * course.half_length + type.min_gap + 0.5)
+    if (!decision.must_stop && conflicts && leader.id >= 0 && link.stop_line > front - 0.3 &&
+        leader.speed < 1.0 && leader.along > link.stop_line &&
+        leader.along < link.end + 2.0 * course.half_length + type.min_gap + 0.5)
       decision = {true, link.stop_line - 0.6, LimitReason::BlockedJunction, leader.id};
     if (!decision.must_stop) continue;
     const double gap = decision.stop_at - front + type.min_gap;
-    limit(following_acceleration(type, course.speed, free_speed, gap, 0.0), decision.reason, decision.foe, binding,
-          context);
+    limit(following_acceleration(type, course.speed, free_speed, gap, 0.0), decision.reason,
+          decision.foe, binding, context);
     break;
   }
   limit(stop_acceleration(scene, course, free_speed), LimitReason::Stop, -1, binding, context);
@@ -111,10 +119,11 @@ void set_allowed_speed(const Model& model, const RoadState& road, const Scene& s
 }
 
 /// Walkers stop dead at a kerb, and otherwise leave each other to avoidance.
-void set_walker_limit(const Model& model, const RoadState& road, const Scene& scene, const ApproachTable& approaches,
-                      const Course& course, RoadContext& context) {
+void set_walker_limit(const Model& model, const RoadState& road, const Scene& scene,
+                      const ApproachTable& approaches, const Course& course, RoadContext& context) {
   const double front = course.along + course.half_length;
-  const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed, context.speed_limit};
+  const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed,
+                            context.speed_limit};
   for (const PathLink& link : course.path.links) {
     if (link.end < course.along || link.stop_line < front - 0.5) continue;
     if (link.stop_line > front + 4.0) break;
@@ -129,8 +138,8 @@ void set_walker_limit(const Model& model, const RoadState& road, const Scene& sc
 
 }  // namespace
 
-void update_road_contexts(const Model& model, const RoadState& road, const SpatialGrid& grid, double dt, Workers& workers,
-                          ApproachTable& approaches, Scene& scene) {
+void update_road_contexts(const Model& model, const RoadState& road, const SpatialGrid& grid,
+                          double dt, Workers& workers, ApproachTable& approaches, Scene& scene) {
   approaches.rebuild(model, road, scene);
   workers.for_each_range(scene.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
@@ -139,14 +148,21 @@ void update_road_contexts(const Model& model, const RoadState& road, const Spati
       if (path != nullptr) {
         const double along = scene.path_along[row];
         const Vec2 tangent = path->line.direction_at(along);
-        const Course course{*path, type_of(model.types, scene.type[row]), row, along,
-                            cross(tangent, scene.position[row] - path->line.point_at(along)),
-                            half_extent(scene, row, tangent), path->walking ? std::max(0.0, scene.velocity[row].dot(tangent)) : scene.speed[row]};
+        const Course course{
+            *path,
+            type_of(model.types, scene.type[row]),
+            row,
+            along,
+            cross(tangent, scene.position[row] - path->line.point_at(along)),
+            half_extent(scene, row, tangent),
+            path->walking ? std::max(0.0, scene.velocity[row].dot(tangent)) : scene.speed[row]};
         context.active = true;
         context.speed_limit = std::min(path->profile_at(along), scene.preferred_speed[row]);
         set_geometry(scene, course, context);
-        if (path->walking) set_walker_limit(model, road, scene, approaches, course, context);
-        else set_allowed_speed(model, road, scene, grid, approaches, course, dt, context);
+        if (path->walking)
+          set_walker_limit(model, road, scene, approaches, course, context);
+        else
+          set_allowed_speed(model, road, scene, grid, approaches, course, dt, context);
       }
       // a row reads other rows' state but never their new context
       scene.context[row] = context;

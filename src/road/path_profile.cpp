@@ -41,18 +41,23 @@ void compute_speed_profile(const PathRequest& request, Path& path) {
 }
 
 namespace {
-/// Half width [m] of the box filter at each sample: enough for the radius around bends that are too tight, 0 elsewhere, with
-/// ramps between. A right angle filtered over +-w turns with radius w / sqrt(2) at its tightest and is cut by a third of w,
-/// so long bodies don't get all they want: they must not cut over the kerb.
-std::vector<double> filter_widths(const std::vector<Vec2>& samples, double step, double turning_radius) {
+/// Half width [m] of the box filter at each sample: enough for the radius around bends that are too
+/// tight, 0 elsewhere, with ramps between. A right angle filtered over +-w turns with radius w /
+/// sqrt(2) at its tightest and is cut by a third of w, so long bodies don't get all they want: they
+/// must not cut over the kerb.
+std::vector<double> filter_widths(const std::vector<Vec2>& samples, double step,
+                                  double turning_radius) {
   constexpr double kWidest = 4.0, kReach = 2.0, kRamp = 0.8;
   const double width = std::min(std::sqrt(2.0) * turning_radius, kWidest);
   const auto reach = static_cast<std::size_t>(std::max(1.0, kReach / step));
   std::vector<double> widths(samples.size(), 0.0);
   for (std::size_t i = reach; i + reach < samples.size(); ++i)
-    if (menger_curvature(samples[i - reach], samples[i], samples[i + reach]) * turning_radius > 1.0) widths[i] = width;
-  for (std::size_t i = 1; i < widths.size(); ++i) widths[i] = std::max(widths[i], widths[i - 1] - kRamp * step);
-  for (std::size_t i = widths.size() - 1; i-- > 0;) widths[i] = std::max(widths[i], widths[i + 1] - kRamp * step);
+    if (menger_curvature(samples[i - reach], samples[i], samples[i + reach]) * turning_radius > 1.0)
+      widths[i] = width;
+  for (std::size_t i = 1; i < widths.size(); ++i)
+    widths[i] = std::max(widths[i], widths[i - 1] - kRamp * step);
+  for (std::size_t i = widths.size() - 1; i-- > 0;)
+    widths[i] = std::max(widths[i], widths[i + 1] - kRamp * step);
   return widths;
 }
 }  // namespace

@@ -27,15 +27,18 @@ constexpr std::size_t index_of(Id id) {
   return static_cast<std::size_t>(id);
 }
 
-/// SUMO's abstract vehicle classes that matter here, as bits of a mask (page Simulation/VehiclePermissions).
+/// SUMO's abstract vehicle classes that matter here, as bits of a mask (page
+/// Simulation/VehiclePermissions).
 using VehicleClassMask = std::uint32_t;
 namespace vehicle_class {
-inline constexpr VehicleClassMask kPedestrian = 1u << 0, kBicycle = 1u << 1, kMotorcycle = 1u << 2, kMoped = 1u << 3,
-                                  kPassenger = 1u << 4, kDelivery = 1u << 5, kTruck = 1u << 6, kTrailer = 1u << 7,
-                                  kBus = 1u << 8, kTaxi = 1u << 9, kEmergency = 1u << 10, kTram = 1u << 11,
+inline constexpr VehicleClassMask kPedestrian = 1u << 0, kBicycle = 1u << 1, kMotorcycle = 1u << 2,
+                                  kMoped = 1u << 3, kPassenger = 1u << 4, kDelivery = 1u << 5,
+                                  kTruck = 1u << 6, kTrailer = 1u << 7, kBus = 1u << 8,
+                                  kTaxi = 1u << 9, kEmergency = 1u << 10, kTram = 1u << 11,
                                   kRail = 1u << 12, kOther = 1u << 13, kAll = ~0u;
 }
-/// Mask of a SUMO class name; kOther for one not listed above ("rail_urban" and its kin are kRail, "ship" is kOther).
+/// Mask of a SUMO class name; kOther for one not listed above ("rail_urban" and its kin are kRail,
+/// "ship" is kOther).
 VehicleClassMask vehicle_class_from_name(const std::string& name);
 
 enum class LaneKind : std::uint8_t { Normal, Internal, Crossing, WalkingArea };
@@ -47,18 +50,22 @@ struct Lane {
   int index = 0;  ///< within the edge, 0 = rightmost (leftmost with left-hand traffic)
   LaneKind kind = LaneKind::Normal;
   VehicleClassMask allowed = vehicle_class::kAll;
-  double speed_limit = 0;     ///< [m/s]
-  double width = 0;           ///< [m]
-  double length = 0;          ///< as SUMO counts positions on it [m]; the centerline may be longer or shorter
-  Polyline centerline;        ///< [m]; of a walking area: its outline ring (not a path)
-  std::vector<double> elevation;  ///< by vertex of the centerline [m]; empty: 0 everywhere. Keeps bridges apart
+  double speed_limit = 0;  ///< [m/s]
+  double width = 0;        ///< [m]
+  double length =
+      0;  ///< as SUMO counts positions on it [m]; the centerline may be longer or shorter
+  Polyline centerline;  ///< [m]; of a walking area: its outline ring (not a path)
+  std::vector<double>
+      elevation;  ///< by vertex of the centerline [m]; empty: 0 everywhere. Keeps bridges apart
   std::vector<Vec2> outline;  ///< polygon of a walking area or crossing as in the file, else empty
-  LaneId inner = kNoLane;     ///< neighbour with the next higher index on the same edge (towards the road's middle)
-  LaneId outer = kNoLane;     ///< neighbour with the next lower index on the same edge (towards the kerb)
+  LaneId inner = kNoLane;  ///< neighbour with the next higher index on the same edge (towards the
+                           ///< road's middle)
+  LaneId outer =
+      kNoLane;  ///< neighbour with the next lower index on the same edge (towards the kerb)
   LaneId opposite = kNoLane;  ///< nearest lane of the opposite direction, where the network says so
-  JunctionId junction = kNoJunction;       ///< of internal lanes, crossings and walking areas
-  std::vector<ConnectionId> outgoing;      ///< connections that start here
-  std::vector<ConnectionId> incoming;      ///< connections that end here
+  JunctionId junction = kNoJunction;   ///< of internal lanes, crossings and walking areas
+  std::vector<ConnectionId> outgoing;  ///< connections that start here
+  std::vector<ConnectionId> incoming;  ///< connections that end here
 };
 
 /// Height of the lane `along` its centerline [m], interpolated; 0 in a flat network.
@@ -69,8 +76,8 @@ struct Edge {
   LaneKind kind = LaneKind::Normal;
   JunctionId from = kNoJunction, to = kNoJunction;
   int priority = 0;
-  std::string type;           ///< OSM type such as "highway.primary"; may be empty
-  std::vector<LaneId> lanes;  ///< by index
+  std::string type;                    ///< OSM type such as "highway.primary"; may be empty
+  std::vector<LaneId> lanes;           ///< by index
   std::vector<EdgeId> crossing_edges;  ///< of a crossing: the edges that it crosses
 };
 
@@ -81,16 +88,18 @@ struct Connection {
   JunctionId junction = kNoJunction;
   int junction_link = -1;  ///< index into Junction::requests; -1 where the link has none
   SignalId signal = kNoSignal;
-  int signal_link = -1;    ///< index into the signal's state string
-  char direction = 's';    ///< SUMO's dir: s straight, l left, r right, t turn-around, L partially left, R partially right
-  char state = 'M';        ///< SUMO's static state: M major, m minor, = equal, s stop, w all-way stop, o/O off, Z zipper
+  int signal_link = -1;  ///< index into the signal's state string
+  char direction = 's';  ///< SUMO's dir: s straight, l left, r right, t turn-around, L partially
+                         ///< left, R partially right
+  char state = 'M';  ///< SUMO's static state: M major, m minor, = equal, s stop, w all-way stop,
+                     ///< o/O off, Z zipper
 };
 
 /// One row of a junction's right-of-way matrix (SUMO page Networks/SUMO_Road_Networks#requests).
 struct RightOfWay {
-  std::vector<bool> yields_to;  ///< by link: this link must let that one pass
-  std::vector<bool> conflicts;  ///< by link: the two paths cross or merge
-  bool may_stop_inside = false; ///< SUMO's cont: may wait on the junction
+  std::vector<bool> yields_to;   ///< by link: this link must let that one pass
+  std::vector<bool> conflicts;   ///< by link: the two paths cross or merge
+  bool may_stop_inside = false;  ///< SUMO's cont: may wait on the junction
 };
 
 struct Junction {
@@ -99,7 +108,8 @@ struct Junction {
   Vec2 position = Vec2::Zero();
   std::vector<Vec2> outline;
   std::vector<RightOfWay> requests;
-  std::vector<ConnectionId> links;  ///< by request index; kNoConnection for an index without a connection
+  std::vector<ConnectionId>
+      links;  ///< by request index; kNoConnection for an index without a connection
   bool in_roundabout = false;
 };
 
@@ -114,7 +124,8 @@ enum class ObstacleKind : std::uint8_t { Building, Barrier, Furniture };
 /// A solid thing off the road network that nobody walks or drives through.
 struct Obstacle {
   ObstacleKind kind = ObstacleKind::Building;
-  std::vector<Vec2> outline;  ///< closed ring without a repeated point (Building) or open chain (Barrier)
+  std::vector<Vec2>
+      outline;  ///< closed ring without a repeated point (Building) or open chain (Barrier)
 };
 
 /// Everything immutable about the place: built once by the reader, valid by construction.
@@ -126,9 +137,10 @@ struct RoadNetwork {
   std::vector<Junction> junctions;
   std::vector<Signal> signals;
   std::vector<Obstacle> obstacles;
-  Vec2 lower_corner = Vec2::Zero(), upper_corner = Vec2::Zero();  ///< bounding box of the network [m]
-  std::string projection;               ///< PROJ string of the file, "!" where there is none
-  Vec2 projection_offset = Vec2::Zero();///< added to projected coordinates [m]
+  Vec2 lower_corner = Vec2::Zero(),
+       upper_corner = Vec2::Zero();       ///< bounding box of the network [m]
+  std::string projection;                 ///< PROJ string of the file, "!" where there is none
+  Vec2 projection_offset = Vec2::Zero();  ///< added to projected coordinates [m]
 
   std::unordered_map<std::string, LaneId> lane_by_name;
   std::unordered_map<std::string, EdgeId> edge_by_name;

@@ -122,8 +122,10 @@ class SumoWorld : public World {
     double position = 0;    ///< along the lane [m]
     double last_seen = 0;   ///< when a vehicle of ours was last on it [s]
   };
-  std::map<LaneId, std::vector<LaneDetector>> detectors_;         ///< induction loops on lanes of the network
-  std::vector<std::pair<std::string, double>> detector_ages_;     ///< id and seconds since it was last passed
+  std::map<LaneId, std::vector<LaneDetector>>
+      detectors_;  ///< induction loops on lanes of the network
+  std::vector<std::pair<std::string, double>>
+      detector_ages_;  ///< id and seconds since it was last passed
   double time_ = 0;
 };
 

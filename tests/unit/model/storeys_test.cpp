@@ -31,13 +31,9 @@ Vec2 velocity_against(double height_of_other) {
   return gamma_velocity(model, scene, geometry, 0, scene.behavior[0], work);
 }
 
-TEST(Storeys, AnAgentOnTheSameGroundIsAvoided) {
-  EXPECT_LT(velocity_against(0.0).x(), 7.0);
-}
+TEST(Storeys, AnAgentOnTheSameGroundIsAvoided) { EXPECT_LT(velocity_against(0.0).x(), 7.0); }
 
-TEST(Storeys, AnAgentOnABridgeAboveIsNot) {
-  EXPECT_NEAR(velocity_against(5.0).x(), 8.0, 1e-6);
-}
+TEST(Storeys, AnAgentOnABridgeAboveIsNot) { EXPECT_NEAR(velocity_against(5.0).x(), 8.0, 1e-6); }
 
 }  // namespace
 }  // namespace sumogamma
