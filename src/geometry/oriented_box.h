@@ -34,7 +34,7 @@ class BoxDifference {
   /// it within `time` [s] because it doesn't along the axis that separates the two best: such
   /// velocities lie outside VO^time.
   bool stays_apart(const Vec2& velocity, double time, double more = 0) const {
-    return (axis_.dot(velocity) + more) * time < gap_;
+    return gap_ > 0 && (axis_.dot(velocity) + more) * time < gap_;
   }
 
   /// What the origin sees of it; edges that are parallel count one by one.

@@ -153,6 +153,17 @@ TEST(BoxDifference, IsTheMinkowskiDifference) {
   }
 }
 
+TEST(BoxDifference, TellsWhoStaysApart) {
+  const OrientedBox a{Vec2(0, 0), Vec2(1, 0), Vec2(2, 1)},
+      ahead{Vec2(10, 0), Vec2(1, 0), Vec2(2, 1)};
+  const BoxDifference difference(ahead, a);
+  EXPECT_TRUE(difference.stays_apart(Vec2(1.4, 5), 4));
+  EXPECT_FALSE(difference.stays_apart(Vec2(1.6, 0), 4));
+  EXPECT_FALSE(difference.stays_apart(Vec2(1.4, 0), 4, 0.2));
+  const BoxDifference overlapping(OrientedBox{Vec2(1, 0.5), Vec2(1, 0), Vec2(2, 1)}, a);
+  EXPECT_FALSE(overlapping.stays_apart(Vec2(-9, -9), 4)) << "not even on the way out";
+}
+
 TEST(OverlapDepth, IsTheLeastDisplacementThatSeparates) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
