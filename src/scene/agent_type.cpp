@@ -7,6 +7,7 @@
 
 namespace sumogamma {
 
+// NOLINTNEXTLINE(readability-function-size): a table
 AgentTypeTable default_agent_types() {
   AgentTypeTable types;
   auto add = [&](AgentType type) { types.push_back(std::move(type)); };

@@ -14,7 +14,8 @@ namespace sumogamma {
 /// Stable for a run; SUMO's strings stay in src/sumo.
 struct AgentId {
   std::uint32_t value = 0;
-  friend auto operator<=>(const AgentId&, const AgentId&) = default;
+  friend auto operator<=>(const AgentId&,
+                          const AgentId&) = default;  // NOLINT(modernize-use-nullptr): 14's own bug
 };
 
 /// Agents whose ground differs by more than this don't meet: one is on a bridge [m].

@@ -89,8 +89,8 @@ void SumoWorld::feed_detectors(const Scene& scene) {
 
 bool SumoWorld::wants_control(const SumoAgentDetails& details, AgentTypeId type) const {
   const ControlChoice& control = options_.control;
-  return control.all || control.names.count(type_of(model_.types, type).name) > 0 ||
-         control.names.count(details.id) > 0;
+  return control.all || control.names.contains(type_of(model_.types, type).name) ||
+         control.names.contains(details.id);
 }
 
 void SumoWorld::observe(Scene& scene, RoadState& road) {
@@ -211,6 +211,8 @@ void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
           continue;
         }
         ++life_cycle_.removed["next walk impossible: " + why];
+        forget(scene.id[row], scene, road, removed, row);
+        continue;
       }
     } else {
       backend_.remove_vehicle(known.sumo_id);
@@ -235,23 +237,21 @@ void SumoWorld::insert_pending(Scene& scene, RoadState& road) {
   life_cycle_.waiting = pending_.size();
 }
 
-bool SumoWorld::insert(const Pending& pending, Scene& scene, RoadState& road) {
+AgentState SumoWorld::newcomer(const Pending& pending, AgentId id) const {
   const SumoAgentDetails& details = pending.details;
   const AgentType& type = type_of(model_.types, pending.type);
-  const AgentId id{static_cast<std::uint32_t>(known_.size())};
   const Path& path = *pending.path;
   AgentState agent;
   agent.id = id;
   agent.type = pending.type;
-  const double length = details.length > 0.0 ? details.length : type.length;
-  const double width = details.width > 0.0 ? details.width : type.width;
-  agent.footprint = box_footprint(details.is_person ? type.length : length,
-                                  details.is_person ? type.width : width);
+  const bool own_size = details.is_person;
+  const double length = details.length > 0.0 && !own_size ? details.length : type.length;
+  const double width = details.width > 0.0 && !own_size ? details.width : type.width;
+  agent.footprint = box_footprint(length, width);
   const Vec2 direction = path.line.direction_at(0.0);
   agent.path_offset = draw_path_offset(model_, type, options_.seed, id);
   const PathStretch& stretch = path.stretches.front();
-  const double ground = elevation_at(model_.road.lane(stretch.lane), stretch.lane_from);
-  const double half_width = details.is_person ? 0.5 * type.width : 0.5 * width;
+  const double half_width = 0.5 * width;
   const double offset =
       std::clamp(agent.path_offset, std::min(0.0, half_width + 0.1 - stretch.room_right),
                  std::max(0.0, stretch.room_left - half_width - 0.1));
@@ -264,16 +264,24 @@ bool SumoWorld::insert(const Pending& pending, Scene& scene, RoadState& road) {
           : type.preferred_speed;
   agent.behavior = draw_behavior(type, options_.seed, id);
   agent.path = static_cast<PathId>(id.value);
+  return agent;
+}
 
+std::optional<double> SumoWorld::entry_speed(const Pending& pending, const AgentState& agent,
+                                             double ground, const Scene& scene) const {
+  const bool is_person = pending.details.is_person;
+  const AgentType& type = type_of(model_.types, pending.type);
+  const Path& path = *pending.path;
+  const Vec2 direction = path.line.direction_at(0.0);
+  const double half_length = agent.footprint.vertices[0].x(),
+               half_width = agent.footprint.vertices[1].y();
   // room for the body now, and for what comes from behind and goes ahead
-  const double half_length = details.is_person ? 0.5 * type.length : 0.5 * length;
-  const double gap = details.is_person ? 0.1 : type.min_gap;
+  const double gap = is_person ? 0.1 : type.min_gap;
   const Box wanted{agent.position, agent.heading, half_length + gap,
-                   half_width + (details.is_person ? 0.05 : 0.2)};
-  double speed = details.is_person ? agent.preferred_speed
-                                   : std::min(path.profile_at(0.0), agent.preferred_speed);
+                   half_width + (is_person ? 0.05 : 0.2)};
+  double speed = is_person ? 0.0 : std::min(path.profile_at(0.0), agent.preferred_speed);
   // no faster than stops at ease before the first line, whatever the signal there shows
-  if (!details.is_person && !path.links.empty()) {
+  if (!path.links.empty()) {
     const double room = std::max(path.links.front().stop_line - half_length - 1.0, 0.0);
     speed = std::min(speed, std::sqrt(2.0 * 0.7 * type.comfortable_deceleration * room));
   }
@@ -282,28 +290,38 @@ bool SumoWorld::insert(const Pending& pending, Scene& scene, RoadState& road) {
     if (std::abs(relative.x()) > 80.0 || std::abs(relative.y()) > 30.0) continue;
     if (std::abs(scene.height[row] - ground) > kStorey) continue;
     const Box other = box_of(scene, row);
-    if (overlap(wanted, other)) return false;
-    if (details.is_person || std::abs(relative.y()) > half_width + other.half_width + 0.3) continue;
+    if (overlap(wanted, other)) return std::nullopt;
+    if (is_person || std::abs(relative.y()) > half_width + other.half_width + 0.3) continue;
     const double ahead = scene.velocity[row].dot(direction);
     const double free = std::abs(relative.x()) - half_length - scene.footprint[row].radius - gap;
     if (relative.x() > 0.0) {
       // no faster than stops behind it at ease
       const double leader = std::max(ahead, 0.0);
-      speed =
-          std::min(speed, std::sqrt(leader * leader + 2.0 * 0.7 * type.comfortable_deceleration *
-                                                          std::max(free - 1.0, 0.0)));
+      const double way = 2.0 * 0.7 * type.comfortable_deceleration * std::max(free - 1.0, 0.0);
+      speed = std::min(speed, std::sqrt(leader * leader + way));
     } else if (free < ahead * 2.0) {
-      return false;  // somebody is about to be here
+      return std::nullopt;  // somebody is about to be here
     }
   }
-  agent.speed = details.is_person ? 0.0 : speed;
+  return speed;
+}
+
+bool SumoWorld::insert(const Pending& pending, Scene& scene, RoadState& road) {
+  const SumoAgentDetails& details = pending.details;
+  const AgentId id{static_cast<std::uint32_t>(known_.size())};
+  AgentState agent = newcomer(pending, id);
+  const PathStretch& stretch = pending.path->stretches.front();
+  const double ground = elevation_at(model_.road.lane(stretch.lane), stretch.lane_from);
+  const std::optional<double> speed = entry_speed(pending, agent, ground, scene);
+  if (!speed) return false;
+  agent.speed = *speed;
 
   register_agent(details, false, time_);
   road.paths.resize(known_.size());
   road.paths[id.value] = pending.path;
   append_agent(scene, agent);
   scene.height.back() = ground;
-  ++life_cycle_.by_type[type.name].inserted;
+  ++life_cycle_.by_type[type_of(model_.types, pending.type).name].inserted;
   // spread over the run, a few ghosts at a time are read back
   if (written_.size() < options_.watched) {
     backend_.watch(details.id, details.is_person);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -94,6 +95,12 @@ class SumoWorld : public World {
   void hold_followers(const Scene& scene);
   bool wants_control(const SumoAgentDetails& details, AgentTypeId type) const;
   bool insert(const Pending& pending, Scene& scene, RoadState& road);
+  /// The agent as it would stand at the start of its path.
+  AgentState newcomer(const Pending& pending, AgentId id) const;
+  /// Speed [m/s] with which it may start now, or nothing where its place isn't free. `ground`:
+  /// height there [m].
+  std::optional<double> entry_speed(const Pending& pending, const AgentState& agent, double ground,
+                                    const Scene& scene) const;
   AgentId register_agent(const SumoAgentDetails& details, bool external, double time);
   void forget(AgentId id, Scene& scene, RoadState& road, std::vector<bool>& removed,
               std::size_t row);
