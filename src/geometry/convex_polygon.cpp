@@ -161,7 +161,14 @@ NearSide near_side(const PolygonDifference& difference) {
     for (std::uint32_t k = 1; k < count; ++k)
       if (difference.vertices[k].squaredNorm() < side.vertices[0].squaredNorm())
         side.vertices[0] = difference.vertices[k];
-    side.inside |= !(side.vertices[0].squaredNorm() > 0);
+    const double distance = side.vertices[0].norm();
+    side.inside |= !(distance > 0);
+    if (side.inside) return side;
+    // a vertex seen end-on: an edge of no length across the line of sight
+    side.edges = 1;
+    side.vertices[1] = side.vertices[0];
+    side.normals[0] = -side.vertices[0] / distance;
+    side.heights[0] = -distance;
     return side;
   }
   // the facing edges are one run: it begins where the edge before doesn't face

@@ -31,8 +31,8 @@ using ConvexPolygon = ConvexOutline<8>;
 using PolygonDifference = ConvexOutline<16>;
 
 /// The part of a convex outline that the origin sees: the run of edges that face it, from the left
-/// tangent vertex to the right one. No edges: a point, a segment seen end-on (then its nearest
-/// vertex), or the origin is inside.
+/// tangent vertex to the right one. A point, or a segment seen end-on, has one edge of no length
+/// across the line of sight. None where the origin is inside.
 struct NearSide {
   std::uint32_t edges = 0;
   bool inside = false;             ///< the origin lies in the outline or on its boundary

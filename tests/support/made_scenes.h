@@ -61,8 +61,9 @@ inline SceneFile mixed_scene(std::uint64_t seed, int count, double area) {
   for (int attempt = 0; static_cast<int>(file.scene.size()) < count && attempt < 100 * count;
        ++attempt) {
     const auto kind = static_cast<std::size_t>(draw(0, 7));
-    const Vec2 position(draw(0, side), draw(0, side));
-    const double heading = wrap_angle(std::floor(draw(0, 4)) * kPi / 2 + draw(-0.08, 0.08));
+    const Vec2 position{draw(0, side), draw(0, side)};  // braces: x first with every compiler
+    const double flow = std::floor(draw(0, 4));
+    const double heading = wrap_angle(flow * kPi / 2 + draw(-0.08, 0.08));
     const AgentType& type = type_of(file.types, find_agent_type(file.types, kNames[kind]));
     const double radius = box_footprint(type.length, type.width).radius;
     bool free = true;

@@ -1,0 +1,21 @@
+#include <gtest/gtest.h>
+
+#include "simulation/scene_run.h"
+#include "support/made_scenes.h"
+
+namespace sumogamma {
+namespace {
+
+// The exact bits of short runs, the same for every number of threads, with g++ and clang++. They
+// change when the model does: then look at docs/model.md's tables again and put the new ones in.
+TEST(GoldenScenes, HaveTheRecordedBits) {
+  Workers workers(3);
+  const auto hash = [&](const SceneFile& file, std::size_t steps) {
+    return run_scene(file, ModelOptions{}, steps, 0.05, workers).state_hash;
+  };
+  EXPECT_EQ(hash(test::mixed_scene(7, 120, 28), 100), 12154259477550503221ULL);
+  EXPECT_EQ(hash(test::ring_scene("Car", 8, 24, 4), 200), 870863631449135212ULL);
+}
+
+}  // namespace
+}  // namespace sumogamma
