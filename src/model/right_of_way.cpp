@@ -29,6 +29,20 @@ Occupation occupation(const AgentType& type, const Approach& who, double begin, 
                         std::max(who.speed, 0.6 * top_speed), a)};
 }
 
+/// A piece of a link as it lies for somebody on `path`, whose link begins at `link_begin`: who
+/// walks over a crossing against its lane meets the same places in the opposite order, counted from
+/// the other end.
+struct Piece {
+  double begin = 0, end = 0;
+};
+Piece as_travelled(const Path& path, double link_begin, double begin, double end) {
+  if (!path.walking) return {begin, end};
+  const PathStretch& stretch = path.stretch_at(link_begin + 0.01);
+  if (!stretch.reversed) return {begin, end};
+  const double length = stretch.to - stretch.from;
+  return {length - end, length - begin};
+}
+
 /// True where a foe that stands and waits lets `row` go first: it waits for a signal or in a queue,
 /// for this very agent, or it came later. Of two that wait for each other exactly one goes: who is
 /// on foot, else who has stood longer.
@@ -67,15 +81,20 @@ struct Judge {
   const PathLink& link;
 
   /// Does this foe keep the traveller out of the zone?
-  bool blocks(const ConflictZone& zone, const Approach& foe) const {
+  bool blocks(ConflictZone zone, const Approach& foe) const {
     if (foe.row == traveller.row) return false;
+    const Path* foe_path = road.path(scene.path[foe.row]);
+    const double foe_link_begin = scene.path_along[foe.row] + 0.5 * foe.length - foe.front;
+    const Piece theirs_to_cover =
+        as_travelled(*foe_path, foe_link_begin, zone.foe_begin, zone.foe_end);
+    zone.foe_begin = theirs_to_cover.begin;
+    zone.foe_end = theirs_to_cover.end;
     const AgentType& foe_type = type_of(model.types, scene.type[foe.row]);
     const AgentType& own_type = type_of(model.types, scene.type[traveller.row]);
     const bool foe_inside = foe.front > std::max(zone.foe_begin, 0.0) + 0.3;
     const Connection& foe_link = model.road.connection(zone.foe);
     if (!foe_inside && foe.front < 0.0 && is_red(road.signal(foe_link))) return false;
 
-    const Path* foe_path = road.path(scene.path[foe.row]);
     const double foe_top =
         std::min(foe_path->profile_at(scene.path_along[foe.row]), foe_type.max_speed);
     const Occupation theirs = occupation(foe_type, foe, zone.foe_begin, zone.foe_end, foe_top);
@@ -134,9 +153,13 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
   }
 
   const bool free_green = signal == 'G';
+  const Path& own_path = *road.path(scene.path[traveller.row]);
   const Judge judge{model, road, scene, approaches, traveller, link};
   for (const ConflictZone& zone_of_table : model.conflicts[index_of(link.connection)]) {
     ConflictZone zone = zone_of_table;
+    const Piece ours_to_cover = as_travelled(own_path, link.stop_line, zone.begin, zone.end);
+    zone.begin = ours_to_cover.begin;
+    zone.end = ours_to_cover.end;
     if (free_green) zone.yields = false;
     const double to_zone = link.stop_line + zone.begin - traveller.front;
     if (to_zone < 0.3) continue;  // already in it: go on, avoidance does the rest
