@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds and tests sumo-gamma; installs what that takes.
-#   tools/test.sh          everything, under the sanitizers, too
+#   tools/test.sh          every test and every lint
 #   tools/test.sh quick    build, unit and property tests
-#   tools/test.sh deep     everything and more: all of it with clang, too, and under the thread sanitizer
+#   tools/test.sh deep     the same under the sanitizers and with clang, with the fuzz targets
 #   tools/test.sh tidy     clang-tidy on every file (slow)
 # The last line adds it all up; the exit code is 0 only where nothing failed.
 set -euo pipefail
@@ -69,17 +69,15 @@ runner=()
 
 case "$mode" in
   quick) test_stage dev '^(unit|property)$' ;;
-  full | deep)
+  full) test_stage dev '.' ;;
+  deep)
     test_stage dev '.'
     test_stage asan '^(unit|property|golden)$' tests_unit tests_property tests_golden
     # the other compiler must give the same bits
-    test_stage clang '^(golden|fuzz)$' tests_golden tests_fuzz
+    test_stage clang '^(unit|property|golden|fuzz)$' tests_unit tests_property tests_golden tests_fuzz
     # g++ 12's thread sanitizer cannot place its memory where the kernel randomises addresses a lot
     setarch "$(uname -m)" -R true 2> /dev/null && runner=(setarch "$(uname -m)" -R)
-    if [[ $mode == deep ]]; then
-      test_stage clang '^(unit|property)$' tests_unit tests_property
-      test_stage tsan '^(unit|property)$' tests_unit tests_property
-    fi
+    test_stage tsan '^(unit|property)$' tests_unit tests_property
     ;;
 esac
 
