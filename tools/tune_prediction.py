@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Chooses the predictor's parameters on declared training recordings, by coordinate descent, and prints them.
 
-usage: tune_prediction.py --program build/sumo-gamma --kind walker eth.csv hotel.csv univ003.csv zara1.csv
+usage: tune_prediction.py --program build/sumo-gamma --kind walker eth.csv hotel.csv univ003.csv zara1.csv cross.csv
        tune_prediction.py --program build/sumo-gamma --kind wheels --noise 0.02 cross.csv
        ... --leave-one-out: once for each recording, tuned on the others and scored on it
 
@@ -16,17 +16,19 @@ import os
 import subprocess
 import tempfile
 
-# what is tuned, with the first factor by which each is moved; the rest is fixed by hand
+# what is tuned: the value to start from, a round guess that has seen no data, and the first factor to move it by;
+# all else is fixed by hand
 FREE = {
-    "walker": {"noise_scale": 1.4, "noise_power": 1.2, "observation_noise": 1.5, "acceleration_variance": 1.7,
-               "acceleration_time": 1.5, "velocity_drift": 1.5, "acceleration_decay": 1.5, "speed_decay": 1.6,
-               "turn_decay": 1.6, "prior_keep_velocity": 2.0, "prior_turn": 2.0, "prior_stop": 2.0,
-               "likelihood_deviation": 1.5, "change_of_mind": 1.7, "flow_distance": 1.25, "flow_speed": 1.25,
-               "flow_prior": 1.5},
-    "wheels": {"acceleration_variance": 1.7, "acceleration_time": 1.5, "velocity_drift": 1.6, "acceleration_decay": 1.5,
-               "speed_decay": 1.6, "turn_decay": 1.6, "stop_time": 1.5, "prior_keep_velocity": 2.0, "prior_turn": 2.0,
-               "prior_stop": 2.0, "likelihood_deviation": 1.5, "change_of_mind": 1.7, "flow_distance": 1.25,
-               "flow_speed": 1.25, "flow_prior": 1.5},
+    "walker": {"noise_scale": (5, 1.5), "noise_power": (1.5, 1.3), "observation_noise": (0.01, 1.5),
+               "acceleration_variance": (0.3, 1.7), "acceleration_time": (0.3, 1.5), "velocity_drift": (0.03, 1.5),
+               "acceleration_decay": (1, 1.5), "speed_decay": (0.03, 1.8), "prior_keep_velocity": (0.3, 2),
+               "prior_turn": (0.2, 2), "prior_stop": (0.05, 2), "change_of_mind": (0.05, 1.7),
+               "flow_distance": (1.5, 1.25), "flow_speed": (0.3, 1.25), "flow_prior": (4, 1.5)},
+    "wheels": {"acceleration_variance": (1, 1.7), "acceleration_time": (1, 1.7), "velocity_drift": (0.01, 1.6),
+               "acceleration_decay": (1, 1.5), "speed_decay": (0.005, 1.8), "turn_decay": (1.5, 1.6),
+               "stop_time": (1, 1.5), "prior_keep_velocity": (0.3, 2), "prior_turn": (0.3, 2), "prior_stop": (0.05, 2),
+               "likelihood_deviation": (0.1, 1.5), "change_of_mind": (0.05, 1.7), "flow_distance": (1.5, 1.25),
+               "flow_speed": (0.6, 1.25), "flow_prior": (4, 1.5)},
 }
 LEAST_STEP = 1.08  # a factor below this is no longer tried
 
@@ -42,12 +44,6 @@ def predict(options, recordings, methods, parameters):
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
         report = json.load(open(file.name, encoding="utf-8"))
     return {(e["set"], e["method"]): e for e in report["evaluations"]}
-
-
-def defaults(options):
-    text = subprocess.run([options.program, "predict", "--parameters"], check=True, capture_output=True, text=True).stdout
-    pairs = (line.split("=") for line in text.splitlines())
-    return {name.removeprefix("predict."): float(value) for name, value in pairs}
 
 
 class Score:
@@ -66,18 +62,17 @@ class Score:
         return total / len(self.recordings)
 
 
-def tune(options, recordings, start):
-    """Coordinate descent with shrinking factors from `start`; returns the parameters changed and their score."""
+def tune(options, recordings):
+    """Coordinate descent with shrinking factors; returns the parameters and their score."""
     score = Score(options, recordings)
-    changed = {}
+    changed = {f"{options.kind}.{name}": start for name, (start, _) in FREE[options.kind].items()}
     best = score(changed)
-    steps = {f"{options.kind}.{name}": factor for name, factor in FREE[options.kind].items()}
+    steps = {f"{options.kind}.{name}": factor for name, (_, factor) in FREE[options.kind].items()}
     for sweep in range(options.sweeps):
         for name, factor in steps.items():
             if factor < LEAST_STEP:
                 continue
-            now = changed.get(name, start[name])
-            for value in (now * factor, now / factor) if now > 0 else (0.02 * factor,):
+            for value in (changed[name] * factor, changed[name] / factor):
                 trial = {**changed, name: float(f"{value:.4g}")}
                 result = score(trial)
                 if result < best - 1e-5:
@@ -97,17 +92,17 @@ def main():
     parser.add_argument("--noise", type=float, default=0.0)
     parser.add_argument("--sweeps", type=int, default=4)
     parser.add_argument("--leave-one-out", action="store_true")
+    parser.add_argument("--also", nargs="*", default=[], help="recordings that stay in training with --leave-one-out")
     options = parser.parse_args()
-    start = defaults(options)
     if not options.leave_one_out:
-        changed, best = tune(options, options.recordings, start)
+        changed, best = tune(options, options.recordings)
         print(f"# score {best:.5f} on {', '.join(os.path.basename(r) for r in options.recordings)}")
         for name, value in changed.items():
             print(f"predict.{name}={value}")
         return
     for left_out in options.recordings:
         others = [r for r in options.recordings if r != left_out]
-        changed, _ = tune(options, others, start)
+        changed, _ = tune(options, others + options.also)
         for (name, method), e in predict(options, [left_out], ["gamma", "cv"], changed).items():
             print(f"{name} {method}: {e['ade']:.4f}/{e['fde']:.4f} COL {e['collision_rate']:.4f}")
         print("  " + " ".join(f"{k}={v}" for k, v in changed.items()), flush=True)

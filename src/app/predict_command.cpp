@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -9,6 +11,7 @@
 #include "app/command.h"
 #include "base/error.h"
 #include "prediction/methods.h"
+#include "prediction/plot.h"
 #include "prediction/report.h"
 
 namespace sumogamma {
@@ -43,6 +46,39 @@ void write_text(const std::string& path, const std::string& text) {
   if (!file.flush()) throw Error(path, "cannot be written");
 }
 
+/// Pictures of the fullest frames, apart from each other by a tenth of the recording.
+void write_plots(const std::string& folder, const TrackSet& set, const Protocol& protocol,
+                 const MethodSettings& settings) {
+  constexpr std::size_t kPictures = 4;
+  std::vector<int> counts(static_cast<std::size_t>(set.last_frame - set.first_frame + 1), 0);
+  for (const Window& window : windows_of(set, protocol))
+    ++counts[static_cast<std::size_t>(window.frame - set.first_frame)];
+  std::vector<int> frames;
+  const int apart = std::max(1, (set.last_frame - set.first_frame) / 10);
+  while (frames.size() < kPictures) {
+    const auto most = std::max_element(counts.begin(), counts.end());
+    if (*most == 0) break;
+    const int at = static_cast<int>(most - counts.begin());
+    frames.push_back(set.first_frame + at);
+    for (int k = std::max(0, at - apart); k < std::min(static_cast<int>(counts.size()), at + apart);
+         ++k)
+      counts[static_cast<std::size_t>(k)] = 0;
+  }
+  std::filesystem::create_directories(folder);
+  const Method method = make_method("gamma", settings, set.period);
+  for (int frame = set.first_frame; frame <= set.last_frame; ++frame) {
+    const ObservedScene scene = observe(set, frame);
+    method.observe(scene);
+    if (std::find(frames.begin(), frames.end(), frame) == frames.end()) continue;
+    const auto steps = static_cast<std::size_t>(protocol.steps);
+    const Forecast forecast = method.predict(scene, steps);
+    const std::vector<Forecast> samples =
+        method.sample ? method.sample(scene, steps) : std::vector<Forecast>{};
+    write_text(folder + "/" + set.name + "_" + std::to_string(frame) + ".svg",
+               forecast_svg(set, scene, forecast, samples));
+  }
+}
+
 int run(const PredictOptions& options, const CommonOptions& common) {
   PredictorParameters parameters = parameters_from(common);
   if (options.list_parameters) {
@@ -67,6 +103,9 @@ int run(const PredictOptions& options, const CommonOptions& common) {
           evaluate(make_method(name, settings, truth.period), seen, truth, protocol));
     }
   }
+  if (!options.plots.empty())
+    for (const std::string& file : options.files)
+      write_plots(options.plots, read_track_set(file), protocol, settings);
   std::printf("%s", to_table(evaluations, protocol, common.seed).c_str());
   if (options.json.empty()) return kExitDone;
   nlohmann::ordered_json json = {{"protocol", std::string(1, protocol.letter)},
@@ -112,6 +151,8 @@ CommandRunner add_predict_command(CLI::App& parent) {
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   command->add_option("--json", options->json, "write all figures to this file");
+  command->add_option("--plots", options->plots,
+                      "write pictures (SVG) of the fullest frames to this folder");
   command->add_flag("--parameters", options->list_parameters, "print the parameters and end");
   return [options](const CommonOptions& common) { return run(*options, common); };
 }

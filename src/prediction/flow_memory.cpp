@@ -16,13 +16,13 @@ std::int64_t cell_of(double coordinate, double cell) {
 
 std::uint32_t FlowMemory::place_for(const Vec2& position) {
   Cell& cell = cells_[key_of(cell_of(position.x(), kCell), cell_of(position.y(), kCell))];
-  if (cell.samples.size() < kCellCapacity) {
+  if (cell.samples.size() < cell_capacity_) {
     cell.samples.push_back(static_cast<std::uint32_t>(samples_.size()));
     samples_.emplace_back();
     return cell.samples.back();
   }
   const std::uint32_t oldest = cell.samples[cell.next];
-  cell.next = (cell.next + 1) % kCellCapacity;
+  cell.next = (cell.next + 1) % cell_capacity_;
   return oldest;
 }
 

@@ -26,6 +26,10 @@ class FlowMemory {
  public:
   static constexpr std::size_t kSteps = 12;
 
+  /// A cell of 2 m keeps at most `cell_capacity` predictions, the oldest give way: cost and memory
+  /// stay bounded in a long run.
+  explicit FlowMemory(std::size_t cell_capacity = 384) : cell_capacity_(cell_capacity) {}
+
   /// What an agent at `position` [m] with `velocity` [m/s] was predicted to do: displacements at
   /// the next steps [m]. Call once per agent and frame, agents in any order.
   void remember(std::uint32_t agent, const Vec2& position, const Vec2& velocity,
@@ -46,8 +50,6 @@ class FlowMemory {
   std::size_t size() const { return samples_.size(); }
 
  private:
-  /// A cell's samples are bounded, the oldest give way: cost and memory stay bounded in a long run.
-  static constexpr std::size_t kCellCapacity = 384;
   static constexpr double kCell = 2.0;  // [m]
 
   struct Sample {
@@ -71,6 +73,7 @@ class FlowMemory {
   }
   std::uint32_t place_for(const Vec2& position);
 
+  std::size_t cell_capacity_;
   std::vector<Sample> samples_;
   std::unordered_map<std::int64_t, Cell> cells_;      ///< looked up, never iterated
   std::unordered_map<std::uint32_t, Active> active_;  ///< likewise, but for dropping entries

@@ -74,7 +74,8 @@ GammaPredictor::GammaPredictor(const AgentTypeTable& types, const PredictorParam
     : model_(predictor_model(types, parameters, options, period)),
       parameters_(parameters),
       options_(options),
-      period_(period) {}
+      period_(period),
+      flow_(options.flow_cell_capacity) {}
 
 const KindParameters& GammaPredictor::kind_of(AgentTypeId type) const {
   return walks(type_of(model_.types, type)) ? parameters_.walker : parameters_.wheels;

@@ -22,6 +22,7 @@ struct PredictorOptions {
   bool use_smoothing =
       true;                  ///< false: velocity and acceleration from the last displacements alone
   bool most_likely = false;  ///< the paper's choice: the single likeliest intention, not the mean
+  std::size_t flow_cell_capacity = 384;  ///< see FlowMemory
 };
 
 /// The prediction of the paper with the behaviour filter of III-E: fed with a scene frame by frame,

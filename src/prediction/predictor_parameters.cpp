@@ -9,39 +9,42 @@ namespace sumogamma {
 
 PredictorParameters default_predictor_parameters() {
   PredictorParameters p;
-  p.walker.noise = {.observation = 0.00528,
-                    .acceleration_variance = 0.1204,
-                    .acceleration_time = 0.134,
-                    .velocity_drift = 0.03885};
-  p.walker.noise_scale = 9.193;
-  p.walker.noise_power = 2.109;
+  p.walker.noise = {.observation = 0.003629,
+                    .acceleration_variance = 0.06106,
+                    .acceleration_time = 0.2,
+                    .velocity_drift = 0.02};
+  p.walker.noise_scale = 7.5;
+  p.walker.noise_power = 1.95;
   p.walker.shape = {
-      .acceleration_decay = 1.833, .speed_decay = 0.1024, .turn_decay = 1.5, .stop_time = 1.0};
-  p.walker.flow = {.distance = 1.92, .speed = 0.2675, .prior = 2.107};
-  p.walker.filter.intention_prior = {0.1, 1, 0.1, 0.05657};
-  p.walker.filter.change_of_mind = 0.085;
+      .acceleration_decay = 0.9036, .speed_decay = 0.054, .turn_decay = 1.5, .stop_time = 1.0};
+  p.walker.flow = {.distance = 1.875, .speed = 0.2683, .prior = 4};
+  p.walker.filter.intention_prior = {0.1636, 1, 0.2, 0.1189};
+  p.walker.filter.change_of_mind = 0.01327;
+
   p.wheels.noise = {.observation = 0.02,
-                    .acceleration_variance = 0.2504,
-                    .acceleration_time = 4.32,
-                    .velocity_drift = 0.01248};
-  p.wheels.shape = {.acceleration_decay = 1.116,
-                    .speed_decay = 0.0003662,
-                    .turn_decay = 0.9375,
-                    .stop_time = 1.225};
-  p.wheels.flow = {.distance = 1.988, .speed = 0.76, .prior = 3.852};
-  p.wheels.filter.intention_prior = {0.8, 1, 1.2, 0.0025};
-  p.wheels.filter.deviation = 0.06667;
-  p.wheels.filter.change_of_mind = 0.03358;
-  p.wheels.along_fixed = 0.075;
-  p.wheels.along_by_speed = 0.008;
-  p.wheels.across_fixed = 0.025;
-  p.wheels.across_by_speed = 0.012;
-  p.wheels.growth = 2.05;
+                    .acceleration_variance = 0.2654,
+                    .acceleration_time = 4.913,
+                    .velocity_drift = 0.007906};
+  p.wheels.shape = {.acceleration_decay = 0.8165,
+                    .speed_decay = 0.0006389,
+                    .turn_decay = 1.897,
+                    .stop_time = 0.5444};
+  p.wheels.flow = {.distance = 1.875, .speed = 0.6, .prior = 2.178};
+  p.wheels.filter.intention_prior = {0.6, 1, 0.15, 0.0125};
+  p.wheels.filter.deviation = 0.1837;
+  p.wheels.filter.change_of_mind = 0.07444;
+
+  // by hand, from the spread of the residuals on the training recordings
   p.walker.along_fixed = 0.11;
   p.walker.along_by_speed = 0.0;
   p.walker.across_fixed = 0.06;
   p.walker.across_by_speed = 0.045;
   p.walker.growth = 1.3;
+  p.wheels.along_fixed = 0.075;
+  p.wheels.along_by_speed = 0.008;
+  p.wheels.across_fixed = 0.025;
+  p.wheels.across_by_speed = 0.012;
+  p.wheels.growth = 2.05;
   return p;
 }
 

@@ -32,7 +32,7 @@ struct PredictorParameters {
   double rejoin = 0.7;           ///< see RollOutOptions
   double horizon_walker = 1.0;   ///< tau of avoidance [s]
   double horizon_wheels = 1.0;   ///< likewise
-  double margin = 0.05;          ///< kept around bodies [m]
+  double margin = 0;              ///< kept around bodies [m]
   double separation_time = 2.0;  ///< over which bodies that overlap come apart [s]
 };
 
