@@ -19,6 +19,7 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
   const double own_half_width = half_extent(scene, row, left_of(direction_of(scene.heading[row])));
   const double own_offset = cross(tangent, position - path->line.point_at(along));
   const double speed = scene.speed[row];
+  const double aim = scene.lateral_aim[row];
   const double margin = type.width < 1.0 ? 0.15 : 0.3;
 
   grid.visit_within(position, reach, [&](std::size_t other, double) {
@@ -30,9 +31,10 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     if (place.along <= along + 1e-6) return;
     const Vec2 direction = path->line.direction_at(place.along);
     const double half_width = half_extent(scene, other, left_of(direction));
-    // the body drifts back to its path: near ahead its own offset counts, far ahead the path itself
+    // the body drifts to where it means to be beside its path: near ahead its own offset counts
     const double blend = std::clamp(1.0 - (place.along - along) / 15.0, 0.0, 1.0);
-    if (std::abs(place.offset - blend * own_offset) > own_half_width + half_width + margin) return;
+    const double swept = blend * own_offset + (1.0 - blend) * aim;
+    if (std::abs(place.offset - swept) > own_half_width + half_width + margin) return;
     const double rear = place.along - half_extent(scene, other, direction);
     const double gap = rear - along - own_half_length;
     if (gap < -own_half_length) return;

@@ -27,7 +27,7 @@ double look_ahead(const Course& course) {
   return 0.6 * course.half_length + 1.8 + 0.5 * course.speed;
 }
 
-void set_geometry(const Scene& scene, const Course& course, RoadContext& context) {
+void set_geometry(const Model& model, const Scene& scene, const Course& course, RoadContext& context) {
   const Polyline& line = course.path.line;
   const double ahead = course.along + look_ahead(course);
   const double beyond = std::max(0.0, ahead - line.length());
@@ -35,9 +35,10 @@ void set_geometry(const Scene& scene, const Course& course, RoadContext& context
   const PathStretch& target = course.path.stretch_at(ahead);
   const double half_width =
       half_extent(scene, course.row, left_of(direction_of(scene.heading[course.row])));
-  const double offset = std::clamp(scene.path_offset[course.row],
-                                   -std::max(target.room_right - half_width - 0.1, 0.0),
-                                   std::max(target.room_left - half_width - 0.1, 0.0));
+  const double offset = std::clamp(
+      course.path.walking ? scene.path_offset[course.row] : scene.lateral_aim[course.row],
+      -std::max(target.room_right - half_width - 0.1, 0.0),
+      std::max(target.room_left - half_width - 0.1, 0.0));
   if (course.path.walking) {
     context.sub_goal = line.point_at(ahead) + beyond * direction + offset * left_of(direction);
     const Vec2 chord = line.point_at(ahead) + beyond * direction - line.point_at(course.along);
@@ -57,8 +58,18 @@ void set_geometry(const Scene& scene, const Course& course, RoadContext& context
   }
   const PathStretch& here = course.path.stretch_at(course.along);
   const double extent = half_extent(scene, course.row, left_of(context.tangent));
-  context.room_left = here.room_left - course.offset - extent;
-  context.room_right = here.room_right + course.offset - extent;
+  double left = here.room_left, right = here.room_right;
+  if (!course.path.walking) {
+    // differs from the paper: who drives keeps to its lane, not just to its carriageway, but for
+    // where it means to pass; whoever is in the way is slowed down for, not swerved around
+    const Lane& lane = model.road.lane(here.lane);
+    const double corridor = std::max(0.5 * lane.width, half_width + 0.3) +
+                            (lane.kind == LaneKind::Internal || here.changing ? 0.6 : 0.0);
+    left = std::min(left, std::max(corridor, offset + half_width + 0.4));
+    right = std::min(right, std::max(corridor, half_width + 0.4 - offset));
+  }
+  context.room_left = left - course.offset - extent;
+  context.room_right = right + course.offset - extent;
 }
 
 /// Tightens the context's acceleration for something to stop for or to follow.
@@ -158,7 +169,7 @@ void update_road_contexts(const Model& model, const RoadState& road, const Spati
             path->walking ? std::max(0.0, scene.velocity[row].dot(tangent)) : scene.speed[row]};
         context.active = true;
         context.speed_limit = std::min(path->profile_at(along), scene.preferred_speed[row]);
-        set_geometry(scene, course, context);
+        set_geometry(model, scene, course, context);
         if (path->walking)
           set_walker_limit(model, road, scene, approaches, course, context);
         else

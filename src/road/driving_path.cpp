@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 #include "road/path.h"
 #include "road/path_profile.h"
@@ -9,13 +10,7 @@ namespace sumogamma {
 namespace {
 
 constexpr double kUnreachable = std::numeric_limits<double>::infinity();
-
-/// One lane of one edge of the route and the cheapest way on from it.
-struct LaneChoice {
-  double cost = kUnreachable;         ///< lane changes from entering here to the route's end
-  int exit_index = -1;                ///< lane index on which the edge is left
-  ConnectionId next = kNoConnection;  ///< connection taken from there
-};
+constexpr double kBeyond = 1000.0;  ///< no lane of the last edge has to be left [m]
 
 bool allows(const Lane& lane, VehicleClassMask vehicle_class) {
   return (lane.allowed & vehicle_class) != 0;
@@ -28,10 +23,10 @@ double change_cost(int changes, double length) {
 }
 
 /// Backward dynamic program over the route: cheapest lane choice for every lane of every edge.
-std::vector<std::vector<LaneChoice>> plan_lanes(const RoadNetwork& network,
+std::vector<std::vector<LaneOption>> plan_lanes(const RoadNetwork& network,
                                                 const PathRequest& request) {
   const std::size_t edges = request.route.size();
-  std::vector<std::vector<LaneChoice>> plan(edges);
+  std::vector<std::vector<LaneOption>> plan(edges);
   for (std::size_t i = edges; i-- > 0;) {
     const Edge& edge = network.edge(request.route[i]);
     const auto count = static_cast<int>(edge.lanes.size());
@@ -39,6 +34,7 @@ std::vector<std::vector<LaneChoice>> plan_lanes(const RoadNetwork& network,
     // cheapest continuation from leaving each lane
     std::vector<double> exit_cost(edge.lanes.size(), kUnreachable);
     std::vector<ConnectionId> exit_link(edge.lanes.size(), kNoConnection);
+    std::vector<double> onward(edge.lanes.size(), i + 1 == edges ? kBeyond : 0.0);
     for (int k = 0; k < count; ++k) {
       const Lane& lane = network.lane(edge.lanes[static_cast<std::size_t>(k)]);
       if (!allows(lane, request.vehicle_class)) continue;
@@ -49,6 +45,9 @@ std::vector<std::vector<LaneChoice>> plan_lanes(const RoadNetwork& network,
       for (const ConnectionId id : lane.outgoing) {
         const Lane& target = network.lane(network.connection(id).to);
         if (target.edge != request.route[i + 1] || !allows(target, request.vehicle_class)) continue;
+        onward[static_cast<std::size_t>(k)] =
+            std::max(onward[static_cast<std::size_t>(k)],
+                     plan[i + 1][static_cast<std::size_t>(target.index)].drivable);
         const double cost = plan[i + 1][static_cast<std::size_t>(target.index)].cost;
         if (cost < exit_cost[static_cast<std::size_t>(k)]) {
           exit_cost[static_cast<std::size_t>(k)] = cost;
@@ -59,12 +58,14 @@ std::vector<std::vector<LaneChoice>> plan_lanes(const RoadNetwork& network,
     for (int entry = 0; entry < count; ++entry) {
       const Lane& lane = network.lane(edge.lanes[static_cast<std::size_t>(entry)]);
       if (!allows(lane, request.vehicle_class)) continue;
-      LaneChoice& choice = plan[i][static_cast<std::size_t>(entry)];
+      LaneOption& choice = plan[i][static_cast<std::size_t>(entry)];
       for (int exit = 0; exit < count; ++exit) {
         const double cost = exit_cost[static_cast<std::size_t>(exit)] +
                             change_cost(std::abs(exit - entry), lane.centerline.length());
-        if (cost < choice.cost) choice = {cost, exit, exit_link[static_cast<std::size_t>(exit)]};
+        if (cost < choice.cost)
+          choice = {cost, exit, exit_link[static_cast<std::size_t>(exit)], 0.0};
       }
+      choice.drivable = lane.centerline.length() + onward[static_cast<std::size_t>(entry)];
     }
   }
   return plan;
@@ -88,6 +89,9 @@ class Builder {
   Builder(const RoadNetwork& network, const PathRequest& request)
       : network_(network), request_(request) {}
 
+  /// What comes now belongs to this edge of the route.
+  void enter_edge(std::size_t route_index) { route_index_ = static_cast<int>(route_index); }
+
   /// Runs along one lane between two places on it.
   void follow(LaneId id, double from, double to) {
     const Lane& lane = network_.lane(id);
@@ -105,6 +109,7 @@ class Builder {
     begin_stretch(new_lane, from * scale);
     // the kerb is as near as seen from either lane
     PathStretch& stretch = path_.stretches.back();
+    stretch.changing = true;
     const PathStretch beside = stretch_on(old_lane);
     stretch.room_left = std::min(stretch.room_left, beside.room_left);
     stretch.room_right = std::min(stretch.room_right, beside.room_right);
@@ -177,6 +182,7 @@ class Builder {
     const Lane& lane = network_.lane(id);
     PathStretch stretch;
     stretch.lane = id;
+    stretch.route_index = route_index_;
     stretch.speed_limit = lane.speed_limit;
     // a junction has no kerb beside each of its lanes, and long bodies swing out
     const double swing = lane.kind == LaneKind::Internal ? 1.5 : 0.0;
@@ -192,6 +198,7 @@ class Builder {
 
   const RoadNetwork& network_;
   const PathRequest& request_;
+  int route_index_ = 0;
   Path path_;
   std::vector<Vec2> points_;
   std::size_t measured_ = 0;
@@ -229,6 +236,51 @@ LaneId cover_edge(const RoadNetwork& network, const Edge& edge, int entry, int e
   return lane;
 }
 
+/// Where the route's edge `index` is left, along its lane `lane` [m].
+double end_of(const Trip& trip, std::size_t index, const Lane& lane) {
+  const double length = lane.centerline.length();
+  const bool last = index + 1 == trip.route.size();
+  return last && trip.request.arrival_position >= 0.0
+             ? std::min(trip.request.arrival_position, length)
+             : length;
+}
+
+/// Goes on from lane `entry` of the route's edge `index`, `from` along it, to the trip's end.
+bool drive_on(const RoadNetwork& network, const Trip& trip, std::size_t index, int entry,
+              double from, Builder& builder, std::string& why) {
+  for (std::size_t i = index; i < trip.route.size(); ++i) {
+    const Edge& edge = network.edge(trip.route[i]);
+    builder.enter_edge(i);
+    const LaneOption& option = trip.options[i][static_cast<std::size_t>(entry)];
+    const double to = end_of(trip, i, network.lane(edge.lanes[static_cast<std::size_t>(entry)]));
+    cover_edge(network, edge, entry, option.exit_index, std::min(from, to), to, builder);
+    if (i + 1 == trip.route.size()) break;
+    if (!builder.cross(option.next)) {
+      why = "the junction after edge '" + edge.name + "' has no complete internal lane";
+      return false;
+    }
+    entry = network.lane(network.connection(option.next).to).index;
+    from = 0.0;
+  }
+  return true;
+}
+
+/// Halts of the old path from `along` on, at the same places of the same edges of the new one.
+void carry_stops(const RoadNetwork& network, const Path& old_path, double along, Path& path) {
+  for (const PathStop& stop : old_path.stops) {
+    if (stop.along < along) continue;
+    const PathStretch& old = old_path.stretch_at(stop.along);
+    const double on_lane = old.lane_from + stop.along - old.from;
+    for (const PathStretch& stretch : path.stretches) {
+      if (network.lane(stretch.lane).edge != network.lane(old.lane).edge) continue;
+      const double place = stretch.from + std::max(on_lane - stretch.lane_from, 0.0);
+      if (place > stretch.to + 0.5) continue;
+      path.stops.push_back({place, stop.duration});
+      break;
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<Path> build_driving_path(const RoadNetwork& network, const PathRequest& request,
@@ -237,17 +289,22 @@ std::optional<Path> build_driving_path(const RoadNetwork& network, const PathReq
     why = "the route has no edges";
     return std::nullopt;
   }
-  const auto plan = plan_lanes(network, request);
+  auto trip = std::make_shared<Trip>();
+  trip->route.assign(request.route.begin(), request.route.end());
+  trip->request = request;
+  trip->request.route = trip->route;
+  trip->options = plan_lanes(network, request);
+  const std::vector<LaneOption>& options = trip->options.front();
   const Edge& first = network.edge(request.route.front());
   int entry = -1;
   if (request.start_lane != kNoLane &&
       network.lane(request.start_lane).edge == request.route.front() &&
-      plan[0][static_cast<std::size_t>(network.lane(request.start_lane).index)].cost < kUnreachable)
+      options[static_cast<std::size_t>(network.lane(request.start_lane).index)].cost < kUnreachable)
     entry = network.lane(request.start_lane).index;
   for (std::size_t k = 0; entry < 0 && k < first.lanes.size(); ++k) {
-    const bool better = plan[0][k].cost < kUnreachable &&
-                        std::all_of(plan[0].begin(), plan[0].end(), [&](const LaneChoice& other) {
-                          return plan[0][k].cost <= other.cost;
+    const bool better = options[k].cost < kUnreachable &&
+                        std::all_of(options.begin(), options.end(), [&](const LaneOption& other) {
+                          return options[k].cost <= other.cost;
                         });
     if (better) entry = static_cast<int>(k);
   }
@@ -256,28 +313,40 @@ std::optional<Path> build_driving_path(const RoadNetwork& network, const PathReq
           network.edge(request.route.back()).name + "' for this vehicle class";
     return std::nullopt;
   }
+  Builder builder(network, trip->request);
+  if (!drive_on(network, *trip, 0, entry, request.start_along, builder, why)) return std::nullopt;
+  Path path = builder.finish();
+  path.trip = std::move(trip);
+  return path;
+}
 
-  Builder builder(network, request);
-  double from = request.start_along;
-  for (std::size_t i = 0; i < request.route.size(); ++i) {
-    const Edge& edge = network.edge(request.route[i]);
-    const LaneChoice& choice = plan[i][static_cast<std::size_t>(entry)];
-    const double length =
-        network.lane(edge.lanes[static_cast<std::size_t>(entry)]).centerline.length();
-    const bool last = i + 1 == request.route.size();
-    const double to = last && request.arrival_position >= 0.0
-                          ? std::min(request.arrival_position, length)
-                          : length;
-    cover_edge(network, edge, entry, choice.exit_index, std::min(from, to), to, builder);
-    if (last) break;
-    if (!builder.cross(choice.next)) {
-      why = "the junction after edge '" + edge.name + "' has no complete internal lane";
-      return std::nullopt;
-    }
-    entry = network.lane(network.connection(choice.next).to).index;
-    from = 0.0;
-  }
-  return builder.finish();
+std::optional<Path> change_lane(const RoadNetwork& network, const Path& path, double& along,
+                                LaneId target, double distance, double back) {
+  const PathStretch& here = path.stretch_at(along);
+  if (!path.trip || here.route_index < 0) return std::nullopt;
+  const Trip& trip = *path.trip;
+  const auto index = static_cast<std::size_t>(here.route_index);
+  const Lane& old_lane = network.lane(here.lane);
+  const Lane& new_lane = network.lane(target);
+  const LaneOption& option = trip.options[index][static_cast<std::size_t>(new_lane.index)];
+  const double on_lane = here.lane_from + along - here.from;
+  const double scale = new_lane.centerline.length() / std::max(old_lane.centerline.length(), 0.1);
+  const double changed = (on_lane + distance) * scale;
+  if (old_lane.edge != new_lane.edge || option.cost == kUnreachable ||
+      changed > end_of(trip, index, new_lane))
+    return std::nullopt;
+  Builder builder(network, trip.request);
+  builder.enter_edge(index);
+  const double begin = std::max(on_lane - back, 0.0);
+  builder.follow(here.lane, begin, on_lane);
+  builder.change(here.lane, target, on_lane, on_lane + distance);
+  std::string why;
+  if (!drive_on(network, trip, index, new_lane.index, changed, builder, why)) return std::nullopt;
+  Path changed_path = builder.finish();
+  changed_path.trip = path.trip;
+  carry_stops(network, path, along, changed_path);
+  along = on_lane - begin;
+  return changed_path;
 }
 
 }  // namespace sumogamma

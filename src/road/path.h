@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,6 +20,8 @@ struct PathStretch {
   double speed_limit = 0;   ///< [m/s]
   double room_left = 0;     ///< path to the left boundary of what the class may use [m]
   double room_right = 0;    ///< likewise to the right [m]
+  int route_index = -1;     ///< of the edge in the trip's route; -1 on foot
+  bool changing = false;    ///< moves over into `lane` from its neighbour
 };
 
 /// A junction link on the path: where rules of right of way and signals apply.
@@ -31,26 +35,6 @@ struct PathLink {
 struct PathStop {
   double along = 0;     ///< front bumper's place [m]
   double duration = 0;  ///< [s]
-};
-
-/// A way through the network that one agent means to follow: geometry with everything that rules
-/// need to know along it.
-struct Path {
-  Polyline line;
-  std::vector<PathStretch> stretches;  ///< in order, gapless
-  std::vector<PathLink> links;         ///< in order of stop_line
-  std::vector<PathStop> stops;         ///< in order
-  std::vector<double>
-      speed_profile;   ///< [m/s] every kProfileStep along: bends and limits with braking ahead
-  double arrival = 0;  ///< along, where the trip ends [m]
-  bool walking = false;
-
-  static constexpr double kProfileStep = 2.0;
-
-  /// Stretch that holds `along` (clamped). Precondition: not empty.
-  const PathStretch& stretch_at(double along) const;
-  /// Speed that bends and limits leave at `along`, interpolated [m/s].
-  double profile_at(double along) const;
 };
 
 /// What a path is made from.
@@ -68,10 +52,59 @@ struct PathRequest {
       0;  ///< tightest that the body can drive [m]; bends are rounded to about it
 };
 
+/// One lane of one edge of a route and the cheapest way on from it.
+struct LaneOption {
+  double cost = std::numeric_limits<double>::infinity();  ///< lane changes from entering here to
+                                                          ///< the route's end, weighted
+  int exit_index = -1;                ///< index of the lane on which the edge is left
+  ConnectionId next = kNoConnection;  ///< connection taken from there
+  double drivable = 0;  ///< from the edge's begin until a lane change can't be put off any more [m]
+};
+
+/// Where a vehicle goes, apart from the lanes that it takes: what its path is made from again when
+/// it changes them.
+struct Trip {
+  std::vector<EdgeId> route;
+  PathRequest request;                           ///< `route` there is this one's
+  std::vector<std::vector<LaneOption>> options;  ///< by edge of the route, then by lane index
+
+  Trip() = default;
+  Trip(const Trip&) = delete;  // the request refers to the route
+  Trip& operator=(const Trip&) = delete;
+};
+
+/// A way through the network that one agent means to follow: geometry with everything that rules
+/// need to know along it.
+struct Path {
+  Polyline line;
+  std::vector<PathStretch> stretches;  ///< in order, gapless
+  std::vector<PathLink> links;         ///< in order of stop_line
+  std::vector<PathStop> stops;         ///< in order
+  std::vector<double>
+      speed_profile;   ///< [m/s] every kProfileStep along: bends and limits with braking ahead
+  double arrival = 0;  ///< along, where the trip ends [m]
+  bool walking = false;
+  std::shared_ptr<const Trip> trip;  ///< null on foot
+
+  static constexpr double kProfileStep = 2.0;
+
+  /// Stretch that holds `along` (clamped). Precondition: not empty.
+  const PathStretch& stretch_at(double along) const;
+  /// Speed that bends and limits leave at `along`, interpolated [m/s].
+  double profile_at(double along) const;
+};
+
 /// Path of a vehicle along its route: the lanes that need the fewest lane changes, changes spread
 /// over the edge. nullopt with `why` set where a pair of edges isn't connected for the class.
 std::optional<Path> build_driving_path(const RoadNetwork& network, const PathRequest& request,
                                        std::string& why);
+
+/// The path of the same trip that moves over into `target`, a neighbour of the lane at `along`,
+/// within `distance` from there, and goes on as the trip needs. It begins `back` [m] behind the
+/// place or at the edge's begin: `along` becomes the place on the new path. Halts that lie ahead
+/// are kept. nullopt where the edge ends before the change does, or the lane does not lead on.
+std::optional<Path> change_lane(const RoadNetwork& network, const Path& path, double& along,
+                                LaneId target, double distance, double back);
 
 /// Path of a pedestrian along the edges of a walk: sidewalks in either direction, walking areas and
 /// crossings between them found by least distance. nullopt with `why` set where the walk can't be

@@ -60,6 +60,26 @@ std::vector<double> filter_widths(const std::vector<Vec2>& samples, double step,
     widths[i] = std::max(widths[i], widths[i + 1] - kRamp * step);
   return widths;
 }
+/// Leaves out vertices that lie within a centimetre of the chord over them: whoever looks along the
+/// line has fewer pieces to look at.
+std::vector<Vec2> without_flat_vertices(const std::vector<Vec2>& points) {
+  constexpr double kFlat = 0.01;  // [m]
+  constexpr std::size_t kMost = 64;
+  std::vector<Vec2> kept{points.front()};
+  std::size_t last = 0;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const Vec2 chord = points[i + 1] - points[last];
+    const double length = chord.norm();
+    bool flat = i - last < kMost && length > 1e-9;
+    for (std::size_t k = last + 1; flat && k <= i; ++k)
+      flat = std::abs(cross(chord, points[k] - points[last])) < kFlat * length;
+    if (flat) continue;
+    kept.push_back(points[i]);
+    last = i;
+  }
+  kept.push_back(points.back());
+  return kept;
+}
 }  // namespace
 
 void round_corners(double turning_radius, Path& path) {
@@ -98,7 +118,7 @@ void round_corners(double turning_radius, Path& path) {
     carried(link.end);
   }
   for (PathStop& stop : path.stops) carried(stop.along);
-  path.line = Polyline(std::move(rounded));
+  path.line = Polyline(without_flat_vertices(rounded));
 }
 
 void append_span(const Polyline& line, double from, double to, std::vector<Vec2>& points) {

@@ -26,6 +26,8 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.path);
   visit(scene.path_along);
   visit(scene.path_offset);
+  visit(scene.passing_offset);
+  visit(scene.lateral_aim);
   visit(scene.standing_time);
   visit(scene.next_stop);
   visit(scene.stop_left);
@@ -53,6 +55,8 @@ void append_agent(Scene& scene, const AgentState& agent) {
   scene.control[row] = agent.control;
   scene.path[row] = agent.path;
   scene.path_offset[row] = agent.path_offset;
+  scene.passing_offset[row] = agent.path_offset;
+  scene.lateral_aim[row] = agent.path_offset;
 }
 
 void remove_agents(Scene& scene, const std::vector<bool>& removed) {

@@ -75,6 +75,8 @@ void tick(Simulation& sim, World& world) {
       locate_on_path(sim.model.road, sim.road, scene, row);
   });
   prepare_tick(sim.model, scene, *sim.workers, sim.geometry);
+  choose_lanes(sim.model, sim.geometry.grid, sim.dt, *sim.workers, sim.road, scene,
+               sim.lane_choice);
   update_road_contexts(sim.model, sim.road, sim.geometry.grid, sim.dt, *sim.workers, sim.approaches,
                        scene);
   clock.end(sim.times.context);

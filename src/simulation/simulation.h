@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "model/approaches.h"
 #include "model/gamma_velocity.h"
+#include "model/lane_choice.h"
 #include "model/tracking.h"
 #include "simulation/world.h"
 
@@ -29,6 +30,7 @@ struct Simulation {
 
   // scratch, meaning nothing between ticks
   ApproachTable approaches;
+  LaneChoiceWork lane_choice;
   TickGeometry geometry;
   std::vector<Workspace> workspaces;
   std::vector<BodyState> commands;

@@ -90,6 +90,34 @@ std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& detail
   return std::make_shared<Path>(std::move(*path));
 }
 
+std::vector<std::shared_ptr<const Path>> paths_besides(const Model& model,
+                                                       const SumoAgentDetails& details,
+                                                       AgentTypeId type_id, const Path& path) {
+  constexpr double kWorthIt = 200.0;  // [m]
+  std::vector<std::shared_ptr<const Path>> paths;
+  const Lane& chosen = model.road.lane(path.stretches.front().lane);
+  const std::vector<LaneId>& lanes = model.road.edge(chosen.edge).lanes;
+  const std::vector<LaneOption>& options = path.trip->options.front();
+  const double here = options[static_cast<std::size_t>(chosen.index)].drivable;
+  std::vector<LaneId> others;
+  for (const LaneId id : lanes) {
+    const LaneOption& option = options[static_cast<std::size_t>(model.road.lane(id).index)];
+    if (id != path.stretches.front().lane && std::isfinite(option.cost) &&
+        option.drivable > std::min(here, kWorthIt) - 1.0)
+      others.push_back(id);
+  }
+  auto apart = [&](LaneId id) { return std::abs(model.road.lane(id).index - chosen.index); };
+  std::stable_sort(others.begin(), others.end(),
+                   [&](LaneId a, LaneId b) { return apart(a) < apart(b); });
+  for (const LaneId id : others) {
+    SumoAgentDetails moved = details;
+    moved.lane = model.road.lane(id).name;
+    std::string why;
+    if (auto besides = path_of(model, moved, type_id, why)) paths.push_back(std::move(besides));
+  }
+  return paths;
+}
+
 BehaviorState draw_behavior(const AgentType& type, std::uint64_t seed, AgentId id) {
   BehaviorState behavior;
   behavior.intention.kind = IntentionKind::Path;

@@ -18,6 +18,12 @@ std::optional<AgentTypeId> agent_type_of(const AgentTypeTable& types,
 std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& details, AgentTypeId type,
                               std::string& why);
 
+/// Paths of the same vehicle from the lanes beside the one where `path` starts, nearest first:
+/// those that its trip can start on and that lead on far enough to be worth it.
+std::vector<std::shared_ptr<const Path>> paths_besides(const Model& model,
+                                                       const SumoAgentDetails& details,
+                                                       AgentTypeId type_id, const Path& path);
+
 /// Behaviour drawn for one agent (responsibility, attention; intention is its path): a pure
 /// function of seed and id.
 BehaviorState draw_behavior(const AgentType& type, std::uint64_t seed, AgentId id);

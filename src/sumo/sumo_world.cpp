@@ -5,8 +5,7 @@
 #include <algorithm>
 
 #include "base/units.h"
-#include "model/approaches.h"
-#include "model/following.h"
+#include "sumo/entry.h"
 #include "sumo/sumo_agents.h"
 
 namespace sumogamma {
@@ -15,32 +14,6 @@ namespace {
 
 /// Off the map: where agents wait that SUMO has inserted and that have no room yet.
 Vec2 lobby(const RoadNetwork& network) { return network.upper_corner + Vec2(100.0, 100.0); }
-
-/// Separating-axis test of two rectangles given by centre, heading and half sizes.
-struct Box {
-  Vec2 center;
-  double heading = 0, half_length = 0, half_width = 0;
-};
-bool overlap(const Box& a, const Box& b) {
-  const Vec2 between = b.center - a.center;
-  for (const double heading :
-       {a.heading, a.heading + 0.5 * kPi, b.heading, b.heading + 0.5 * kPi}) {
-    const Vec2 axis = direction_of(heading);
-    auto extent = [&](const Box& box) {
-      const Vec2 forward = direction_of(box.heading);
-      return box.half_length * std::abs(forward.dot(axis)) +
-             box.half_width * std::abs(cross(forward, axis));
-    };
-    if (std::abs(between.dot(axis)) > extent(a) + extent(b)) return false;
-  }
-  return true;
-}
-
-Box box_of(const Scene& scene, std::size_t row) {
-  const Vec2 forward = direction_of(scene.heading[row]);
-  return {scene.position[row], scene.heading[row], half_extent(scene, row, forward),
-          half_extent(scene, row, left_of(forward))};
-}
 
 /// SUMO's reference point of a footprint centre and back: front bumper for vehicles, centre for
 /// persons.
@@ -226,21 +199,27 @@ void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
 }
 
 void SumoWorld::insert_pending(Scene& scene, RoadState& road) {
-  // in order of departure; one that finds no room does not hold up those who start elsewhere
+  // in order of departure; one that finds no room holds up only those who start at its place
+  std::set<std::pair<LaneId, int>> full;
   for (auto pending = pending_.begin(); pending != pending_.end();) {
     if (options_.max_agents > 0 && scene.size() >= options_.max_agents) break;
-    if (insert(*pending, scene, road))
-      pending = pending_.erase(pending);
-    else
+    const PathStretch& start = pending->path->stretches.front();
+    const std::pair place(start.lane, static_cast<int>(start.lane_from / 10.0));
+    if (full.contains(place)) {
       ++pending;
+    } else if (insert(*pending, scene, road)) {
+      pending = pending_.erase(pending);
+    } else {
+      full.insert(place);
+      ++pending;
+    }
   }
   life_cycle_.waiting = pending_.size();
 }
 
-AgentState SumoWorld::newcomer(const Pending& pending, AgentId id) const {
+AgentState SumoWorld::newcomer(const Pending& pending, const Path& path, AgentId id) const {
   const SumoAgentDetails& details = pending.details;
   const AgentType& type = type_of(model_.types, pending.type);
-  const Path& path = *pending.path;
   AgentState agent;
   agent.id = id;
   agent.type = pending.type;
@@ -267,58 +246,32 @@ AgentState SumoWorld::newcomer(const Pending& pending, AgentId id) const {
   return agent;
 }
 
-std::optional<double> SumoWorld::entry_speed(const Pending& pending, const AgentState& agent,
-                                             double ground, const Scene& scene) const {
-  const bool is_person = pending.details.is_person;
-  const AgentType& type = type_of(model_.types, pending.type);
-  const Path& path = *pending.path;
-  const Vec2 direction = path.line.direction_at(0.0);
-  const double half_length = agent.footprint.vertices[0].x(),
-               half_width = agent.footprint.vertices[1].y();
-  // room for the body now, and for what comes from behind and goes ahead
-  const double gap = is_person ? 0.1 : type.min_gap;
-  const Box wanted{agent.position, agent.heading, half_length + gap,
-                   half_width + (is_person ? 0.05 : 0.2)};
-  double speed = is_person ? 0.0 : std::min(path.profile_at(0.0), agent.preferred_speed);
-  // no faster than stops at ease before the first line, whatever the signal there shows
-  if (!path.links.empty()) {
-    const double room = std::max(path.links.front().stop_line - half_length - 1.0, 0.0);
-    speed = std::min(speed, std::sqrt(2.0 * 0.7 * type.comfortable_deceleration * room));
+bool SumoWorld::insert(Pending& pending, Scene& scene, RoadState& road) {
+  if (insert_on(pending, pending.path, scene, road)) return true;
+  if (!pending.path->trip) return false;
+  if (!pending.looked_besides) {
+    pending.looked_besides = true;
+    pending.besides = paths_besides(model_, pending.details, pending.type, *pending.path);
   }
-  for (std::size_t row = 0; row < scene.size(); ++row) {
-    const Vec2 relative = to_body(scene.position[row] - agent.position, direction);
-    if (std::abs(relative.x()) > 80.0 || std::abs(relative.y()) > 30.0) continue;
-    if (std::abs(scene.height[row] - ground) > kStorey) continue;
-    const Box other = box_of(scene, row);
-    if (overlap(wanted, other)) return std::nullopt;
-    if (is_person || std::abs(relative.y()) > half_width + other.half_width + 0.3) continue;
-    const double ahead = scene.velocity[row].dot(direction);
-    const double free = std::abs(relative.x()) - half_length - scene.footprint[row].radius - gap;
-    if (relative.x() > 0.0) {
-      // no faster than stops behind it at ease
-      const double leader = std::max(ahead, 0.0);
-      const double way = 2.0 * 0.7 * type.comfortable_deceleration * std::max(free - 1.0, 0.0);
-      speed = std::min(speed, std::sqrt(leader * leader + way));
-    } else if (free < ahead * 2.0) {
-      return std::nullopt;  // somebody is about to be here
-    }
-  }
-  return speed;
+  for (const auto& path : pending.besides)
+    if (insert_on(pending, path, scene, road)) return true;
+  return false;
 }
 
-bool SumoWorld::insert(const Pending& pending, Scene& scene, RoadState& road) {
+bool SumoWorld::insert_on(const Pending& pending, const std::shared_ptr<const Path>& path,
+                          Scene& scene, RoadState& road) {
   const SumoAgentDetails& details = pending.details;
   const AgentId id{static_cast<std::uint32_t>(known_.size())};
-  AgentState agent = newcomer(pending, id);
-  const PathStretch& stretch = pending.path->stretches.front();
+  AgentState agent = newcomer(pending, *path, id);
+  const PathStretch& stretch = path->stretches.front();
   const double ground = elevation_at(model_.road.lane(stretch.lane), stretch.lane_from);
-  const std::optional<double> speed = entry_speed(pending, agent, ground, scene);
+  const std::optional<double> speed = entry_speed(model_, *path, agent, ground, scene);
   if (!speed) return false;
   agent.speed = *speed;
 
   register_agent(details, false, time_);
   road.paths.resize(known_.size());
-  road.paths[id.value] = pending.path;
+  road.paths[id.value] = path;
   append_agent(scene, agent);
   scene.height.back() = ground;
   ++life_cycle_.by_type[type_of(model_.types, pending.type).name].inserted;

@@ -76,7 +76,9 @@ class SumoWorld : public World {
   struct Pending {
     SumoAgentDetails details;
     AgentTypeId type{};
-    std::shared_ptr<const Path> path;
+    std::shared_ptr<const Path> path;                  ///< from the lane that SUMO chose
+    std::vector<std::shared_ptr<const Path>> besides;  ///< from the lanes beside it, once needed
+    bool looked_besides = false;
   };
   struct Known {
     std::string sumo_id;
@@ -94,13 +96,11 @@ class SumoWorld : public World {
   void update_external(Scene& scene, RoadState& road);
   void hold_followers(const Scene& scene);
   bool wants_control(const SumoAgentDetails& details, AgentTypeId type) const;
-  bool insert(const Pending& pending, Scene& scene, RoadState& road);
-  /// The agent as it would stand at the start of its path.
-  AgentState newcomer(const Pending& pending, AgentId id) const;
-  /// Speed [m/s] with which it may start now, or nothing where its place isn't free. `ground`:
-  /// height there [m].
-  std::optional<double> entry_speed(const Pending& pending, const AgentState& agent, double ground,
-                                    const Scene& scene) const;
+  bool insert(Pending& pending, Scene& scene, RoadState& road);
+  bool insert_on(const Pending& pending, const std::shared_ptr<const Path>& path, Scene& scene,
+                 RoadState& road);
+  /// The agent as it would stand at the start of `path`.
+  AgentState newcomer(const Pending& pending, const Path& path, AgentId id) const;
   AgentId register_agent(const SumoAgentDetails& details, bool external, double time);
   void forget(AgentId id, Scene& scene, RoadState& road, std::vector<bool>& removed,
               std::size_t row);

@@ -1,0 +1,127 @@
+#include "model/lane_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/approaches.h"
+#include "model/following.h"
+#include "model/passing.h"
+
+namespace sumogamma {
+
+namespace {
+
+constexpr double kPeriod = 0.4;       ///< between two looks of an agent [s]
+constexpr double kSafeBraking = 1.5;  ///< asked of nobody more for a lane change [m/s^2]
+constexpr double kGain = 1.0;         ///< worth a lane change [m/s]
+constexpr double kChangeTime = 3.0;   ///< [s]
+constexpr double kShortest = 12.0;    ///< change [m]
+
+double look_ahead(const Scene& scene, std::size_t row) {
+  return std::min(30.0 + 3.0 * scene.speed[row], 100.0);
+}
+
+/// Would moving over by `shift` force nobody to brake hard, oneself included?
+bool is_safe(const Model& model, const Scene& scene, const Surroundings& around, std::size_t row,
+             double shift, double free_speed) {
+  const AgentType& type = type_of(model.types, scene.type[row]);
+  const double front = around.along + around.half_length, rear = around.along - around.half_length;
+  for (const RoadUser& user : around.users) {
+    if (std::abs(user.offset - shift) > user.half_width + around.half_width + 0.3) continue;
+    if (user.rear < front && user.front > rear) return false;
+    if (user.rear >= front) {
+      if (following_acceleration(type, around.speed, free_speed, user.rear - front,
+                                 std::max(user.speed, 0.0)) < -kSafeBraking)
+        return false;
+    } else {
+      const AgentType& other = type_of(model.types, scene.type[user.row]);
+      const double gap = rear - user.front;
+      if (gap < 0.5 ||
+          following_acceleration(other, std::max(user.speed, 0.0), std::max(user.speed, 5.0), gap,
+                                 around.speed) < -kSafeBraking)
+        return false;
+    }
+  }
+  return true;
+}
+
+/// The neighbouring lane on which this agent would rather be, kNoLane where it stays.
+LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
+                   const Surroundings& around, std::size_t row) {
+  const PathStretch& here = path.stretch_at(around.along);
+  const double distance = std::max(kChangeTime * around.speed, kShortest);
+  const Lane& lane = model.road.lane(here.lane);
+  if (lane.kind != LaneKind::Normal || here.changing || around.speed < 2.0 ||
+      std::abs(around.offset) > 1.2 || here.to - around.along < distance + 2.0 ||
+      around.along - here.from < around.half_length)
+    return kNoLane;
+  const auto& options = path.trip->options[static_cast<std::size_t>(here.route_index)];
+  const double on_lane = here.lane_from + around.along - here.from;
+  const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
+  const double stay = hoped_speed(around, 0.0, free_speed, 0.3);
+  const double left_here = options[static_cast<std::size_t>(lane.index)].drivable - on_lane;
+
+  LaneId best = kNoLane;
+  double most = stay + kGain;
+  const double inner_side = model.road.left_hand ? -1.0 : 1.0;
+  for (const bool inner : {true, false}) {
+    const LaneId id = inner ? lane.inner : lane.outer;
+    if (id == kNoLane) continue;
+    const Lane& other = model.road.lane(id);
+    const LaneOption& option = options[static_cast<std::size_t>(other.index)];
+    if (option.cost == std::numeric_limits<double>::infinity()) continue;
+    // it must lead on for long enough to be worth it, or as far as this one
+    const double left_there = option.drivable - on_lane;
+    if (left_there < left_here - 1.0 && left_there < std::max(80.0, 12.0 * around.speed)) continue;
+    const double shift = (inner ? inner_side : -inner_side) * 0.5 * (lane.width + other.width);
+    const double there =
+        hoped_speed(around, shift, std::min(free_speed, other.speed_limit * 1.2), 0.3);
+    if (there <= most || !is_safe(model, scene, around, row, shift, free_speed)) continue;
+    most = there;
+    best = id;
+  }
+  return best;
+}
+
+/// Moves the place aimed at within the lane, at walking pace, towards where it should be.
+void move_aim(double wanted, double dt, double& aim) {
+  constexpr double kSideways = 0.8;  // [m/s]
+  aim += std::clamp(wanted - aim, -kSideways * dt, kSideways * dt);
+}
+
+}  // namespace
+
+void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Workers& workers,
+                  RoadState& road, Scene& scene, LaneChoiceWork& work) {
+  const auto period = std::max<std::int64_t>(1, std::llround(kPeriod / dt));
+  work.around.resize(workers.count());
+  work.wanted.assign(scene.size(), kNoLane);
+  workers.for_each_range(scene.size(), [&](std::size_t worker, std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      const Path* path = road.path(scene.path[row]);
+      if (path == nullptr || path->walking || scene.control[row] != Control::Gamma) continue;
+      if ((scene.tick + scene.id[row].value) % period == 0) {
+        Surroundings& around = work.around[worker];
+        look_around(model, road, scene, grid, row, look_ahead(scene, row), 8.0, around);
+        scene.passing_offset[row] = passing_offset(model, *path, scene, around, row);
+        if (path->trip && scene.stop_left[row] <= 0.0)
+          work.wanted[row] = better_lane(model, *path, scene, around, row);
+      }
+      move_aim(scene.passing_offset[row], dt, scene.lateral_aim[row]);
+    }
+  });
+  // paths are made again one after the other: others may look at them meanwhile
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    if (work.wanted[row] == kNoLane) continue;
+    double along = scene.path_along[row];
+    const Path& path = *road.path(scene.path[row]);
+    const double distance = std::max(kChangeTime * scene.speed[row], kShortest);
+    auto changed = change_lane(model.road, path, along, work.wanted[row], distance, 20.0);
+    if (!changed) continue;
+    road.paths[scene.id[row].value] = std::make_shared<const Path>(std::move(*changed));
+    scene.path_along[row] = along;
+    scene.next_stop[row] = 0;
+  }
+}
+
+}  // namespace sumogamma

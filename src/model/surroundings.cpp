@@ -1,0 +1,52 @@
+#include "model/surroundings.h"
+
+#include <algorithm>
+
+#include "model/approaches.h"
+
+namespace sumogamma {
+
+void look_around(const Model&, const RoadState& road, const Scene& scene, const SpatialGrid& grid,
+                 std::size_t row, double reach, double aside, Surroundings& around) {
+  const Path& path = *road.path(scene.path[row]);
+  const double along = scene.path_along[row];
+  const Vec2 tangent = path.line.direction_at(along);
+  around.along = along;
+  around.offset = cross(tangent, scene.position[row] - path.line.point_at(along));
+  around.half_length = half_extent(scene, row, tangent);
+  around.half_width = half_extent(scene, row, left_of(direction_of(scene.heading[row])));
+  around.speed = scene.speed[row];
+  around.users.clear();
+  grid.visit_within(scene.position[row], reach, [&](std::size_t other, double) {
+    if (other == row || std::abs(scene.height[other] - scene.height[row]) > kStorey) return;
+    const PolylinePosition place =
+        path.line.project(scene.position[other], along - reach, along + reach);
+    if (place.distance > aside + scene.footprint[other].radius) return;
+    const Vec2 direction = path.line.direction_at(place.along);
+    const double half_length = half_extent(scene, other, direction);
+    around.users.push_back({place.along - half_length, place.along + half_length, place.offset,
+                            half_extent(scene, other, left_of(direction)),
+                            scene.velocity[other].dot(direction),
+                            direction.dot(direction_of(scene.heading[other])) > 0.5,
+                            static_cast<std::uint32_t>(other)});
+  });
+  std::sort(around.users.begin(), around.users.end(),
+            [](const RoadUser& a, const RoadUser& b) { return a.row < b.row; });
+}
+
+double hoped_speed(const Surroundings& around, double offset, double free_speed, double margin) {
+  constexpr double kOutlook = 4.0;  // [s]
+  const double front = around.along + around.half_length;
+  const double rear = around.along - around.half_length;
+  double hoped = free_speed;
+  for (const RoadUser& user : around.users) {
+    if (user.front < rear - 0.3) continue;
+    if (std::abs(user.offset - offset) > user.half_width + around.half_width + margin) continue;
+    const double gap = user.rear - front;
+    if (gap < 0.0) return -1.0;
+    hoped = std::min(hoped, std::max(user.speed + gap / kOutlook, 0.0));
+  }
+  return hoped;
+}
+
+}  // namespace sumogamma

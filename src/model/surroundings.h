@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry/spatial_grid.h"
+#include "model/model.h"
+#include "model/road_state.h"
+
+namespace sumogamma {
+
+/// Somebody on the road near an agent, in the coordinates of the agent's path.
+struct RoadUser {
+  double rear = 0, front = 0;  ///< along the path [m]
+  double offset = 0;           ///< of the centre beside the path, positive left [m]
+  double half_width = 0;       ///< across the path [m]
+  double speed = 0;            ///< along the path; negative against it [m/s]
+  bool aligned = false;        ///< heads the same way
+  std::uint32_t row = 0;
+};
+
+/// An agent on wheels and whoever is on the road around it.
+struct Surroundings {
+  double along = 0, offset = 0;  ///< the agent's centre [m]
+  double half_length = 0, half_width = 0;
+  double speed = 0;
+  std::vector<RoadUser> users;  ///< in order of row
+};
+
+/// Fills `around` for a row with a path: everybody whose centre lies within `reach` ahead, or
+/// `reach` behind [m], and within `aside` of the path on the same storey.
+void look_around(const Model& model, const RoadState& road, const Scene& scene,
+                 const SpatialGrid& grid, std::size_t row, double reach, double aside,
+                 Surroundings& around);
+
+/// Speed that can be hoped for over the next seconds with the body's centre at `offset` beside the
+/// path: as fast as `free_speed` where nobody is ahead, less the nearer and the slower somebody is,
+/// negative where somebody is beside. `margin` [m] is kept to the sides.
+double hoped_speed(const Surroundings& around, double offset, double free_speed, double margin);
+
+}  // namespace sumogamma

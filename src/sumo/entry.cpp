@@ -1,0 +1,105 @@
+#include "sumo/entry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "geometry/rotation.h"
+#include "model/approaches.h"
+#include "model/following.h"
+
+namespace sumogamma {
+
+namespace {
+
+/// Separating-axis test of two rectangles given by centre, heading and half sizes.
+struct Box {
+  Vec2 center;
+  double heading = 0, half_length = 0, half_width = 0;
+};
+bool overlap(const Box& a, const Box& b) {
+  const Vec2 between = b.center - a.center;
+  for (const double heading :
+       {a.heading, a.heading + 0.5 * kPi, b.heading, b.heading + 0.5 * kPi}) {
+    const Vec2 axis = direction_of(heading);
+    auto extent = [&](const Box& box) {
+      const Vec2 forward = direction_of(box.heading);
+      return box.half_length * std::abs(forward.dot(axis)) +
+             box.half_width * std::abs(cross(forward, axis));
+    };
+    if (std::abs(between.dot(axis)) > extent(a) + extent(b)) return false;
+  }
+  return true;
+}
+
+Box box_of(const Scene& scene, std::size_t row) {
+  const Vec2 forward = direction_of(scene.heading[row]);
+  return {scene.position[row], scene.heading[row], half_extent(scene, row, forward),
+          half_extent(scene, row, left_of(forward))};
+}
+
+/// May somebody have to be waited for at this link?
+bool needs_care(const Model& model, const PathLink& link) {
+  if (model.road.connection(link.connection).signal != kNoSignal) return true;
+  const auto& zones = model.conflicts[index_of(link.connection)];
+  return std::any_of(zones.begin(), zones.end(),
+                     [](const ConflictZone& zone) { return zone.yields || zone.foe_is_crossing; });
+}
+
+}  // namespace
+
+std::optional<double> entry_speed(const Model& model, const Path& path, const AgentState& agent,
+                                  double ground, const Scene& scene) {
+  const AgentType& type = type_of(model.types, agent.type);
+  const bool on_foot = type.kinematics == Kinematics::Holonomic;
+  const Vec2 direction = path.line.direction_at(0.0);
+  const double half_length = agent.footprint.vertices[0].x(),
+               half_width = agent.footprint.vertices[1].y();
+  // room for the body now, and for what comes from behind and goes ahead
+  const double gap = on_foot ? 0.1 : type.min_gap;
+  const double ease = 2.0 * 0.7 * type.comfortable_deceleration;
+  const Box wanted{agent.position, agent.heading, half_length + gap,
+                   half_width + (on_foot ? 0.05 : 0.2)};
+  double speed = on_foot ? 0.0 : std::min(path.profile_at(0.0), agent.preferred_speed);
+  for (const PathLink& link : path.links) {
+    if (ease * link.stop_line > speed * speed + ease * (half_length + 1.0)) break;
+    if (needs_care(model, link))
+      speed = std::min(speed, std::sqrt(ease * std::max(link.stop_line - half_length - 1.0, 0.0)));
+  }
+  const double wish = speed;
+  struct Follower {
+    std::size_t row;
+    double gap, speed;
+  };
+  std::vector<Follower> followers;
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    const Vec2 relative = to_body(scene.position[row] - agent.position, direction);
+    if (std::abs(relative.x()) > 80.0 || std::abs(relative.y()) > 30.0) continue;
+    if (std::abs(scene.height[row] - ground) > kStorey) continue;
+    const Box other = box_of(scene, row);
+    if (overlap(wanted, other)) return std::nullopt;
+    if (on_foot || std::abs(relative.y()) > half_width + other.half_width + 0.3) continue;
+    const double ahead = scene.velocity[row].dot(direction);
+    const double free = std::abs(relative.x()) - half_length - scene.footprint[row].radius - gap;
+    if (relative.x() > 0.0) {
+      // no faster than stops behind it at ease and than keeps most of its headway; where the gap is
+      // opening, waiting a moment is better than to start slowly in front of others
+      const double leader = std::max(ahead, 0.0);
+      const double safe = std::min(std::sqrt(leader * leader + ease * std::max(free - 1.0, 0.0)),
+                                   std::max(free, 0.0) / (0.7 * type.headway));
+      if (safe < 0.8 * std::min(wish, leader)) return std::nullopt;
+      speed = std::min(speed, safe);
+    } else if (ahead > 0.1) {
+      followers.push_back({row, free, ahead});
+    }
+  }
+  for (const Follower& other : followers) {
+    const AgentType& kind = type_of(model.types, scene.type[other.row]);
+    if (following_acceleration(kind, other.speed, std::max(other.speed, 5.0), other.gap + gap,
+                               speed) < -kind.comfortable_deceleration)
+      return std::nullopt;
+  }
+  return speed;
+}
+
+}  // namespace sumogamma

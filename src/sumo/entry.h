@@ -1,0 +1,17 @@
+#pragma once
+
+#include <optional>
+
+#include "model/model.h"
+#include "road/path.h"
+
+namespace sumogamma {
+
+/// Speed [m/s] with which `agent` may start now where it stands, at the start of `path`, or nothing
+/// where its place isn't free: it must not touch anybody, be able to stop behind whoever is ahead
+/// and before the first line where something may have to be waited for, and force nobody behind it
+/// to brake hard. `ground`: height there [m].
+std::optional<double> entry_speed(const Model& model, const Path& path, const AgentState& agent,
+                                  double ground, const Scene& scene);
+
+}  // namespace sumogamma
