@@ -139,6 +139,8 @@ const char* name_of_reason(LimitReason reason) {
       return "leader";
     case LimitReason::Stop:
       return "stop";
+    case LimitReason::Merge:
+      return "lane change";
     case LimitReason::PathEnd:
       return "path end";
   }

@@ -38,7 +38,8 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
     }
   }
   std::sort(approaches_.begin(), approaches_.end(), [](const Approach& a, const Approach& b) {
-    return a.connection != b.connection ? a.connection < b.connection : a.row < b.row;
+    if (a.connection != b.connection) return a.connection < b.connection;
+    return a.front != b.front ? a.front > b.front : a.row < b.row;
   });
   for (std::size_t i = 0; i < approaches_.size(); ++i) {
     Range& range = ranges_[index_of(approaches_[i].connection)];

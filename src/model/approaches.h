@@ -30,6 +30,7 @@ class ApproachTable {
   /// Registers every agent with a path for the links within its stopping distance and some seconds.
   /// Serial, O(n log n).
   void rebuild(const Model& model, const RoadState& road, const Scene& scene);
+  /// Foremost first.
   std::span<const Approach> of(ConnectionId id) const;
   /// Frozen copy of what the contexts said at the last tick: rows may read each other's.
   const Waiting& waiting(std::size_t row) const { return waiting_[row]; }
@@ -38,7 +39,7 @@ class ApproachTable {
   struct Range {
     std::uint32_t begin = 0, end = 0;
   };
-  std::vector<Approach> approaches_;  ///< sorted by connection, then row
+  std::vector<Approach> approaches_;  ///< sorted by connection, foremost first
   std::vector<Range> ranges_;         ///< by connection
   std::vector<Waiting> waiting_;      ///< by row
 };

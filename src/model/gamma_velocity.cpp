@@ -41,6 +41,22 @@ double speed_limit(const AgentType& type, const Scene& scene, std::size_t row,
   return std::min(fastest, std::max(context.allowed_speed, 0.0));
 }
 
+/// differs from the paper: of the velocities on a road that break G hardly more than the least
+/// possible, the one nearest to the preferred is taken. Two vehicles that were squeezed together
+/// side by side would else stand for ever: no velocity that they can track parts them, and rolling
+/// on breaks G by a hair more than standing.
+void ease_violation(double fastest, Workspace& work) {
+  constexpr double kHair = 0.1;  // [m/s]
+  if (work.result.violation <= 1e-6) return;
+  ConstraintSet& constraints = work.constraints;
+  for (std::size_t k = constraints.hard_count; k < constraints.planes.size(); ++k)
+    constraints.planes[k].point -= (work.result.violation + kHair) * constraints.planes[k].normal;
+  const double violation = work.result.violation;
+  work.result = closest_point(constraints.planes, constraints.hard_count, work.preferred, fastest,
+                              work.program);
+  work.result.violation = violation;
+}
+
 }  // namespace
 
 Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& geometry,
@@ -64,6 +80,7 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
   const double fastest = speed_limit(type, scene, row, work.preferred);
   work.result =
       closest_point(constraints.planes, constraints.hard_count, target, fastest, work.program);
+  if (scene.context[row].active && geometry.agent[row].on_wheels) ease_violation(fastest, work);
   if (!model.options.use_guard) return work.result.point;
 
   // differs from the paper: what half-planes can't say about turning and braking bodies

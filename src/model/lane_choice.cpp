@@ -15,15 +15,17 @@ constexpr double kPeriod = 0.4;       ///< between two looks of an agent [s]
 constexpr double kSafeBraking = 1.5;  ///< asked of nobody more for a lane change [m/s^2]
 constexpr double kGain = 1.0;         ///< worth a lane change [m/s]
 constexpr double kChangeTime = 3.0;   ///< [s]
+constexpr double kBack = 20.0;        ///< of path kept behind the body [m]
 constexpr double kShortest = 12.0;    ///< change [m]
 
 double look_ahead(const Scene& scene, std::size_t row) {
   return std::min(30.0 + 3.0 * scene.speed[row], 100.0);
 }
 
-/// Would moving over by `shift` force nobody to brake hard, oneself included?
+/// Would moving over by `shift` force nobody to brake harder than `braking` [m/s^2], oneself
+/// included?
 bool is_safe(const Model& model, const Scene& scene, const Surroundings& around, std::size_t row,
-             double shift, double free_speed) {
+             double shift, double free_speed, double braking) {
   const AgentType& type = type_of(model.types, scene.type[row]);
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
   for (const RoadUser& user : around.users) {
@@ -31,14 +33,14 @@ bool is_safe(const Model& model, const Scene& scene, const Surroundings& around,
     if (user.rear < front && user.front > rear) return false;
     if (user.rear >= front) {
       if (following_acceleration(type, around.speed, free_speed, user.rear - front,
-                                 std::max(user.speed, 0.0)) < -kSafeBraking)
+                                 std::max(user.speed, 0.0)) < -braking)
         return false;
-    } else {
+    } else if (scene.context[user.row].foe != scene.id[row].value) {  // else it lets us in
       const AgentType& other = type_of(model.types, scene.type[user.row]);
       const double gap = rear - user.front;
       if (gap < 0.5 ||
           following_acceleration(other, std::max(user.speed, 0.0), std::max(user.speed, 5.0), gap,
-                                 around.speed) < -kSafeBraking)
+                                 around.speed) < -braking)
         return false;
     }
   }
@@ -76,11 +78,44 @@ LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
     const double shift = (inner ? inner_side : -inner_side) * 0.5 * (lane.width + other.width);
     const double there =
         hoped_speed(around, shift, std::min(free_speed, other.speed_limit * 1.2), 0.3);
-    if (there <= most || !is_safe(model, scene, around, row, shift, free_speed)) continue;
+    if (there <= most || !is_safe(model, scene, around, row, shift, free_speed, kSafeBraking))
+      continue;
     most = there;
     best = id;
   }
   return best;
+}
+
+/// The next planned lane change of a path from `along` on; null where none begins within `reach`.
+const PathStretch* next_change(const Path& path, double along, double reach) {
+  for (const PathStretch& stretch : path.stretches) {
+    if (stretch.from > along + reach) break;
+    if (stretch.changing && stretch.from > along) return &stretch;
+  }
+  return nullptr;
+}
+
+/// A lane change that the trip needs waits for its gap: says so to whoever may leave one, and
+/// closes the gate at its begin while there is none. True where the gate is near and closed.
+bool wait_for_gap(const Model& model, const Path& path, const Surroundings& around, std::size_t row,
+                  Scene& scene) {
+  constexpr double kPressed = 3.0;  // [m/s^2]
+  scene.merge_to[row] = kNoLane;
+  scene.gate[row] = std::numeric_limits<double>::infinity();
+  const double speed = around.speed;
+  const PathStretch* change = next_change(path, around.along, 12.0 + 3.0 * speed);
+  if (change == nullptr) return false;
+  const PathStretch& here = path.stretch_at(around.along);
+  const Lane &from = model.road.lane(here.lane), &to = model.road.lane(change->lane);
+  if (from.edge != to.edge) return false;
+  scene.merge_to[row] = change->lane;
+  const double left = model.road.left_hand ? -1.0 : 1.0;
+  const double shift = (to.index > from.index ? left : -left) * 0.5 * (from.width + to.width);
+  const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
+  const double braking = speed < 2.0 ? kPressed : kSafeBraking;
+  if (is_safe(model, scene, around, row, shift, free_speed, braking)) return false;
+  scene.gate[row] = change->from;
+  return change->from - around.along < 2.0 + 1.2 * speed;
 }
 
 /// Moves the place aimed at within the lane, at walking pace, towards where it should be.
@@ -96,6 +131,7 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
   const auto period = std::max<std::int64_t>(1, std::llround(kPeriod / dt));
   work.around.resize(workers.count());
   work.wanted.assign(scene.size(), kNoLane);
+  work.postponed.assign(scene.size(), 0);
   workers.for_each_range(scene.size(), [&](std::size_t worker, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       const Path* path = road.path(scene.path[row]);
@@ -104,23 +140,30 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
         Surroundings& around = work.around[worker];
         look_around(model, road, scene, grid, row, look_ahead(scene, row), 8.0, around);
         scene.passing_offset[row] = passing_offset(model, *path, scene, around, row);
-        if (path->trip && scene.stop_left[row] <= 0.0)
-          work.wanted[row] = better_lane(model, *path, scene, around, row);
+        if (path->trip) {
+          work.postponed[row] = wait_for_gap(model, *path, around, row, scene);
+          if (scene.stop_left[row] <= 0.0 && !std::isfinite(scene.gate[row]))
+            work.wanted[row] = better_lane(model, *path, scene, around, row);
+        }
       }
       move_aim(scene.passing_offset[row], dt, scene.lateral_aim[row]);
     }
   });
   // paths are made again one after the other: others may look at them meanwhile
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (work.wanted[row] == kNoLane) continue;
+    if (work.wanted[row] == kNoLane && work.postponed[row] == 0) continue;
     double along = scene.path_along[row];
     const Path& path = *road.path(scene.path[row]);
-    const double distance = std::max(kChangeTime * scene.speed[row], kShortest);
-    auto changed = change_lane(model.road, path, along, work.wanted[row], distance, 20.0);
+    const double speed = scene.speed[row];
+    auto changed = work.postponed[row] != 0
+                       ? stay_in_lane(model.road, path, along, std::max(speed, 3.0), kBack)
+                       : change_lane(model.road, path, along, work.wanted[row],
+                                     std::max(kChangeTime * speed, kShortest), kBack);
     if (!changed) continue;
     road.paths[scene.id[row].value] = std::make_shared<const Path>(std::move(*changed));
     scene.path_along[row] = along;
     scene.next_stop[row] = 0;
+    scene.gate[row] = std::numeric_limits<double>::infinity();
   }
 }
 

@@ -7,8 +7,9 @@ namespace sumogamma {
 
 /// Buffers of choose_lanes, reused from tick to tick.
 struct LaneChoiceWork {
-  std::vector<Surroundings> around;  ///< by worker
-  std::vector<LaneId> wanted;        ///< by row
+  std::vector<Surroundings> around;     ///< by worker
+  std::vector<LaneId> wanted;           ///< by row
+  std::vector<std::uint8_t> postponed;  ///< by row: a planned change finds no gap yet
 };
 
 /// Lanes and places within them, before anybody's road context is put together: who drives on a

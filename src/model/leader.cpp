@@ -6,8 +6,22 @@
 
 namespace sumogamma {
 
+namespace {
+
+/// Remembers the nearest of those ahead who wait for a gap in this lane.
+void note_merging(const Scene& scene, std::size_t other, const PolylinePosition& place,
+                  const Vec2& direction, double front, DrivingAhead& ahead) {
+  const double half = half_extent(scene, other, direction);
+  if (place.along - half < front + 1.0) return;
+  if (ahead.merging.id >= 0 && ahead.merging.rear <= place.along - half) return;
+  ahead.merging = {place.along - half, place.along + half,
+                   std::max(0.0, scene.velocity[other].dot(direction)), scene.id[other].value};
+}
+
+}  // namespace
+
 Leader find_leader(const Model& model, const RoadState& road, const Scene& scene,
-                   const SpatialGrid& grid, std::size_t row, double reach) {
+                   const SpatialGrid& grid, std::size_t row, double reach, DrivingAhead& ahead) {
   Leader leader;
   const Path* path = road.path(scene.path[row]);
   if (path == nullptr) return leader;
@@ -20,7 +34,7 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
   const double own_offset = cross(tangent, position - path->line.point_at(along));
   const double speed = scene.speed[row];
   const double aim = scene.lateral_aim[row];
-  const double margin = type.width < 1.0 ? 0.15 : 0.3;
+  const double margin = std::min(0.1 + 0.03 * speed, type.width < 1.0 ? 0.15 : 0.3);
 
   grid.visit_within(position, reach, [&](std::size_t other, double) {
     if (other == row || std::abs(scene.height[other] - scene.height[row]) > kStorey) return;
@@ -34,9 +48,15 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     // the body drifts to where it means to be beside its path: near ahead its own offset counts
     const double blend = std::clamp(1.0 - (place.along - along) / 15.0, 0.0, 1.0);
     const double swept = blend * own_offset + (1.0 - blend) * aim;
-    if (std::abs(place.offset - swept) > own_half_width + half_width + margin) return;
     const double rear = place.along - half_extent(scene, other, direction);
     const double gap = rear - along - own_half_length;
+    // whoever is beside already is passed as close as it comes
+    const double kept = gap < 0.0 ? 0.02 : margin;
+    if (std::abs(place.offset - swept) > own_half_width + half_width + kept) {
+      if (scene.merge_to[other] != kNoLane && scene.merge_to[other] == scene.lane[row].lane)
+        note_merging(scene, other, place, direction, along + own_half_length, ahead);
+      return;
+    }
     if (gap < -own_half_length) return;
     const Vec2 velocity = scene.velocity[other];
     const double other_speed = std::max(0.0, velocity.dot(direction));
@@ -46,6 +66,7 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     const bool on_foot =
         type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic;
     if (!aligned && (!on_foot || gap > 2.0 * speed + 3.0)) return;
+    if (!on_foot) ahead.add({rear, 2.0 * place.along - rear, other_speed, scene.id[other].value});
     if (gap < leader.gap || (gap == leader.gap && scene.id[other].value < leader.id))
       leader = {gap, other_speed, rear, scene.id[other].value};
   });

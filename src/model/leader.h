@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 
 #include "geometry/spatial_grid.h"
@@ -17,10 +18,27 @@ struct Leader {
   std::int64_t id = -1;                                  ///< -1: free road
 };
 
+/// Those who drive ahead on an agent's path, in no order: the nearest few that fit.
+struct DrivingAhead {
+  struct Vehicle {
+    double rear = 0, front = 0;  ///< along the path [m]
+    double speed = 0;            ///< along the path, >= 0 [m/s]
+    std::int64_t id = -1;
+  };
+  std::array<Vehicle, 24> vehicles;
+  std::size_t count = 0;
+  Vehicle merging;  ///< the nearest that has to change into this agent's lane and waits for a gap
+
+  void add(const Vehicle& vehicle) {
+    if (count < vehicles.size()) vehicles[count++] = vehicle;
+  }
+};
+
 /// Nearest agent ahead whose footprint reaches into the corridor that the row's body will sweep
 /// along its path, whoever drives it. Vehicles that don't move the same way don't count (right of
-/// way and avoidance see to them), people on foot when near. `reach` is how far to look [m].
+/// way and avoidance see to them), people on foot when near. `reach` is how far to look [m]. Adds
+/// every vehicle ahead to `ahead`.
 Leader find_leader(const Model& model, const RoadState& road, const Scene& scene,
-                   const SpatialGrid& grid, std::size_t row, double reach);
+                   const SpatialGrid& grid, std::size_t row, double reach, DrivingAhead& ahead);
 
 }  // namespace sumogamma

@@ -7,8 +7,9 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kNarrow = 1.2;  ///< vehicles below this width share lanes [m]
-constexpr double kGain = 1.0;    ///< worth passing for [m/s]
+constexpr double kNarrow = 1.2;    ///< vehicles below this width share lanes [m]
+constexpr double kFarthest = 2.3;  ///< aside [m]
+constexpr double kGain = 1.0;      ///< worth passing for [m/s]
 
 /// What is left between two bodies side by side [m].
 double side_gap(bool narrow, double speed) {
@@ -48,10 +49,13 @@ double passing_offset(const Model& model, const Path& path, const Scene& scene,
         user.rear > around.along + around.half_length + 10.0 + 3.0 * around.speed)
       continue;
     if (!narrow && user.half_width > 0.5 * kNarrow) continue;
+    // only who is in the way is passed, and not by changing lanes
+    if (std::abs(user.offset - liked) > user.half_width + half + gap_wanted) continue;
     for (const double side : {inner_side, -inner_side}) {
       if (!narrow && side != inner_side) continue;
       const double offset = user.offset + side * (user.half_width + half + gap_wanted);
-      if (offset > most_left || offset < most_right) continue;
+      if (offset > most_left || offset < most_right || std::abs(offset - liked) > kFarthest)
+        continue;
       const double hoped = hoped_speed(around, offset, free_speed, 0.9 * gap_wanted);
       if (hoped > std::max(most, base + kGain)) {
         best = offset;

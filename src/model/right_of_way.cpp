@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kStopMargin = 0.6;  ///< front halts this far before a line [m]
+constexpr double kFillsLane = 1.2;   ///< nobody overtakes what is wider than this on a link [m]
+constexpr double kPatience = 4.0;    ///< waited for somebody who waits for a third one [s]
 constexpr double kTimeMargin = 1.0;  ///< left between two users of a conflict zone [s]
 
 /// When a body is inside a conflict zone [s from now].
@@ -53,13 +55,11 @@ bool waits_behind(const Model& model, const Scene& scene, const ApproachTable& a
   switch (waiting.reason) {
     case LimitReason::Signal:
     case LimitReason::Stop:
+    case LimitReason::BlockedJunction:
+    case LimitReason::Leader:  // it stands in a queue, be it behind us
       return true;
-    case LimitReason::Leader:  // it stands in a queue: what holds its leader holds it
-      if (waiting.foe != scene.id[row].value) return true;
-      break;
     case LimitReason::Yield:
     case LimitReason::Crossing:
-    case LimitReason::BlockedJunction:
       break;
     default:
       return false;
@@ -69,8 +69,17 @@ bool waits_behind(const Model& model, const Scene& scene, const ApproachTable& a
   };
   if (waiting.foe == scene.id[row].value && on_foot(row) != on_foot(foe.row)) return on_foot(row);
   const double own = scene.standing_time[row], other = scene.standing_time[foe.row];
+  // it has waited long for a third one and so have we: of two that stand for nothing one goes
+  if (waiting.foe != scene.id[row].value && own > kPatience && other > kPatience) return true;
   return own > other || (own == other && scene.id[row] < scene.id[foe.row]);
 }
+
+/// What a foe means for a traveller.
+enum class Verdict {
+  Free,    ///< nothing: it has passed, is far away, or has to wait
+  Held,    ///< it stands and lets the traveller go first; nobody gets past it either
+  Blocks,  ///< it has to be waited for
+};
 
 struct Judge {
   const Model& model;
@@ -80,9 +89,8 @@ struct Judge {
   const Traveller& traveller;
   const PathLink& link;
 
-  /// Does this foe keep the traveller out of the zone?
-  bool blocks(ConflictZone zone, const Approach& foe) const {
-    if (foe.row == traveller.row) return false;
+  Verdict of(ConflictZone zone, const Approach& foe) const {
+    if (foe.row == traveller.row) return Verdict::Free;
     const Path* foe_path = road.path(scene.path[foe.row]);
     const double foe_link_begin = scene.path_along[foe.row] + 0.5 * foe.length - foe.front;
     const Piece theirs_to_cover =
@@ -93,35 +101,44 @@ struct Judge {
     const AgentType& own_type = type_of(model.types, scene.type[traveller.row]);
     const bool foe_inside = foe.front > std::max(zone.foe_begin, 0.0) + 0.3;
     const Connection& foe_link = model.road.connection(zone.foe);
-    if (!foe_inside && foe.front < 0.0 && is_red(road.signal(foe_link))) return false;
+    if (!foe_inside && foe.front < 0.0 && is_red(road.signal(foe_link))) return Verdict::Free;
 
     const double foe_top =
         std::min(foe_path->profile_at(scene.path_along[foe.row]), foe_type.max_speed);
     const Occupation theirs = occupation(foe_type, foe, zone.foe_begin, zone.foe_end, foe_top);
-    if (theirs.begin == kNever) return false;
+    if (theirs.begin == kNever) return Verdict::Free;
     const Approach own{link.connection, 0,    traveller.front - link.stop_line, traveller.length,
                        traveller.speed, false};
     const Occupation ours = occupation(own_type, own, zone.begin, zone.end, traveller.top_speed);
     const bool overlap =
         ours.begin < theirs.end + kTimeMargin && theirs.begin < ours.end + kTimeMargin;
-    if (!overlap) return false;
+    if (!overlap) return Verdict::Free;
     const bool waits_for_us =
         foe.stands && approaches.waiting(foe.row).foe == scene.id[traveller.row].value;
-    if (foe_inside && !waits_for_us) return theirs.end + 0.3 > ours.begin;
+    if (waits_for_us) return waiting_verdict(foe);
+    if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
+    if (waits_behind(model, scene, approaches, foe, traveller.row)) return Verdict::Held;
     // no rule for this pair, or past the line already: who gets there first goes first, the other
     // waits for it
     const bool past_line = traveller.front > link.stop_line + 0.3;
     if ((zone.unruled || past_line) && !foe_inside)
-      return theirs.begin < ours.begin ||
-             (theirs.begin == ours.begin && scene.id[foe.row] < scene.id[traveller.row]);
+      return blocks_if(theirs.begin < ours.begin ||
+                       (theirs.begin == ours.begin && scene.id[foe.row] < scene.id[traveller.row]));
     if (!zone.yields && !foe_inside) {
       // right of way, but nobody steps in front of a vehicle that can no longer stop
       const bool vulnerable = own_type.kinematics == Kinematics::Holonomic;
       const bool unstoppable = deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) >
                                0.7 * foe_type.max_deceleration;
-      return vulnerable && unstoppable && foe_type.kinematics != Kinematics::Holonomic;
+      return blocks_if(vulnerable && unstoppable && foe_type.kinematics != Kinematics::Holonomic);
     }
-    return !waits_behind(model, scene, approaches, foe, traveller.row);
+    return Verdict::Blocks;
+  }
+
+ private:
+  static Verdict blocks_if(bool blocks) { return blocks ? Verdict::Blocks : Verdict::Free; }
+  Verdict waiting_verdict(const Approach& foe) const {
+    return waits_behind(model, scene, approaches, foe, traveller.row) ? Verdict::Held
+                                                                      : Verdict::Blocks;
   }
 };
 
@@ -164,7 +181,11 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
     const double to_zone = link.stop_line + zone.begin - traveller.front;
     if (to_zone < 0.3) continue;  // already in it: go on, avoidance does the rest
     for (const Approach& foe : approaches.of(zone.foe)) {
-      if (!judge.blocks(zone, foe)) continue;
+      const Verdict verdict = judge.of(zone, foe);
+      // who comes behind a vehicle that lets us go can't get past it
+      if (verdict == Verdict::Held && type_of(model.types, scene.type[foe.row]).width > kFillsLane)
+        break;
+      if (verdict != Verdict::Blocks) continue;
       // wait at the line; inside the junction only where the own body is past the line already
       const double line =
           to_line > -0.2 ? link.stop_line - kStopMargin : link.stop_line + zone.begin - kStopMargin;

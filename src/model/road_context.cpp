@@ -27,7 +27,8 @@ double look_ahead(const Course& course) {
   return 0.6 * course.half_length + 1.8 + 0.5 * course.speed;
 }
 
-void set_geometry(const Model& model, const Scene& scene, const Course& course, RoadContext& context) {
+void set_geometry(const Model& model, const Scene& scene, const Course& course,
+                  RoadContext& context) {
   const Polyline& line = course.path.line;
   const double ahead = course.along + look_ahead(course);
   const double beyond = std::max(0.0, ahead - line.length());
@@ -72,6 +73,9 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course, 
   context.room_right = right + course.offset - extent;
 }
 
+constexpr double kStart = 0.5;     // [m/s]
+constexpr double kCourtesy = 2.0;  // braking for somebody who has to change lanes [m/s^2]
+
 /// Tightens the context's acceleration for something to stop for or to follow.
 void limit(double acceleration, LimitReason reason, std::int64_t foe, double& binding,
            RoadContext& context) {
@@ -90,6 +94,24 @@ double stop_acceleration(const Scene& scene, const Course& course, double free_s
   return following_acceleration(course.type, course.speed, free_speed, gap, 0.0);
 }
 
+/// Keep clear: is there room behind a link for the body, should everybody ahead close up and stop?
+/// Id of who takes the room, -1 where there is enough. Sorts `ahead`.
+std::int64_t blocks_exit(DrivingAhead& ahead, const Course& course, const PathLink& link) {
+  constexpr double kBraking = 3.5;   // [m/s^2]
+  constexpr double kClosedUp = 1.0;  // [m]
+  const auto begin = ahead.vehicles.begin(), end = begin + static_cast<std::ptrdiff_t>(ahead.count);
+  std::sort(begin, end, [](const auto& a, const auto& b) {
+    return a.rear != b.rear ? a.rear > b.rear : a.id < b.id;
+  });
+  // where each comes to rest at the least, from the far end of the queue
+  double rest = std::numeric_limits<double>::infinity();
+  for (auto vehicle = begin; vehicle != end; ++vehicle)
+    rest = std::min(vehicle->rear + vehicle->speed * vehicle->speed / (2.0 * kBraking),
+                    rest - kClosedUp - (vehicle->front - vehicle->rear));
+  const double needed = link.end + 2.0 * course.half_length + course.type.min_gap + 0.3;
+  return ahead.count > 0 && rest < needed ? (end - 1)->id : -1;
+}
+
 void set_allowed_speed(const Model& model, const RoadState& road, const Scene& scene,
                        const SpatialGrid& grid, const ApproachTable& approaches,
                        const Course& course, double dt, RoadContext& context) {
@@ -97,36 +119,48 @@ void set_allowed_speed(const Model& model, const RoadState& road, const Scene& s
   const double front = course.along + course.half_length;
   const double free_speed = context.speed_limit;
   const double braking = course.speed * course.speed / (2.0 * type.comfortable_deceleration);
-  const double reach = std::min(15.0 + 2.5 * course.speed + braking, 250.0);
+  const double reach = std::min(40.0 + 2.5 * course.speed + braking, 250.0);
 
   double binding = following_acceleration(type, course.speed, free_speed,
                                           std::numeric_limits<double>::infinity(), 0.0);
-  Leader leader;
-  if (!course.path.walking) {
-    leader = find_leader(model, road, scene, grid, course.row, reach);
-    if (leader.id >= 0)
-      limit(following_acceleration(type, course.speed, free_speed, leader.gap, leader.speed),
-            LimitReason::Leader, leader.id, binding, context);
+  DrivingAhead ahead;
+  const Leader leader = find_leader(model, road, scene, grid, course.row, reach, ahead);
+  if (leader.id >= 0)
+    limit(following_acceleration(type, course.speed, free_speed, leader.gap, leader.speed),
+          LimitReason::Leader, leader.id, binding, context);
+  if (ahead.merging.id >= 0) {
+    const double courtesy = following_acceleration(type, course.speed, free_speed,
+                                                   ahead.merging.rear - front, ahead.merging.speed);
+    if (courtesy > -kCourtesy)
+      limit(courtesy, LimitReason::Leader, ahead.merging.id, binding, context);
   }
   const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed, free_speed};
   for (const PathLink& link : course.path.links) {
     if (link.end < course.along - course.half_length) continue;
     if (link.stop_line > front + reach) break;
     LinkDecision decision = decide_link(model, road, scene, approaches, traveller, link);
-    // keep clear: no entering a junction without room behind it
     const bool conflicts = !model.conflicts[index_of(link.connection)].empty();
-    if (!decision.must_stop && conflicts && leader.id >= 0 && link.stop_line > front - 0.3 &&
-        leader.speed < 1.0 && leader.along > link.stop_line &&
-        leader.along < link.end + 2.0 * course.half_length + type.min_gap + 0.5)
-      decision = {true, link.stop_line - 0.6, LimitReason::BlockedJunction, leader.id};
+    if (!decision.must_stop && conflicts && link.stop_line > front - 0.3) {
+      const std::int64_t blocker = blocks_exit(ahead, course, link);
+      if (blocker >= 0)
+        decision = {true, link.stop_line - 0.6, LimitReason::BlockedJunction, blocker};
+    }
     if (!decision.must_stop) continue;
     const double gap = decision.stop_at - front + type.min_gap;
     limit(following_acceleration(type, course.speed, free_speed, gap, 0.0), decision.reason,
           decision.foe, binding, context);
     break;
   }
+  if (std::isfinite(scene.gate[course.row])) {
+    const double gap = scene.gate[course.row] - course.along + type.min_gap;
+    limit(following_acceleration(type, course.speed, free_speed, gap, 0.0), LimitReason::Merge, -1,
+          binding, context);
+  }
   limit(stop_acceleration(scene, course, free_speed), LimitReason::Stop, -1, binding, context);
   context.allowed_speed = std::max(0.0, course.speed + binding * dt);
+  // who may start has room to find out where to: how fast it gets there is the body's business
+  if (binding > 0.5 * type.max_acceleration)
+    context.allowed_speed = std::max(context.allowed_speed, kStart);
 }
 
 /// Walkers stop dead at a kerb, and otherwise leave each other to avoidance.

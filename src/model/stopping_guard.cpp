@@ -220,7 +220,10 @@ std::optional<Vec2> creep_round(StoppingGuard& guard, const Model& model, const 
   const Vec2 ahead = own.on_wheels ? own.forward : Vec2(preferred.normalized());
   const auto creeps = own.on_wheels ? wheeled_creeps(own, type_of(model.types, own.type), passing)
                                     : walking_creeps(scene, row, passing);
+  // on a road whoever is ahead is waited for: a vehicle that creeps out of its lane gets wedged
+  const bool in_lane = own.on_wheels && scene.context[row].active;
   for (const Creep& creep : creeps) {
+    if (in_lane && creep.turn != 0.0) continue;
     const Vec2 velocity = creep.speed * from_body(rotation(creep.turn), ahead);
     const bool within = std::all_of(hard.begin(), hard.end(),
                                     [&](const HalfPlane& p) { return slack(p, velocity) >= 0; });

@@ -320,33 +320,69 @@ std::optional<Path> build_driving_path(const RoadNetwork& network, const PathReq
   return path;
 }
 
+namespace {
+
+/// A path that is made again from where its agent is: the old one, the place on its lane and what
+/// is appended from there.
+struct Remade {
+  const RoadNetwork& network;
+  const Path& path;
+  double along, back;
+  const PathStretch& here = path.stretch_at(along);
+  const Lane& lane = network.lane(here.lane);
+  double on_lane = here.lane_from + along - here.from;
+  double begin = std::max(on_lane - back, 0.0);
+
+  bool possible() const { return path.trip && here.route_index >= 0; }
+  std::size_t index() const { return static_cast<std::size_t>(here.route_index); }
+
+  /// Goes on from lane `entry`, `from` along it, to the trip's end.
+  std::optional<Path> finish(Builder& builder, int entry, double from, double& place) const {
+    std::string why;
+    if (!drive_on(network, *path.trip, index(), entry, from, builder, why)) return std::nullopt;
+    Path remade = builder.finish();
+    remade.trip = path.trip;
+    carry_stops(network, path, along, remade);
+    place = on_lane - begin;
+    return remade;
+  }
+};
+
+}  // namespace
+
 std::optional<Path> change_lane(const RoadNetwork& network, const Path& path, double& along,
                                 LaneId target, double distance, double back) {
-  const PathStretch& here = path.stretch_at(along);
-  if (!path.trip || here.route_index < 0) return std::nullopt;
-  const Trip& trip = *path.trip;
-  const auto index = static_cast<std::size_t>(here.route_index);
-  const Lane& old_lane = network.lane(here.lane);
-  const Lane& new_lane = network.lane(target);
-  const LaneOption& option = trip.options[index][static_cast<std::size_t>(new_lane.index)];
-  const double on_lane = here.lane_from + along - here.from;
-  const double scale = new_lane.centerline.length() / std::max(old_lane.centerline.length(), 0.1);
-  const double changed = (on_lane + distance) * scale;
-  if (old_lane.edge != new_lane.edge || option.cost == kUnreachable ||
-      changed > end_of(trip, index, new_lane))
+  const Remade old{network, path, along, back};
+  if (!old.possible()) return std::nullopt;
+  const Lane& lane = network.lane(target);
+  const LaneOption& option = path.trip->options[old.index()][static_cast<std::size_t>(lane.index)];
+  const double scale = lane.centerline.length() / std::max(old.lane.centerline.length(), 0.1);
+  const double changed = (old.on_lane + distance) * scale;
+  if (old.lane.edge != lane.edge || option.cost == kUnreachable ||
+      changed > end_of(*path.trip, old.index(), lane))
     return std::nullopt;
-  Builder builder(network, trip.request);
-  builder.enter_edge(index);
-  const double begin = std::max(on_lane - back, 0.0);
-  builder.follow(here.lane, begin, on_lane);
-  builder.change(here.lane, target, on_lane, on_lane + distance);
-  std::string why;
-  if (!drive_on(network, trip, index, new_lane.index, changed, builder, why)) return std::nullopt;
-  Path changed_path = builder.finish();
-  changed_path.trip = path.trip;
-  carry_stops(network, path, along, changed_path);
-  along = on_lane - begin;
-  return changed_path;
+  Builder builder(network, path.trip->request);
+  builder.enter_edge(old.index());
+  builder.follow(old.here.lane, old.begin, old.on_lane);
+  builder.change(old.here.lane, target, old.on_lane, old.on_lane + distance);
+  return old.finish(builder, lane.index, changed, along);
+}
+
+std::optional<Path> stay_in_lane(const RoadNetwork& network, const Path& path, double& along,
+                                 double stay, double back) {
+  constexpr double kShortest = 12.0;  // [m] of a lane change
+  const Remade old{network, path, along, back};
+  if (!old.possible()) return std::nullopt;
+  const LaneOption& option =
+      path.trip->options[old.index()][static_cast<std::size_t>(old.lane.index)];
+  const int changes = std::abs(option.exit_index - old.lane.index);
+  const double from = old.on_lane + stay;
+  if (from + kShortest * changes / 0.85 > end_of(*path.trip, old.index(), old.lane))
+    return std::nullopt;
+  Builder builder(network, path.trip->request);
+  builder.enter_edge(old.index());
+  builder.follow(old.here.lane, old.begin, from);
+  return old.finish(builder, old.lane.index, from, along);
 }
 
 }  // namespace sumogamma

@@ -106,6 +106,11 @@ std::optional<Path> build_driving_path(const RoadNetwork& network, const PathReq
 std::optional<Path> change_lane(const RoadNetwork& network, const Path& path, double& along,
                                 LaneId target, double distance, double back);
 
+/// The path of the same trip that stays on the present lane for `stay` [m] more before it changes
+/// lanes. Otherwise like change_lane. nullopt where too little of the edge would be left to change.
+std::optional<Path> stay_in_lane(const RoadNetwork& network, const Path& path, double& along,
+                                 double stay, double back);
+
 /// Path of a pedestrian along the edges of a walk: sidewalks in either direction, walking areas and
 /// crossings between them found by least distance. nullopt with `why` set where the walk can't be
 /// connected.

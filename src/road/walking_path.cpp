@@ -94,6 +94,44 @@ ConnectionId crossing_link(const RoadNetwork& network, LaneId crossing) {
   return found;
 }
 
+/// Takes the first fold out of a path: where the line turns back on itself, as between the ends of
+/// lanes that overlap, nobody walks to the tip and back. Places along the path are carried over.
+/// False where there was none.
+bool cut_fold(Path& path) {
+  constexpr double kReversal = -0.7;  // cosine of the turn
+  const std::vector<Vec2>& points = path.line.points();
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const Vec2 before = points[i - 1] - points[i], after = points[i + 1] - points[i];
+    const double in = before.norm(), out = after.norm();
+    if (-before.dot(after) > kReversal * in * out) continue;
+    const double cut = std::min(in, out), tip = path.line.along_of_vertex(i);
+    std::vector<Vec2> shorter(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(i));
+    const Vec2 left = points[i] + before * (cut / in), taken = points[i] + after * (cut / out);
+    shorter.push_back(left);
+    shorter.push_back(taken);
+    shorter.insert(shorter.end(), points.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                   points.end());
+    const double bridge = (taken - left).norm();
+    auto carried = [&](double& along) {
+      if (along >= tip + cut)
+        along += bridge - 2.0 * cut;
+      else if (along > tip - cut)
+        along = tip - cut + bridge * (along - tip + cut) / (2.0 * cut);
+    };
+    for (PathStretch& stretch : path.stretches) {
+      carried(stretch.from);
+      carried(stretch.to);
+    }
+    for (PathLink& link : path.links) {
+      carried(link.stop_line);
+      carried(link.end);
+    }
+    path.line = Polyline(std::move(shorter));
+    return true;
+  }
+  return false;
+}
+
 class Walk {
  public:
   explicit Walk(const RoadNetwork& network) : network_(network) { path_.walking = true; }
@@ -132,6 +170,8 @@ class Walk {
 
   Path finish(const PathRequest& request) {
     path_.line = Polyline(std::move(points_));
+    while (cut_fold(path_)) {
+    }
     path_.arrival = path_.line.length();
     path_.stretches.back().to = path_.arrival;
     compute_speed_profile(request, path_);

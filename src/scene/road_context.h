@@ -20,6 +20,7 @@ enum class LimitReason : std::uint8_t {
   BlockedJunction,
   Leader,
   Stop,
+  Merge,
   PathEnd
 };
 

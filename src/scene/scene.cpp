@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <limits>
 
 namespace sumogamma {
 
@@ -28,6 +29,8 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.path_offset);
   visit(scene.passing_offset);
   visit(scene.lateral_aim);
+  visit(scene.merge_to);
+  visit(scene.gate);
   visit(scene.standing_time);
   visit(scene.next_stop);
   visit(scene.stop_left);
@@ -57,6 +60,8 @@ void append_agent(Scene& scene, const AgentState& agent) {
   scene.path_offset[row] = agent.path_offset;
   scene.passing_offset[row] = agent.path_offset;
   scene.lateral_aim[row] = agent.path_offset;
+  scene.merge_to[row] = kNoLane;
+  scene.gate[row] = std::numeric_limits<double>::infinity();
 }
 
 void remove_agents(Scene& scene, const std::vector<bool>& removed) {

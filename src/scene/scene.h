@@ -57,6 +57,8 @@ struct Scene {
       path_offset;  ///< where beside its path the agent likes to be, positive left [m]
   std::vector<double> passing_offset;  ///< where it means to be at present [m]
   std::vector<double> lateral_aim;     ///< on the way from one to the other [m]
+  std::vector<LaneId> merge_to;        ///< lane into which it has to change soon, kNoLane: none
+  std::vector<double> gate;  ///< along its path, where it waits for a gap there; infinite: free
   std::vector<double> standing_time;    ///< [s] since it was last faster than 0.3 m/s
   std::vector<std::int32_t> next_stop;  ///< index of the path's next planned halt
   std::vector<double> stop_left;  ///< [s] still to stand at the present halt, 0 where there is none

@@ -94,7 +94,7 @@ void SumoWorld::take_departed(Scene&) {
       ++life_cycle_.left_to_sumo["rail or water"];
       continue;
     }
-    Pending pending{std::move(details), *type, nullptr};
+    Pending pending{std::move(details), *type, nullptr, {}, false};
     bool driven = options_.control.any() && wants_control(pending.details, *type);
     if (options_.control.any()) {
       std::string why = "a person who does not walk";
