@@ -118,13 +118,20 @@ struct Judge {
     if (waits_for_us) return waiting_verdict(foe);
     if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
     if (waits_behind(model, scene, approaches, foe, traveller.row)) return Verdict::Held;
+    // all-way stop: who has halted goes in the order in which they came
+    if (!past_line() && model.road.connection(link.connection).state == 'w') {
+      const double own_time = scene.standing_time[traveller.row];
+      const double their_time = scene.standing_time[foe.row];
+      return blocks_if(foe.stands &&
+                       (their_time > own_time ||
+                        (their_time == own_time && scene.id[foe.row] < scene.id[traveller.row])));
+    }
     // no rule for this pair, or past the line already: who gets there first goes first, the other
     // waits for it
-    const bool past_line = traveller.front > link.stop_line + 0.3;
-    if ((zone.unruled || past_line) && !foe_inside)
+    if (zone.unruled || past_line())
       return blocks_if(theirs.begin < ours.begin ||
                        (theirs.begin == ours.begin && scene.id[foe.row] < scene.id[traveller.row]));
-    if (!zone.yields && !foe_inside) {
+    if (!zone.yields) {
       // right of way, but nobody steps in front of a vehicle that can no longer stop
       const bool vulnerable = own_type.kinematics == Kinematics::Holonomic;
       const bool unstoppable = deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) >
@@ -135,6 +142,7 @@ struct Judge {
   }
 
  private:
+  bool past_line() const { return traveller.front > link.stop_line + 0.3; }
   static Verdict blocks_if(bool blocks) { return blocks ? Verdict::Blocks : Verdict::Free; }
   Verdict waiting_verdict(const Approach& foe) const {
     return waits_behind(model, scene, approaches, foe, traveller.row) ? Verdict::Held
@@ -151,23 +159,24 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const char signal = road.signal(connection);
   const double to_line = link.stop_line - traveller.front;
+  // where a front that waits comes to rest: short of the line where others turn by close, at the
+  // line where it has come too far for that
+  const double halt = traveller.front < link.halt ? link.halt : link.stop_line;
+  const double stop_at = halt - kStopMargin;
   LinkDecision decision;
 
   // signals: red always; amber where braking at ease still does it. Once past the line, clear the
   // junction.
   if (to_line > -1.0) {
-    const double needed = deceleration_to_stop(traveller.speed, to_line - 0.2);
+    const double needed = deceleration_to_stop(traveller.speed, halt - traveller.front - 0.2);
     const bool amber_stop = is_amber(signal) && needed < type.comfortable_deceleration;
     const bool red_stop =
         is_red(signal) && (needed < type.max_deceleration || traveller.speed < 1.0);
-    if (amber_stop || red_stop)
-      return {true, link.stop_line - kStopMargin, LimitReason::Signal, -1};
+    if (amber_stop || red_stop) return {true, stop_at, LimitReason::Signal, -1};
   }
-  if (connection.state == 's' && signal == 'O' && to_line > -0.2) {
-    const bool halted = to_line < 2.5 && scene.standing_time[traveller.row] > 0.3;
-    if (!halted && scene.standing_time[traveller.row] < 0.3)
-      decision = {true, link.stop_line - kStopMargin, LimitReason::Yield, -1};
-  }
+  const bool stop_sign = (connection.state == 's' || connection.state == 'w') && signal == 'O';
+  if (stop_sign && to_line > -0.2 && scene.halted_for[traveller.row] != link.connection)
+    decision = {true, stop_at, LimitReason::Yield, -1};
 
   const bool free_green = signal == 'G';
   const Path& own_path = *road.path(scene.path[traveller.row]);
@@ -187,8 +196,7 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
         break;
       if (verdict != Verdict::Blocks) continue;
       // wait at the line; inside the junction only where the own body is past the line already
-      const double line =
-          to_line > -0.2 ? link.stop_line - kStopMargin : link.stop_line + zone.begin - kStopMargin;
+      const double line = to_line > -0.2 ? stop_at : link.stop_line + zone.begin - kStopMargin;
       if (deceleration_to_stop(traveller.speed, line - traveller.front) >
               0.8 * type.max_deceleration &&
           traveller.speed > 1.0)

@@ -112,6 +112,18 @@ std::int64_t blocks_exit(DrivingAhead& ahead, const Course& course, const PathLi
   return ahead.count > 0 && rest < needed ? (end - 1)->id : -1;
 }
 
+/// Remembers for stop signs that the agent came to a halt before its next link.
+void note_halt(const Course& course, Scene& scene) {
+  constexpr double kAtLine = 4.0, kHalt = 0.3;
+  if (scene.standing_time[course.row] < kHalt) return;
+  const double front = course.along + course.half_length;
+  for (const PathLink& link : course.path.links) {
+    if (link.stop_line < front - 0.3) continue;
+    if (link.halt < front + kAtLine) scene.halted_for[course.row] = link.connection;
+    return;
+  }
+}
+
 void set_allowed_speed(const Model& model, const RoadState& road, const Scene& scene,
                        const SpatialGrid& grid, const ApproachTable& approaches,
                        const Course& course, double dt, RoadContext& context) {
@@ -143,7 +155,8 @@ void set_allowed_speed(const Model& model, const RoadState& road, const Scene& s
     if (!decision.must_stop && conflicts && link.stop_line > front - 0.3) {
       const std::int64_t blocker = blocks_exit(ahead, course, link);
       if (blocker >= 0)
-        decision = {true, link.stop_line - 0.6, LimitReason::BlockedJunction, blocker};
+        decision = {true, (link.halt > front ? link.halt : link.stop_line) - 0.6,
+                    LimitReason::BlockedJunction, blocker};
     }
     if (!decision.must_stop) continue;
     const double gap = decision.stop_at - front + type.min_gap;
@@ -204,10 +217,12 @@ void update_road_contexts(const Model& model, const RoadState& road, const Spati
         context.active = true;
         context.speed_limit = std::min(path->profile_at(along), scene.preferred_speed[row]);
         set_geometry(model, scene, course, context);
-        if (path->walking)
+        if (path->walking) {
           set_walker_limit(model, road, scene, approaches, course, context);
-        else
+        } else {
+          note_halt(course, scene);
           set_allowed_speed(model, road, scene, grid, approaches, course, dt, context);
+        }
       }
       // a row reads other rows' state but never their new context
       scene.context[row] = context;

@@ -54,7 +54,7 @@ Polyline driven_way(const RoadNetwork& network, ConnectionId id) {
   const double end = Polyline(points).length();
   append_span(after, 0.0, std::min(kApproach, after.length()), points);
   path.line = Polyline(std::move(points));
-  path.links.push_back({id, stop_line, end});
+  path.links.push_back({id, stop_line, end, stop_line});
   round_corners(kTurningRadius, path);
   std::vector<Vec2> driven;
   append_span(path.line, path.links.front().stop_line, path.links.front().end, driven);

@@ -129,7 +129,7 @@ class Builder {
   /// the target.
   bool cross(ConnectionId id) {
     const Connection& connection = network_.connection(id);
-    PathLink link{id, length(), 0.0};
+    PathLink link{id, length(), 0.0, std::max(length() - connection.setback, 0.0)};
     LaneId lane = connection.via;
     for (int hops = 0; lane != kNoLane; ++hops) {
       if (hops > 8) return false;

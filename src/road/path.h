@@ -29,6 +29,7 @@ struct PathLink {
   ConnectionId connection = kNoConnection;
   double stop_line = 0;  ///< along the path, where the link begins [m]
   double end = 0;        ///< along the path, where the junction is left [m]
+  double halt = 0;       ///< along the path, where a front that waits comes to rest at most [m]
 };
 
 /// A planned halt: a <stop> of the route.

@@ -114,6 +114,7 @@ void round_corners(double turning_radius, Path& path) {
     carried(stretch.to);
   }
   for (PathLink& link : path.links) {
+    carried(link.halt);
     carried(link.stop_line);
     carried(link.end);
   }

@@ -89,6 +89,7 @@ struct Connection {
   int junction_link = -1;  ///< index into Junction::requests; -1 where the link has none
   SignalId signal = kNoSignal;
   int signal_link = -1;  ///< index into the signal's state string
+  double setback = 0;    ///< a waiting front halts this far before the link's begin [m]
   char direction = 's';  ///< SUMO's dir: s straight, l left, r right, t turn-around, L partially
                          ///< left, R partially right
   char state = 'M';  ///< SUMO's static state: M major, m minor, = equal, s stop, w all-way stop,

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "road/stop_lines.h"
 
 namespace sumogamma {
 namespace {
@@ -470,7 +471,9 @@ double elevation_at(const Lane& lane, double along) {
 RoadNetwork read_sumo_net(const std::filesystem::path& file) {
   pugi::xml_document document;
   const pugi::xml_node root = load_root(file, document, {"net"});
-  return NetBuilder(file, root).build();
+  RoadNetwork network = NetBuilder(file, root).build();
+  set_back_stop_lines(network);
+  return network;
 }
 
 void read_obstacles(const std::filesystem::path& file, RoadNetwork& network) {

@@ -123,6 +123,7 @@ bool cut_fold(Path& path) {
       carried(stretch.to);
     }
     for (PathLink& link : path.links) {
+      carried(link.halt);
       carried(link.stop_line);
       carried(link.end);
     }
@@ -146,7 +147,7 @@ class Walk {
     stretch.speed_limit = std::max(lane.speed_limit, 1.0);
     stretch.room_left = stretch.room_right =
         0.5 * lane.width + (lane.kind == LaneKind::Crossing ? 0.5 : 0.0);
-    PathLink link{kNoConnection, stretch.from, 0.0};
+    PathLink link{kNoConnection, stretch.from, 0.0, stretch.from};
     path_.stretches.push_back(stretch);
     append_span(lane.centerline, from, to, points_);
     path_.stretches.back().to = length();

@@ -32,6 +32,7 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.merge_to);
   visit(scene.gate);
   visit(scene.standing_time);
+  visit(scene.halted_for);
   visit(scene.next_stop);
   visit(scene.stop_left);
   visit(scene.lane);
@@ -61,6 +62,7 @@ void append_agent(Scene& scene, const AgentState& agent) {
   scene.passing_offset[row] = agent.path_offset;
   scene.lateral_aim[row] = agent.path_offset;
   scene.merge_to[row] = kNoLane;
+  scene.halted_for[row] = kNoConnection;
   scene.gate[row] = std::numeric_limits<double>::infinity();
 }
 

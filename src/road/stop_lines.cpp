@@ -1,0 +1,72 @@
+#include "road/stop_lines.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "road/conflict_zones.h"
+#include "road/path_profile.h"
+
+namespace sumogamma {
+
+namespace {
+
+constexpr double kRoom = 2.6;      ///< between the middles of a waiting and a turning vehicle [m]
+constexpr double kFarthest = 6.0;  ///< [m]
+constexpr double kBody = 6.0;      ///< of a waiting vehicle, behind its front [m]
+constexpr double kStep = 0.5;      ///< [m]
+constexpr double kAfter = 10.0;    ///< of the road turned into that is looked at [m]
+
+/// The way over a junction and into the road behind it.
+Polyline way_through(const RoadNetwork& network, ConnectionId id) {
+  const Polyline& after = network.lane(network.connection(id).to).centerline;
+  std::vector<Vec2> points = link_geometry(network, id).points();
+  append_span(after, 0.0, std::min(kAfter, after.length()), points);
+  return Polyline(std::move(points));
+}
+
+bool is_driven(const RoadNetwork& network, const Connection& connection) {
+  return connection.via != kNoLane && connection.junction != kNoJunction &&
+         network.lane(connection.from).kind == LaneKind::Normal &&
+         network.lane(connection.to).kind == LaneKind::Normal;
+}
+
+/// How far before its end the front must halt on `lane` to leave room for those on `ways`.
+double setback_on(const Lane& lane, const std::vector<Polyline>& ways) {
+  const Polyline& line = lane.centerline;
+  const double length = line.length();
+  // nearest that anybody comes to each place, from the end backwards
+  double clear_from = 0.0;
+  for (double back = 0.0; back <= std::min(kFarthest + kBody, length); back += kStep) {
+    const Vec2 place = line.point_at(length - back);
+    const bool touched = std::any_of(ways.begin(), ways.end(), [&](const Polyline& way) {
+      return way.project(place).distance < kRoom;
+    });
+    if (touched) clear_from = back + kStep;
+  }
+  return clear_from <= std::min(kFarthest, 0.5 * length) ? clear_from : 0.0;
+}
+
+}  // namespace
+
+void set_back_stop_lines(RoadNetwork& network) {
+  std::vector<std::vector<ConnectionId>> by_junction(network.junctions.size());
+  for (std::size_t i = 0; i < network.connections.size(); ++i) {
+    const Connection& connection = network.connections[i];
+    if (is_driven(network, connection))
+      by_junction[index_of(connection.junction)].push_back(static_cast<ConnectionId>(i));
+  }
+  for (const std::vector<ConnectionId>& links : by_junction) {
+    std::vector<Polyline> ways;
+    for (const ConnectionId id : links) ways.push_back(way_through(network, id));
+    for (const ConnectionId id : links) {
+      const Lane& lane = network.lane(network.connection(id).from);
+      std::vector<Polyline> others;
+      for (std::size_t k = 0; k < links.size(); ++k)
+        if (network.lane(network.connection(links[k]).from).edge != lane.edge)
+          others.push_back(ways[k]);
+      network.connections[index_of(id)].setback = setback_on(lane, others);
+    }
+  }
+}
+
+}  // namespace sumogamma
