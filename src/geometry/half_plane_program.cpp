@@ -14,6 +14,8 @@ constexpr double kParallel = 1e-9;
 constexpr double kSameLine = 1e-9;
 // likewise along a line
 constexpr double kSamePoint = 1e-9;
+// how far outside the disc a line may pass, as a share of the squared radius
+constexpr double kTouching = 1e-12;
 // how far above the least violation the answer may stay, so that it moves continuously with its
 // input [m/s]
 constexpr double kViolationSlack = 0.01;
@@ -50,8 +52,9 @@ bool best_on_line(std::span<const HalfPlane> planes, std::size_t index, double r
   const double middle = -line.point.dot(direction);
   const double offset = line.point.dot(line.normal);
   const double half_chord = radius * radius - offset * offset;
-  if (half_chord < 0) return false;
-  const double half = std::sqrt(half_chord);
+  // a line that touches the disc shares a point with it, whatever rounding says
+  if (half_chord < -kTouching * radius * radius) return false;
+  const double half = std::sqrt(std::max(half_chord, 0.0));
   double low = middle - half, high = middle + half;
   for (std::size_t k = 0; k < index; ++k) {
     const HalfPlane& other = planes[k];
