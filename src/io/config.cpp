@@ -82,6 +82,7 @@ void bind_model(ModelOptions& model, std::vector<Binding>& bindings) {
                                                   {"shortest", PairHorizon::Shortest},
                                                   {"longest", PairHorizon::Longest}}}});
   bindings.push_back({"model.separation_time", &model.separation_time, 0, true});
+  bindings.push_back({"model.margin_time", &model.margin_time, 0, true});
   bindings.push_back({"model.walker_separation_time", &model.walker_separation_time, 0, true});
   bindings.push_back({"model.front_margin", &model.front_margin, 0});
   bindings.push_back({"model.rear_margin", &model.rear_margin, 0});

@@ -61,9 +61,12 @@ struct Pair {
   const AgentGeometry& own() const { return geometry.agent[row]; }
   const AgentGeometry& their() const { return geometry.agent[other]; }
   Vec2 relative() const { return own().velocity - their().velocity; }
+  /// How soon the two are to be apart [s].
   double separation_time() const {
-    return own().on_wheels && their().on_wheels ? model.options.separation_time
-                                                : model.options.walker_separation_time;
+    const ModelOptions& options = model.options;
+    if (!own().on_wheels || !their().on_wheels) return options.walker_separation_time;
+    return overlap_depth(scene, geometry, row, other) > 0 ? options.separation_time
+                                                          : options.margin_time;
   }
 };
 

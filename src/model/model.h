@@ -30,11 +30,12 @@ struct ModelOptions {
   bool look_aside = true;            ///< people on foot who are held up turn to the passing side
   bool creep_when_held =
       true;  ///< who has to stand creeps round what is in its way where the guard admits it
-  bool use_guard = true;         ///< ablation: false leaves the stopping guard out
-  double guard_margin = 0.015;   ///< room that the guard keeps between bodies that brake [m]
-  double step = 0.05;            ///< length of a tick, which the guard reckons with [s]
-  double separation_time = 0.1;  ///< how urgently wheeled bodies that overlap come apart [s]; their
-                                 ///< own limits take longer
+  bool use_guard = true;          ///< ablation: false leaves the stopping guard out
+  double guard_margin = 0.015;    ///< room that the guard keeps between bodies that brake [m]
+  double step = 0.05;             ///< length of a tick, which the guard reckons with [s]
+  double separation_time = 0.03;  ///< how urgently wheeled bodies that overlap come apart [s];
+                                  ///< their own limits take longer
+  double margin_time = 0.1;             ///< likewise where only their margins overlap [s]
   double walker_separation_time = 0.5;  ///< likewise where one is on foot [s]
   double front_margin = 0.1, rear_margin = 0.05,
          side_margin = 0.05;    ///< kept around wheeled bodies [m]

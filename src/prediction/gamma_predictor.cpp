@@ -39,7 +39,8 @@ Model predictor_model(const AgentTypeTable& types, const PredictorParameters& pa
   model.options.front_margin = model.options.rear_margin = model.options.side_margin =
       parameters.margin;
   model.options.walker_margin = parameters.margin;
-  model.options.separation_time = model.options.walker_separation_time = parameters.separation_time;
+  model.options.separation_time = model.options.margin_time = model.options.walker_separation_time =
+      parameters.separation_time;
   model.options.step = period;
   return model;
 }
