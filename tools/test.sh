@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds and tests sumo-gamma; installs what that takes.
-#   tools/test.sh          every test and every lint
+#   tools/test.sh          every test and every lint, the golden bits with clang, a minute of each fuzz target
 #   tools/test.sh quick    build, unit and property tests
-#   tools/test.sh deep     the same under the sanitizers and with clang, with the fuzz targets
+#   tools/test.sh deep     the same under the sanitizers, and more of it with clang
 #   tools/test.sh tidy     clang-tidy on every file (slow)
 # The last line adds it all up; the exit code is 0 only where nothing failed.
 set -euo pipefail
@@ -69,11 +69,14 @@ runner=()
 
 case "$mode" in
   quick) test_stage dev '^(unit|property)$' ;;
-  full) test_stage dev '.' ;;
+  full)
+    test_stage dev '.'
+    # the other compiler must give the same bits; fuzz targets are clang's alone
+    test_stage clang '^(golden|fuzz)$' tests_golden tests_fuzz
+    ;;
   deep)
     test_stage dev '.'
     test_stage asan '^(unit|property|golden)$' tests_unit tests_property tests_golden
-    # the other compiler must give the same bits
     test_stage clang '^(unit|property|golden|fuzz)$' tests_unit tests_property tests_golden tests_fuzz
     # g++ 12's thread sanitizer cannot place its memory where the kernel randomises addresses a lot
     setarch "$(uname -m)" -R true 2> /dev/null && runner=(setarch "$(uname -m)" -R)

@@ -1,7 +1,6 @@
 #include "geometry/oriented_box.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -76,35 +75,50 @@ BoxDifference::BoxDifference(const OrientedBox& b, const OrientedBox& a)
 /// Where edge k begins, from the centre: the generators before it are passed, it and those after
 /// are still to come.
 Vec2 BoxDifference::corner(std::uint32_t k) const {
-  const std::uint32_t passed = k & 3u;
-  Vec2 at = Vec2::Zero();
-  for (std::uint32_t m = 0; m < 4; ++m) at += m < passed ? half_edges_[m] : Vec2(-half_edges_[m]);
+  const auto& e = half_edges_;
+  Vec2 at;
+  switch (k & 3u) {
+    case 0:
+      at = -e[0] - e[1] - e[2] - e[3];
+      break;
+    case 1:
+      at = e[0] - e[1] - e[2] - e[3];
+      break;
+    case 2:
+      at = e[0] + e[1] - e[2] - e[3];
+      break;
+    default:
+      at = e[0] + e[1] + e[2] - e[3];
+      break;
+  }
   return k < 4 ? at : Vec2(-at);
 }
 
 NearSide BoxDifference::near_side() const {
   NearSide side;
-  std::uint32_t facing = 0;
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    facing |= static_cast<std::uint32_t>(along_[k] < -extents_[k]) << k;
-    facing |= static_cast<std::uint32_t>(along_[k] > extents_[k]) << (k + 4);
-  }
+  // a bit for every edge that faces the origin
+  const auto bit = [](bool faces, unsigned k) { return static_cast<std::uint32_t>(faces) << k; };
+  const std::uint32_t facing = bit(along_[0] < -extents_[0], 0) | bit(along_[1] < -extents_[1], 1) |
+                               bit(along_[2] < -extents_[2], 2) | bit(along_[3] < -extents_[3], 3) |
+                               bit(along_[0] > extents_[0], 4) | bit(along_[1] > extents_[1], 5) |
+                               bit(along_[2] > extents_[2], 6) | bit(along_[3] > extents_[3], 7);
   if (facing == 0) {
     side.inside = true;
     return side;
   }
-  // the facing edges are one run: it begins where the edge before doesn't face
-  std::uint32_t k =
-      static_cast<std::uint32_t>(std::countr_zero(facing & ~((facing << 1) | (facing >> 7))));
-  side.edges = static_cast<std::uint32_t>(std::popcount(facing));
-  side.vertices[0] = center_ + corner(k);
-  for (std::uint32_t edge = 0; edge < side.edges; ++edge) {
-    const std::uint32_t m = k & 3u;
+  // they are one run: it begins where the edge before doesn't face
+  std::uint32_t k = 0;
+  for (const std::uint32_t begins = facing & ~((facing << 1) | (facing >> 7)); !(begins >> k & 1u);)
+    ++k;
+  Vec2 vertex = center_ + corner(k);
+  side.vertices[0] = vertex;
+  for (; side.edges < 4 && (facing >> k & 1u); k = (k + 1) & 7u) {
+    const std::uint32_t m = k & 3u, edge = side.edges++;
     const double sign = k < 4 ? 1.0 : -1.0;
     side.normals[edge] = sign * normals_[m];
     side.heights[edge] = sign * along_[m] + extents_[m];
-    side.vertices[edge + 1] = side.vertices[edge] + (2.0 * sign) * half_edges_[m];
-    k = (k + 1) & 7u;
+    vertex += (2.0 * sign) * half_edges_[m];
+    side.vertices[edge + 1] = vertex;
   }
   return side;
 }

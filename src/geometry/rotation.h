@@ -16,21 +16,20 @@ inline Vec2 rotation(double angle) {
   const int quarter = static_cast<int>(turns + (turns < 0 ? -0.5 : 0.5));
   const double rest = (angle - quarter * kRightAngle) - quarter * kRemainder;
   const double x = rest * rest;
-  const double c =
-      1.0 -
-      x * (1.0 / 2 -
-           x * (1.0 / 24 -
-                x * (1.0 / 720 -
-                     x * (1.0 / 40320 -
-                          x * (1.0 / 3628800 - x * (1.0 / 479001600 - x * (1.0 / 87178291200)))))));
-  const double s =
-      rest *
-      (1.0 -
-       x * (1.0 / 6 -
-            x * (1.0 / 120 -
-                 x * (1.0 / 5040 - x * (1.0 / 362880 -
-                                        x * (1.0 / 39916800 - x * (1.0 / 6227020800 -
-                                                                   x * (1.0 / 1307674368000))))))));
+  double c = x * (-1.0 / 87178291200) + 1.0 / 479001600;
+  c = x * c - 1.0 / 3628800;
+  c = x * c + 1.0 / 40320;
+  c = x * c - 1.0 / 720;
+  c = x * c + 1.0 / 24;
+  c = x * c - 1.0 / 2;
+  c = x * c + 1.0;
+  double s = x * (-1.0 / 1307674368000) + 1.0 / 6227020800;
+  s = x * s - 1.0 / 39916800;
+  s = x * s + 1.0 / 362880;
+  s = x * s - 1.0 / 5040;
+  s = x * s + 1.0 / 120;
+  s = x * s - 1.0 / 6;
+  s = rest * (x * s + 1.0);
   switch (quarter & 3) {
     case 0:
       return {c, s};

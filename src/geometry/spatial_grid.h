@@ -23,21 +23,28 @@ class SpatialGrid {
   /// finite coordinates count as the border.
   void rebuild(std::span<const Vec2> positions);
 
+  /// Calls visit(first, last) with the runs of entries() whose cells lie within `radius` [m] of
+  /// `center` along both axes: all points within the radius are among them.
+  template <typename Visit>
+  void visit_runs(const Vec2& center, double radius, Visit&& visit) const {
+    if (entries_.empty() || !(radius >= 0)) return;
+    const std::size_t left = column(center.x() - radius), right = column(center.x() + radius);
+    const std::size_t bottom = line(center.y() - radius), top = line(center.y() + radius);
+    for (std::size_t y = bottom; y <= top; ++y)
+      visit(cell_begin_[y * columns_ + left], cell_begin_[y * columns_ + right + 1]);
+  }
+
   /// Calls visit(row, squared distance) for every point within `radius` [m] of `center`, in the
   /// grid's order.
   template <typename Visit>
   void visit_within(const Vec2& center, double radius, Visit&& visit) const {
-    if (entries_.empty() || !(radius >= 0)) return;
-    const std::size_t left = column(center.x() - radius), right = column(center.x() + radius);
-    const std::size_t bottom = line(center.y() - radius), top = line(center.y() + radius);
     const double reach = radius * radius;
-    for (std::size_t y = bottom; y <= top; ++y) {
-      const std::uint32_t last = cell_begin_[y * columns_ + right + 1];
-      for (std::uint32_t k = cell_begin_[y * columns_ + left]; k < last; ++k) {
+    visit_runs(center, radius, [&](std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t k = first; k < last; ++k) {
         const double distance = (entries_[k].position - center).squaredNorm();
         if (distance <= reach) visit(entries_[k].row, distance);
       }
-    }
+    });
   }
 
   /// Rows in the grid's order.
@@ -50,7 +57,10 @@ class SpatialGrid {
     const double cell = offset * inverse_cell_;
     // a comparison that is false for NaN sends it to the first cell
     if (!(cell > 0)) return 0;
-    return cell >= static_cast<double>(count) ? count - 1 : static_cast<std::size_t>(cell);
+    // signed on the way: the quicker conversion
+    return cell >= static_cast<double>(count)
+               ? count - 1
+               : static_cast<std::size_t>(static_cast<std::int64_t>(cell));
   }
 
   std::vector<Entry> entries_;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 namespace sumogamma {
 
@@ -19,6 +22,74 @@ double reach_towards(const AgentGeometry& agent, const AgentGeometry& other,
   return own + theirs + agent.radius + other.radius;
 }
 
+/// Looks at two entries of the grid at a time: most of those that a search passes are too far away.
+class PairSearch {
+ public:
+  /// For somebody at `position` who sees as far as `far` [m].
+  PairSearch(const TickGeometry& geometry, const Vec2& position, double far)
+      : x_(geometry.x.data()), y_(geometry.y.data()), far_(geometry.far.data()) {
+#ifdef __SSE2__
+    own_x_ = _mm_set1_pd(position.x());
+    own_y_ = _mm_set1_pd(position.y());
+    own_far_ = _mm_set1_pd(far);
+#else
+    own_x_ = position.x();
+    own_y_ = position.y();
+    own_far_ = far;
+#endif
+  }
+
+  /// Bits of the entries k and k + 1 that matter.
+  unsigned within(std::uint32_t k) const {
+#ifdef __SSE2__
+    const __m128d dx = _mm_sub_pd(_mm_loadu_pd(x_ + k), own_x_);
+    const __m128d dy = _mm_sub_pd(_mm_loadu_pd(y_ + k), own_y_);
+    const __m128d reach = _mm_add_pd(_mm_loadu_pd(far_ + k), own_far_);
+    const __m128d square = _mm_add_pd(_mm_mul_pd(dx, dx), _mm_mul_pd(dy, dy));
+    return static_cast<unsigned>(_mm_movemask_pd(_mm_cmple_pd(square, _mm_mul_pd(reach, reach))));
+#else
+    unsigned bits = 0;
+    for (std::uint32_t m = 0; m < 2; ++m) {
+      const double dx = x_[k + m] - own_x_, dy = y_[k + m] - own_y_, reach = far_[k + m] + own_far_;
+      bits |= static_cast<unsigned>(dx * dx + dy * dy <= reach * reach) << m;
+    }
+    return bits;
+#endif
+  }
+
+ private:
+  const double *x_, *y_, *far_;
+#ifdef __SSE2__
+  __m128d own_x_, own_y_, own_far_;
+#else
+  double own_x_, own_y_, own_far_;
+#endif
+};
+
+/// Rows that matter to somebody at `position` who sees as far as `far` [m]: their number,
+/// themselves in `found`.
+std::size_t find_within(const TickGeometry& geometry, const Vec2& position, double far,
+                        std::vector<std::uint32_t>& found) {
+  const PairSearch search(geometry, position, far);
+  const SpatialGrid::Entry* entries = geometry.grid.entries().data();
+  std::size_t count = 0;
+  geometry.grid.visit_runs(position, far + geometry.largest_far,
+                           [&](std::uint32_t first, std::uint32_t last) {
+                             if (found.size() < count + (last - first))
+                               found.resize(2 * (count + (last - first)));
+                             std::uint32_t* end = found.data() + count;
+                             const PairSearch pairs = search;  // in registers
+                             for (std::uint32_t k = first; k < last; k += 2) {
+                               const unsigned bits = pairs.within(k);
+                               if (bits == 0) continue;
+                               if (bits & 1u) *end++ = entries[k].row;
+                               if (bits > 1u && k + 1 < last) *end++ = entries[k + 1].row;
+                             }
+                             count = static_cast<std::size_t>(end - found.data());
+                           });
+  return count;
+}
+
 }  // namespace
 
 bool attends(const AgentGeometry& agent, const AgentGeometry& other, const AttentionRange& range) {
@@ -34,27 +105,27 @@ void find_neighbours(const TickGeometry& geometry, std::size_t row, const Attent
   const AgentGeometry& own = geometry.agent[row];
   const double seen = std::max({range.front + own.stopping, range.rear, 0.0}) + own.radius;
   const double own_far = std::max(seen, own.next_reach);
-  geometry.grid.visit_within(
-      own.position, own_far + geometry.largest_far, [&](std::uint32_t other_row, double square) {
-        if (other_row == row) return;
-        const AgentGeometry& other = geometry.agent[other_row];
-        const double far = own_far + other.far;
-        if (square > far * far) return;
-        // above or below on a bridge: never met
-        if (std::abs(other.height - own.height) > kStorey) return;
-        const double near = own.next_reach + other.next_reach;
-        if (square <= near * near) neighbours.near.push_back(other_row);
-        const Vec2 offset = other.position - own.position;
-        const double reach = reach_towards(own, other, range, offset);
-        if (square > reach * reach) return;
-        // out of reach within the horizon: gap > horizon * approach, both times the distance
-        const double distance = std::sqrt(square);
-        const double gap = distance - own.radius - other.radius;
-        const double approach =
-            std::max(own.velocity.dot(offset), preferred.dot(offset)) - other.velocity.dot(offset);
-        if (gap > 0 && gap * distance > horizon * (approach + kSideStep * distance)) return;
-        neighbours.attended.push_back({other_row, distance});
-      });
+  const std::size_t count = find_within(geometry, own.position, own_far, neighbours.found);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t other_row = neighbours.found[k];
+    if (other_row == row) continue;
+    const AgentGeometry& other = geometry.agent[other_row];
+    // above or below on a bridge: never met
+    if (std::abs(other.height - own.height) > kStorey) continue;
+    const Vec2 offset = other.position - own.position;
+    const double square = offset.squaredNorm();
+    const double near = own.next_reach + other.next_reach;
+    if (square <= near * near) neighbours.near.push_back(other_row);
+    const double reach = reach_towards(own, other, range, offset);
+    if (square > reach * reach) continue;
+    // out of reach within the horizon: gap > horizon * approach, both times the distance
+    const double distance = std::sqrt(square);
+    const double gap = distance - own.radius - other.radius;
+    const double approach =
+        std::max(own.velocity.dot(offset), preferred.dot(offset)) - other.velocity.dot(offset);
+    if (gap > 0 && gap * distance > horizon * (approach + kSideStep * distance)) continue;
+    neighbours.attended.push_back({other_row, distance});
+  }
   // in order of id, so that nothing depends on where the grid's cells happen to lie
   std::sort(neighbours.attended.begin(), neighbours.attended.end(),
             [](const Attended& a, const Attended& b) { return a.row < b.row; });

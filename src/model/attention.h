@@ -23,6 +23,7 @@ struct Neighbours {
   std::vector<Attended> attended;  ///< Att, in order of id
   std::vector<std::uint32_t>
       near;  ///< rows that it could touch before both stand: the stopping guard's concern
+  std::vector<std::uint32_t> found;  ///< scratch of the search
 };
 
 /// Att of III-B for one row, and those that are near.

@@ -36,4 +36,9 @@ struct Workspace {
 Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& geometry,
                     std::size_t row, const BehaviorState& behavior, Workspace& work);
 
+/// The row's body `dt` [s] after the `velocity` that gamma_velocity has just answered with `work`:
+/// what track_velocity gives, mostly at no cost because the guard has looked at it.
+BodyState next_body(const Model& model, const Scene& scene, std::size_t row, const Vec2& velocity,
+                    double dt, const Workspace& work);
+
 }  // namespace sumogamma

@@ -35,7 +35,7 @@ struct ModelOptions {
   double step = 0.05;             ///< length of a tick, which the guard reckons with [s]
   double separation_time = 0.03;  ///< how urgently wheeled bodies that overlap come apart [s];
                                   ///< their own limits take longer
-  double margin_time = 0.1;             ///< likewise where only their margins overlap [s]
+  double margin_time = 0.1;       ///< likewise where only their margins overlap [s]
   double walker_separation_time = 0.5;  ///< likewise where one is on foot [s]
   double front_margin = 0.1, rear_margin = 0.05,
          side_margin = 0.05;    ///< kept around wheeled bodies [m]

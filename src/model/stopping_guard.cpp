@@ -8,7 +8,6 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "geometry/rotation.h"
-#include "model/tracking.h"
 
 namespace sumogamma {
 
@@ -87,6 +86,7 @@ void StoppingGuard::prepare(const Model& model, const Scene& scene, const TickGe
   geometry_ = &geometry;
   row_ = row;
   near_ = near;
+  looked_at_.setConstant(std::numeric_limits<double>::quiet_NaN());
   foes_.clear();
 }
 
@@ -96,24 +96,25 @@ bool StoppingGuard::overlapping() const {
   });
 }
 
-Braking StoppingGuard::braking_after(const Vec2& velocity) const {
+Braking StoppingGuard::braking_after(const Vec2& velocity) {
   const AgentGeometry& own = geometry_->agent[row_];
   const AgentType& type = type_of(model_->types, own.type);
-  const BodyState next = advance_body(type, body_of(*scene_, row_), velocity, model_->options.step);
+  looked_at_ = velocity;
+  next_ = advance_body(type, body_of(*scene_, row_), own.forward, velocity, model_->options.step);
   Braking braking;
-  braking.position = next.position;
-  braking.forward = rotation(next.heading);
-  braking.speed = own.on_wheels ? next.speed : next.velocity.norm();
+  braking.position = next_.body.position;
+  braking.forward = next_.forward;
+  braking.speed = own.on_wheels ? next_.body.speed : next_.body.velocity.norm();
   braking.direction =
-      own.on_wheels ? braking.forward : Vec2(next.velocity / std::max(braking.speed, 1e-9));
+      own.on_wheels ? next_.forward : Vec2(next_.body.velocity / std::max(braking.speed, 1e-9));
   braking.deceleration = type.max_deceleration;
-  braking.curvature = own.on_wheels ? tangent(next.steering) / type.wheelbase : 0.0;
+  braking.curvature = own.on_wheels ? next_.lock / type.wheelbase : 0.0;
   braking.axle = type.rear_axle_to_center;
   return braking;
 }
 
-const StoppingGuard::Foe& StoppingGuard::foe_of(std::uint32_t other) {
-  for (const Foe& foe : foes_)
+StoppingGuard::Foe& StoppingGuard::foe_of(std::uint32_t other) {
+  for (Foe& foe : foes_)
     if (foe.row == other) return foe;
   return foes_.emplace_back(look_closely(other));
 }
@@ -125,27 +126,32 @@ StoppingGuard::Foe StoppingGuard::look_closely(std::uint32_t other) const {
   foe.overlaps = overlap_depth(*scene_, *geometry_, row_, other) > kSame;
   if (foe.overlaps) return foe;
   const double step = model_->options.step;
-  const Braking mine = braking_now(own, type_of(model_->types, own.type));
   Braking theirs = braking_now(their, type_of(model_->types, their.type));
   // nobody makes others brake; whoever goes the same way may
   if (!their.yields && their.velocity.dot(own.velocity) <= 0) theirs.deceleration = 1e-3;
-  foe.duration = std::max(mine.duration() + step, their.yields ? theirs.duration() : 0.0);
+  const double stop = own.speed / type_of(model_->types, own.type).max_deceleration;
+  foe.duration = std::max(stop + step, their.yields ? theirs.duration() : 0.0);
   foe.free_way = model_->options.guard_margin + their.throttle_way;
-  for (std::size_t k = 0; k < kInstants; ++k) {
-    const double time = step + instant_of(foe.duration, k);
-    foe.poses[k] = pose_after(theirs, time);
-    const Pose now = pose_after(mine, time);
-    if (own.is_box && their.is_box) {
-      const OrientedBox a = box_at(now, own), b = box_at(foe.poses[k], their);
-      foe.gap[k] = widest_gap(a, b, foe.axis[k]);
-      foe.middle[k] = 0.5 * (reach_along(a, foe.axis[k]) - reach_along(b, -foe.axis[k]));
-    } else {
-      foe.gap[k] = gap_between(now, foe.poses[k], other);
-      foe.axis[k] = Vec2::Zero();
-      foe.middle[k] = 0;
-    }
-  }
+  for (std::size_t k = 0; k < kInstants; ++k)
+    foe.poses[k] = pose_after(theirs, step + instant_of(foe.duration, k));
   return foe;
+}
+
+const StoppingGuard::Room& StoppingGuard::room_at(Foe& foe, std::size_t instant) const {
+  Room& room = foe.room[instant];
+  if (room.known) return room;
+  room.known = true;
+  const AgentGeometry &own = geometry_->agent[row_], &their = geometry_->agent[foe.row];
+  const Braking mine = braking_now(own, type_of(model_->types, own.type));
+  const Pose now = pose_after(mine, model_->options.step + instant_of(foe.duration, instant));
+  if (own.is_box && their.is_box) {
+    const OrientedBox a = box_at(now, own), b = box_at(foe.poses[instant], their);
+    room.gap = widest_gap(a, b, room.axis);
+    room.middle = 0.5 * (reach_along(a, room.axis) - reach_along(b, -room.axis));
+  } else {
+    room.gap = gap_between(now, foe.poses[instant], foe.row);
+  }
+  return room;
 }
 
 bool StoppingGuard::clear_by_far(const OrientedBox& swept, std::uint32_t other) const {
@@ -155,18 +161,19 @@ bool StoppingGuard::clear_by_far(const OrientedBox& swept, std::uint32_t other) 
   return separation(swept, their.braking) >= room;
 }
 
-bool StoppingGuard::clear_at(const Foe& foe, std::size_t instant, const Pose& pose) const {
+bool StoppingGuard::clear_at(Foe& foe, std::size_t instant, const Pose& pose) const {
   const AgentGeometry &own = geometry_->agent[row_], &their = geometry_->agent[foe.row];
   const double discs = own.radius + their.radius + foe.free_way;
   if ((pose.position - foe.poses[instant].position).squaredNorm() > discs * discs) return true;
   const double gap = gap_between(pose, foe.poses[instant], foe.row);
   if (gap >= foe.free_way) return true;
+  const Room& room = room_at(foe, instant);
   // no closer than by braking now is as good as braking
-  if (gap >= foe.gap[instant] - kSame) return true;
+  if (gap >= room.gap - kSame) return true;
   // closer than the margin already: half of what is left may be used, so that bodies side by side
   // can turn apart
-  if (gap < std::min(model_->options.guard_margin, 0.5 * foe.gap[instant])) return false;
-  return !own.is_box || reach_along(box_at(pose, own), foe.axis[instant]) <= foe.middle[instant];
+  if (gap < std::min(model_->options.guard_margin, 0.5 * room.gap)) return false;
+  return !own.is_box || reach_along(box_at(pose, own), room.axis) <= room.middle;
 }
 
 bool StoppingGuard::admits(const Vec2& velocity) {
@@ -178,7 +185,7 @@ bool StoppingGuard::admits(const Vec2& velocity) {
                                       way, braking.curvature, braking.axle);
   for (const std::uint32_t other : near_) {
     if (clear_by_far(swept, other)) continue;
-    const Foe& foe = foe_of(other);
+    Foe& foe = foe_of(other);
     for (std::size_t k = 0; !foe.overlaps && k < kInstants; ++k)
       if (!clear_at(foe, k, pose_after(braking, instant_of(foe.duration, k)))) return false;
   }

@@ -2,12 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "geometry/half_plane.h"
 #include "model/model.h"
 #include "model/tick_geometry.h"
+#include "model/tracking.h"
 
 namespace sumogamma {
 
@@ -54,7 +56,20 @@ class StoppingGuard {
   /// True where the row overlaps somebody.
   bool overlapping() const;
 
+  /// The body after a tick under `velocity` if that is what was looked at last; null otherwise.
+  const BodyState* body_after(const Vec2& velocity) const {
+    return velocity == looked_at_ ? &next_.body : nullptr;
+  }
+
  private:
+  /// What the two leave between them at one instant if both brake now.
+  struct Room {
+    bool known = false;        ///< looked at already
+    double gap = 0;            ///< [m]
+    Vec2 axis = Vec2::Zero();  ///< from the row to the foe, along which that gap is measured
+    double middle = 0;         ///< of the gap, along the axis [m]
+  };
+
   /// A neighbour as it brakes.
   struct Foe {
     std::uint32_t row;
@@ -63,18 +78,15 @@ class StoppingGuard {
     double
         free_way;  ///< farther apart than this nothing that the foe does within a tick matters [m]
     std::array<Pose, kInstants> poses;  ///< of the foe
-    std::array<double, kInstants> gap;  ///< between the two if both brake now [m]
-    std::array<Vec2, kInstants>
-        axis;  ///< from the row to the foe, along which that gap is measured
-    std::array<double, kInstants>
-        middle;  ///< of the gap, along the axis from the row's position [m]
+    std::array<Room, kInstants> room;   ///< filled where it is asked for
   };
 
-  Braking braking_after(const Vec2& velocity) const;
-  const Foe& foe_of(std::uint32_t other);
+  Braking braking_after(const Vec2& velocity);
+  Foe& foe_of(std::uint32_t other);
   Foe look_closely(std::uint32_t other) const;
+  const Room& room_at(Foe& foe, std::size_t instant) const;
   bool clear_by_far(const OrientedBox& swept, std::uint32_t other) const;
-  bool clear_at(const Foe& foe, std::size_t instant, const Pose& pose) const;
+  bool clear_at(Foe& foe, std::size_t instant, const Pose& pose) const;
   double gap_between(const Pose& own, const Pose& theirs, std::size_t other) const;
 
   const Model* model_ = nullptr;
@@ -82,6 +94,9 @@ class StoppingGuard {
   const TickGeometry* geometry_ = nullptr;
   std::size_t row_ = 0;
   std::span<const std::uint32_t> near_;
+  /// Velocity of the last look [m/s], NaN for none.
+  Vec2 looked_at_ = Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
+  Advanced next_;          ///< after a tick under it
   std::vector<Foe> foes_;  ///< those that were looked at closely so far
 };
 

@@ -91,9 +91,16 @@ void prepare_tick(const Model& model, const Scene& scene, Workers& workers,
     for (std::size_t row = begin; row < end; ++row)
       geometry.agent[row] = describe(model, scene, row);
   });
+  const std::span<const SpatialGrid::Entry> entries = geometry.grid.entries();
+  for (std::vector<double>* column : {&geometry.x, &geometry.y, &geometry.far})
+    column->resize(rows + 1);
   geometry.largest_far = 0;
-  for (const AgentGeometry& agent : geometry.agent)
-    geometry.largest_far = std::max(geometry.largest_far, agent.far);
+  for (std::size_t k = 0; k < rows; ++k) {
+    geometry.x[k] = entries[k].position.x();
+    geometry.y[k] = entries[k].position.y();
+    geometry.far[k] = geometry.agent[entries[k].row].far;
+    geometry.largest_far = std::max(geometry.largest_far, geometry.far[k]);
+  }
 }
 
 OrientedBox swept_box(const AgentGeometry& agent, const Vec2& position, const Vec2& forward,

@@ -47,6 +47,9 @@ struct AgentGeometry {
 struct TickGeometry {
   SpatialGrid grid;
   std::vector<AgentGeometry> agent;
+  /// Positions of the agents and from how far they matter, in the grid's order, with one more
+  /// entry at the end, so that they can be read in pairs [m].
+  std::vector<double> x, y, far;
   double largest_far = 0;  ///< largest of these [m]
 };
 

@@ -1,6 +1,8 @@
 #include "model/tracking.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "base/units.h"
 #include "geometry/rotation.h"
@@ -40,51 +42,57 @@ BodyState advance_holonomic(const AgentType& type, const BodyState& body, const 
   return next;
 }
 
-/// Tangent of the front wheel angle that points the centre's velocity along `lateral / forward`
-/// (body axes), softened at speed. At the limit, full lock: beyond a right angle there is nothing
-/// better.
-double asked_lock(const AgentType& type, double speed, double forward, double lateral,
-                  double most) {
-  if (forward <= 0) return lateral == 0 ? 0.0 : std::copysign(most, lateral);
+/// A front wheel angle [rad] with its tangent.
+struct Steering {
+  double angle, lock;
+};
+
+/// The angle of a tangent, or what the type's limits of angle and grip leave of it.
+Steering within_limits(const AgentType& type, double speed, double lock) {
+  const double grip = type.max_lateral_acceleration * type.wheelbase, square = speed * speed;
+  if (square * std::abs(lock) > grip) lock = std::copysign(grip / square, lock);
+  const double angle = std::atan(lock), most = std::min(type.max_steering, kMostSteering);
+  if (std::abs(angle) <= most) return {angle, lock};
+  return {std::copysign(most, lock), std::copysign(tangent(most), lock)};
+}
+
+/// Tangent of the angle that points the centre's velocity along `asked` (body axes), softened at
+/// speed. Beyond a right angle there is nothing better than full lock.
+double asked_lock(const AgentType& type, double speed, const Vec2& asked) {
+  if (asked.x() <= 0)
+    return asked.y() == 0 ? 0.0 : std::copysign(std::numeric_limits<double>::infinity(), asked.y());
   // the centre moves along v where the rear axle's curvature is tan(angle) / (rear axle to centre)
   const double reach =
       std::max({type.rear_axle_to_center, kSteeringTime * speed, 0.1 * type.wheelbase});
-  return std::clamp(type.wheelbase * lateral / (forward * reach), -most, most);
+  return type.wheelbase * asked.y() / (asked.x() * reach);
 }
 
-/// The wheels turn towards the asked angle within angle, rate and grip; returns the tangent of the
-/// new angle.
-double turn_wheels(const AgentType& type, const Vec2& asked, double dt, BodyState& next) {
-  double most = tangent(std::min(type.max_steering, kMostSteering));
-  const double grip = type.max_lateral_acceleration * type.wheelbase;
-  if (next.speed * next.speed * most > grip) most = grip / (next.speed * next.speed);
+/// The wheels turn towards the asked angle within angle, rate and grip.
+Steering turn_wheels(const AgentType& type, const BodyState& body, double speed, const Vec2& asked,
+                     double dt) {
   // a body that is told to stand keeps its wheels as they are
-  double lock = asked.squaredNorm() > 1e-12
-                    ? asked_lock(type, next.speed, asked.x(), asked.y(), most)
-                    : std::clamp(tangent(next.steering), -most, most);
-  const double wanted = std::atan(lock);
+  const double lock =
+      asked.squaredNorm() > 1e-12 ? asked_lock(type, speed, asked) : tangent(body.steering);
+  const Steering wanted = within_limits(type, speed, lock);
   const double most_change = type.max_steering_rate * dt;
-  const double steering =
-      std::clamp(wanted, next.steering - most_change, next.steering + most_change);
-  if (steering != wanted) lock = tangent(steering);
-  next.steering = steering;
-  return lock;
+  const double angle =
+      std::clamp(wanted.angle, body.steering - most_change, body.steering + most_change);
+  return angle == wanted.angle ? wanted : Steering{angle, tangent(angle)};
 }
 
-BodyState advance_single_track(const AgentType& type, const BodyState& body, const Vec2& velocity,
-                               double dt) {
-  BodyState next = body;
-  const Vec2 forward = rotation(body.heading);
+Advanced advance_single_track(const AgentType& type, const BodyState& body, const Vec2& forward,
+                              const Vec2& velocity, double dt) {
+  Advanced next{body};
   const Vec2 asked = to_body(velocity, forward);
 
   const double target = std::clamp(asked.x(), 0.0, type.max_speed);
-  next.speed = std::max(0.0, std::clamp(target, body.speed - type.max_deceleration * dt,
-                                        body.speed + type.max_acceleration * dt));
-  const double lock = turn_wheels(type, asked, dt, next);
+  const double speed = std::max(0.0, std::clamp(target, body.speed - type.max_deceleration * dt,
+                                                body.speed + type.max_acceleration * dt));
+  const Steering steering = turn_wheels(type, body, speed, asked, dt);
 
   // exact arc of the rear axle, and the centre's swing about it
-  const double distance = next.speed * dt;
-  const double turn = distance * lock / type.wheelbase;
+  const double distance = speed * dt;
+  const double turn = distance * steering.lock / type.wheelbase;
   const double half = 0.5 * turn;
   const Vec2 half_turn = rotation(half);
   const double chord = distance * (std::abs(half) > 1e-6 ? half_turn.y() / half : 1.0);
@@ -92,20 +100,32 @@ BodyState advance_single_track(const AgentType& type, const BodyState& body, con
                         2.0 * half_turn.x() * half_turn.y());
   const Vec2 displacement =
       from_body(chord * half_turn + type.rear_axle_to_center * (whole_turn - Vec2(1, 0)), forward);
-  next.heading = body.heading + turn;
-  if (std::abs(next.heading) > kPi) next.heading = wrap_angle(next.heading);
-  next.position = body.position + displacement;
-  next.velocity = displacement / dt;
+  next.body.speed = speed;
+  next.body.steering = steering.angle;
+  next.body.heading = body.heading + turn;
+  if (std::abs(next.body.heading) > kPi) next.body.heading = wrap_angle(next.body.heading);
+  next.body.position = body.position + displacement;
+  next.body.velocity = displacement / dt;
+  next.forward = from_body(whole_turn, forward);
+  next.lock = steering.lock;
   return next;
 }
 
 }  // namespace
 
+Advanced advance_body(const AgentType& type, const BodyState& body, const Vec2& forward,
+                      const Vec2& velocity, double dt) {
+  const Vec2 asked = velocity.allFinite() ? velocity : Vec2(Vec2::Zero());
+  if (type.kinematics != Kinematics::Holonomic)
+    return advance_single_track(type, body, forward, asked, dt);
+  Advanced next{advance_holonomic(type, body, asked, dt)};
+  next.forward = next.body.heading == body.heading ? forward : rotation(next.body.heading);
+  return next;
+}
+
 BodyState advance_body(const AgentType& type, const BodyState& body, const Vec2& velocity,
                        double dt) {
-  const Vec2 asked = velocity.allFinite() ? velocity : Vec2(Vec2::Zero());
-  return type.kinematics == Kinematics::Holonomic ? advance_holonomic(type, body, asked, dt)
-                                                  : advance_single_track(type, body, asked, dt);
+  return advance_body(type, body, rotation(body.heading), velocity, dt).body;
 }
 
 BodyState body_of(const Scene& scene, std::size_t row) {

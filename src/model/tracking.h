@@ -24,6 +24,17 @@ struct BodyState {
 BodyState advance_body(const AgentType& type, const BodyState& body, const Vec2& velocity,
                        double dt);
 
+/// What advance_body computes on its way, for whoever goes on from there.
+struct Advanced {
+  BodyState body;
+  Vec2 forward = Vec2(1, 0);  ///< unit heading of `body`
+  double lock = 0;            ///< tangent of its steering angle
+};
+
+/// The same from a body whose unit heading `forward` is known.
+Advanced advance_body(const AgentType& type, const BodyState& body, const Vec2& forward,
+                      const Vec2& velocity, double dt);
+
 /// The body of a row as it stands.
 BodyState body_of(const Scene& scene, std::size_t row);
 

@@ -8,7 +8,6 @@
 
 #include "geometry/rotation.h"
 #include "model/gamma_velocity.h"
-#include "model/tracking.h"
 #include "simulation/overlap.h"
 
 namespace sumogamma {
@@ -175,7 +174,7 @@ SceneReport run_scene(const SceneFile& file, const ModelOptions& options, std::s
         Workspace& work = workspaces[worker];
         const Vec2 velocity =
             gamma_velocity(model, scene, geometry, row, scene.behavior[row], work);
-        commands[row] = track_velocity(model, scene, row, velocity, dt);
+        commands[row] = next_body(model, scene, row, velocity, dt, work);
         count_request(model, scene, row, velocity, work, dt, counts[worker]);
       }
     });

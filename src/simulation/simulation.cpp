@@ -87,7 +87,8 @@ void tick(Simulation& sim, World& world) {
       if (scene.control[row] != Control::Gamma) continue;
       const Vec2 velocity = gamma_velocity(sim.model, scene, sim.geometry, row, scene.behavior[row],
                                            sim.workspaces[worker]);
-      sim.commands[row] = track_velocity(sim.model, scene, row, velocity, sim.dt);
+      sim.commands[row] =
+          next_body(sim.model, scene, row, velocity, sim.dt, sim.workspaces[worker]);
     }
   });
   clock.end(sim.times.model);

@@ -3,7 +3,6 @@
 
 #include "geometry/half_plane_program.h"
 #include "model/gamma_velocity.h"
-#include "model/tracking.h"
 #include "support/made_scenes.h"
 
 namespace sumogamma {
@@ -30,7 +29,7 @@ void run_ticks(benchmark::State& state, double area) {
     prepare_tick(model, scene, workers, geometry);
     for (std::size_t row = 0; row < scene.size(); ++row) {
       const Vec2 velocity = gamma_velocity(model, scene, geometry, row, scene.behavior[row], work);
-      next[row] = track_velocity(model, scene, row, velocity, 0.05);
+      next[row] = next_body(model, scene, row, velocity, 0.05, work);
     }
     state.PauseTiming();
     for (std::size_t row = 0; row < scene.size(); ++row) {

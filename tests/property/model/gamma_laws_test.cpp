@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -125,6 +126,74 @@ TEST(GammaLaws, WhoIsFarAwayDoesNotMatter) {
   add_agent(model, scene, "bus", Vec2(5000, 5000), 0, 5, Vec2(6000, 5000), 5);
   const auto after = all_velocities(model, scene);
   for (std::size_t row = 0; row < before.size(); ++row) EXPECT_EQ(before[row], after[row]);
+}
+
+TEST(GammaLaws, FindsTheNeighboursOfABruteForceSearch) {
+  const Model& model = shared_model();
+  Workers workers(1);
+  TickGeometry geometry;
+  Neighbours neighbours;
+  std::size_t attended = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene = random_scene(model, seed, 41 + seed % 7, 15.0 + 5.0 * static_cast<double>(seed));
+    if (seed % 4 == 0)
+      for (Vec2& p : scene.position) p += Vec2(1e6, -1e6);
+    if (seed % 5 == 0) scene.position[3] = {1e7, 0};
+    prepare_tick(model, scene, workers, geometry);
+    for (std::size_t row = 0; row < scene.size(); ++row) {
+      const AgentGeometry& own = geometry.agent[row];
+      const Vec2 preferred(draw(seed, 77, -3, 3), draw(seed, 78, -3, 3));
+      find_neighbours(geometry, row, own.attention, preferred, 3.0, neighbours);
+      std::vector<std::uint32_t> near = neighbours.near, near_expected, expected;
+      for (std::uint32_t other = 0; other < scene.size(); ++other) {
+        if (other == row) continue;
+        const AgentGeometry& their = geometry.agent[other];
+        const Vec2 offset = their.position - own.position;
+        const double distance = offset.norm();
+        if (distance <= own.next_reach + their.next_reach) near_expected.push_back(other);
+        const double gap = distance - own.radius - their.radius;
+        const double approach = std::max((own.velocity - their.velocity).dot(offset),
+                                         (preferred - their.velocity).dot(offset)) /
+                                distance;
+        const bool out_of_reach = gap > 0 && gap > 3.0 * (approach + 0.3);
+        if (attends(own, their, own.attention) && !out_of_reach) expected.push_back(other);
+      }
+      std::sort(near.begin(), near.end());
+      ASSERT_EQ(near, near_expected) << row;
+      ASSERT_EQ(neighbours.attended.size(), expected.size()) << row;
+      for (std::size_t k = 0; k < expected.size(); ++k)
+        ASSERT_EQ(neighbours.attended[k].row, expected[k]) << "in order of id";
+      attended += expected.size();
+    }
+  }
+  EXPECT_GT(attended, 3000u);
+}
+
+TEST(GammaLaws, TheNextBodyIsTheTrackedOne) {
+  // the guard's own look ahead is used where there is one: bit for bit the same body
+  for (bool guard : {true, false}) {
+    Model model = shared_model();
+    model.options.use_guard = guard;
+    Workers workers(1);
+    TickGeometry geometry;
+    Workspace work;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      const Scene scene = random_scene(model, seed, 30, 25);
+      prepare_tick(model, scene, workers, geometry);
+      for (std::size_t row = 0; row < scene.size(); ++row) {
+        const Vec2 v = gamma_velocity(model, scene, geometry, row, scene.behavior[row], work);
+        for (double dt : {model.options.step, 0.1}) {
+          const BodyState next = next_body(model, scene, row, v, dt, work),
+                          tracked = track_velocity(model, scene, row, v, dt);
+          ASSERT_EQ(next.position, tracked.position);
+          ASSERT_EQ(next.velocity, tracked.velocity);
+          ASSERT_EQ(next.heading, tracked.heading);
+          ASSERT_EQ(next.steering, tracked.steering);
+        }
+      }
+    }
+  }
 }
 
 TEST(GammaLaws, SharesOfAPairAddUpToOne) {

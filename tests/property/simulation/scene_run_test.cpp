@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "geometry/convex_polygon.h"
+#include "geometry/oriented_box.h"
+#include "model/tracking.h"
 #include "support/made_scenes.h"
 
 namespace sumogamma {
@@ -99,6 +101,86 @@ TEST(SceneRun, ARingOfTwoHundredPeopleFindsThrough) {
   const SceneReport report = run(ring_scene("People", 200, 50, 1.3), 2400, 2);
   EXPECT_LE(report.agents_overlapped_share, 0.05);
   EXPECT_LE(report.stuck_share, 0.05);
+}
+
+bool overlapping(const AgentType& type, const BodyState& a, const BodyState& b) {
+  const Vec2 half(0.5 * type.length, 0.5 * type.width);
+  return separation(OrientedBox{a.position, direction_of(a.heading), half},
+                    OrientedBox{b.position, direction_of(b.heading), half}) < -1e-6;
+}
+
+/// Fewest steps after which two cars that start from rest can be apart, over all pairs of ways to
+/// hold the wheels at full throttle or to stand.
+std::size_t quickest_separation(const AgentType& type, const BodyState& a, const BodyState& b) {
+  constexpr int kWays = 9;
+  constexpr std::size_t kSteps = 40;
+  std::vector<std::vector<BodyState>> ways[2];
+  for (int body = 0; body < 2; ++body)
+    for (int way = 0; way <= kWays; ++way) {
+      BodyState state = body == 0 ? a : b;
+      const double angle = type.max_steering * (2.0 * way / (kWays - 1) - 1.0);
+      const double slip = std::atan(type.rear_axle_to_center / type.wheelbase * std::tan(angle));
+      std::vector<BodyState> states;
+      for (std::size_t k = 0; k < kSteps; ++k) {
+        const Vec2 ask = way < kWays ? Vec2(4.0 * direction_of(state.heading + slip)) : Vec2(0, 0);
+        state = advance_body(type, state, ask, 0.05);
+        states.push_back(state);
+      }
+      ways[body].push_back(states);
+    }
+  std::size_t best = kSteps;
+  for (const auto& first : ways[0])
+    for (const auto& second : ways[1])
+      for (std::size_t k = 0; k < best; ++k)
+        if (!overlapping(type, first[k], second[k])) best = k;
+  return best;
+}
+
+TEST(SceneRun, OverlappingCarsComeApartAboutAsSoonAsTheirBodiesAllow) {
+  double allowed = 0, taken = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    SceneFile file = empty_scene("overlap");
+    const auto draw = [&](std::uint64_t k, double low, double high) {
+      return random_uniform(seed, k, 0, Draw::Demand, low, high);
+    };
+    const Vec2 aside{draw(1, -2, 2), draw(2, 0.5, 1.5)};
+    add_agent(file, "Car", Vec2(0, 0), 0, Vec2(100, 0), 4);
+    add_agent(file, "Car", aside, 0, aside + Vec2(100, 0), 4);
+    const AgentType& type = type_of(file.types, file.scene.type[0]);
+    allowed += static_cast<double>(
+        quickest_separation(type, body_of(file.scene, 0), body_of(file.scene, 1)));
+    Workers workers(1);
+    run_scene(file, ModelOptions{}, 100, 0.05, workers, [&](const Scene& scene) {
+      if (scene.tick > 0) taken += overlapping(type, body_of(scene, 0), body_of(scene, 1));
+    });
+  }
+  EXPECT_GE(allowed, 30 * 10) << "it takes them more than half a second";
+  EXPECT_LE(taken, 1.05 * allowed);
+}
+
+/// Two streams of people and bicycles that meet head-on in a passage.
+SceneFile passage(std::uint64_t seed) {
+  SceneFile file = empty_scene("passage");
+  for (int k = 0; k < 60; ++k) {
+    const double way = k % 2 == 0 ? 1 : -1;
+    const double jitter =
+        random_uniform(seed, static_cast<std::uint64_t>(k), 0, Draw::Demand, -0.3, 0.3);
+    const Vec2 position(way * (-40 + 2.5 * (k / 6)), 1.5 * ((k / 2) % 3 - 1) + jitter);
+    add_agent(file, k % 6 < 4 ? "People" : "Bicycle", position, way > 0 ? 0 : kPi,
+              Vec2(way * 80, position.y()), k % 6 < 4 ? 1.3 : 2.5);
+  }
+  return file;
+}
+
+TEST(SceneRun, StreamsThatMeetInAPassageGetThrough) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    const SceneReport report = run(passage(seed), 1000, 2);
+    expect_lawful(report);
+    EXPECT_LE(report.agents_overlapped_share, 0.05);
+    EXPECT_EQ(report.stuck_share, 0);
+    EXPECT_GE(report.progress_mean, 0.8);
+  }
 }
 
 TEST(SceneRun, OverlapComesApart) {
