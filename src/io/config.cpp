@@ -59,7 +59,6 @@ constexpr std::array kTypeFields{
     TypeField{"horizon", &AgentType::horizon, 0, true},
     TypeField{"attention_front", &AgentType::attention_front, 0, false},
     TypeField{"attention_rear", &AgentType::attention_rear, 0, false},
-    TypeField{"responsibility_decay", &AgentType::responsibility_decay, 0, false},
     TypeField{"headway", &AgentType::headway, 0, false},
     TypeField{"min_gap", &AgentType::min_gap, 0, false},
 };

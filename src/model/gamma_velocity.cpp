@@ -92,11 +92,4 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
                           hard);
 }
 
-BodyState next_body(const Model& model, const Scene& scene, std::size_t row, const Vec2& velocity,
-                    double dt, const Workspace& work) {
-  const BodyState* body = work.guard.body_after(velocity);
-  if (body && dt == model.options.step) return *body;
-  return track_velocity(model, scene, row, velocity, dt);
-}
-
 }  // namespace sumogamma

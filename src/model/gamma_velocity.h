@@ -8,6 +8,7 @@
 #include "model/model.h"
 #include "model/stopping_guard.h"
 #include "model/tick_geometry.h"
+#include "model/tracking.h"
 
 namespace sumogamma {
 
@@ -38,7 +39,11 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
 
 /// The row's body `dt` [s] after the `velocity` that gamma_velocity has just answered with `work`:
 /// what track_velocity gives, mostly at no cost because the guard has looked at it.
-BodyState next_body(const Model& model, const Scene& scene, std::size_t row, const Vec2& velocity,
-                    double dt, const Workspace& work);
+inline BodyState next_body(const Model& model, const Scene& scene, std::size_t row,
+                           const Vec2& velocity, double dt, const Workspace& work) {
+  const BodyState* body = work.guard.body_after(velocity);
+  if (body && dt == model.options.step) return *body;
+  return track_velocity(model, scene, row, velocity, dt);
+}
 
 }  // namespace sumogamma

@@ -174,16 +174,16 @@ AgentTypeTable recorded_agent_types() {
   struct Row {
     const char *name, *like;
     double front, half_width, back, wheelbase, tracking_error, horizon, max_speed;
-    double attention_front, responsibility_decay;
+    double attention_front;
   };
   constexpr Row kRows[] = {
-      {"pedestrian", "pedestrian", 0.10, 0.22, 0.10, 0.20, 0.1, 3, 5, 6, 0.6},
-      {"moped", "motorcycle", 1.25, 0.60, 0.40, 1.00, 0.5, 5, 10, 8, 0.3},
-      {"bicycle", "bicycle", 1.25, 0.50, 0.40, 1.00, 0.5, 5, 5, 8, 0.3},
-      {"electric_tricycle", "electric_tricycle", 1.25, 0.80, 0.40, 1.00, 0.5, 5, 8, 8, 0.3},
-      {"car", "car", 3.80, 1.00, 1.00, 2.70, 0.5, 4, 10, 8, 0.1},
-      {"van", "van", 4.20, 1.10, 1.10, 3.91, 0.5, 5, 10, 8, 0.1},
-      {"bus", "bus", 4.50, 1.50, 1.50, 4.00, 0.5, 5, 10, 8, 0.1},
+      {"pedestrian", "pedestrian", 0.10, 0.22, 0.10, 0.20, 0.1, 3, 5, 6},
+      {"moped", "motorcycle", 1.25, 0.60, 0.40, 1.00, 0.5, 5, 10, 8},
+      {"bicycle", "bicycle", 1.25, 0.50, 0.40, 1.00, 0.5, 5, 5, 8},
+      {"electric_tricycle", "electric_tricycle", 1.25, 0.80, 0.40, 1.00, 0.5, 5, 8, 8},
+      {"car", "car", 3.80, 1.00, 1.00, 2.70, 0.5, 4, 10, 8},
+      {"van", "van", 4.20, 1.10, 1.10, 3.91, 0.5, 5, 10, 8},
+      {"bus", "bus", 4.50, 1.50, 1.50, 4.00, 0.5, 5, 10, 8},
   };
   const AgentTypeTable known = default_agent_types();
   AgentTypeTable types;
@@ -200,7 +200,6 @@ AgentTypeTable recorded_agent_types() {
     type.max_speed = std::max(row.max_speed, 12.0);
     if (type.kinematics == Kinematics::Holonomic) type.max_speed = row.max_speed;
     type.attention_front = row.attention_front;
-    type.responsibility_decay = row.responsibility_decay;
     types.push_back(std::move(type));
   }
   return types;

@@ -33,7 +33,6 @@ AgentTypeTable default_agent_types() {
        .horizon = 3.0,
        .attention_front = 8.0,
        .attention_rear = 2.0,
-       .responsibility_decay = 0.6,
        .headway = 0.5,
        .min_gap = 0.25});
   add({.name = "bicycle",
@@ -54,7 +53,6 @@ AgentTypeTable default_agent_types() {
        .horizon = 4.0,
        .attention_front = 12.0,
        .attention_rear = 3.0,
-       .responsibility_decay = 0.3,
        .headway = 0.9,
        .min_gap = 0.5});
   add({.name = "motorcycle",
@@ -75,7 +73,6 @@ AgentTypeTable default_agent_types() {
        .horizon = 4.0,
        .attention_front = 15.0,
        .attention_rear = 4.0,
-       .responsibility_decay = 0.3,
        .headway = 0.9,
        .min_gap = 1.0});
   add({.name = "car",
@@ -96,7 +93,6 @@ AgentTypeTable default_agent_types() {
        .horizon = 4.0,
        .attention_front = 15.0,
        .attention_rear = 5.0,
-       .responsibility_decay = 0.3,
        .headway = 1.1,
        .min_gap = 1.8});
   add({.name = "van",
@@ -117,7 +113,6 @@ AgentTypeTable default_agent_types() {
        .horizon = 4.0,
        .attention_front = 15.0,
        .attention_rear = 5.0,
-       .responsibility_decay = 0.3,
        .headway = 1.2,
        .min_gap = 1.8});
   add({.name = "bus",
@@ -138,7 +133,6 @@ AgentTypeTable default_agent_types() {
        .horizon = 5.0,
        .attention_front = 20.0,
        .attention_rear = 8.0,
-       .responsibility_decay = 0.3,
        .headway = 1.4,
        .min_gap = 2.2});
   add({.name = "truck",
@@ -159,7 +153,6 @@ AgentTypeTable default_agent_types() {
        .horizon = 5.0,
        .attention_front = 20.0,
        .attention_rear = 8.0,
-       .responsibility_decay = 0.3,
        .headway = 1.4,
        .min_gap = 2.2});
   add({.name = "electric_tricycle",
@@ -180,7 +173,6 @@ AgentTypeTable default_agent_types() {
        .horizon = 4.0,
        .attention_front = 12.0,
        .attention_rear = 3.0,
-       .responsibility_decay = 0.3,
        .headway = 1.0,
        .min_gap = 0.8});
   add({.name = "gyro_scooter",
@@ -201,7 +193,6 @@ AgentTypeTable default_agent_types() {
        .horizon = 3.0,
        .attention_front = 8.0,
        .attention_rear = 2.0,
-       .responsibility_decay = 0.3,
        .headway = 0.8,
        .min_gap = 0.4});
   return types;

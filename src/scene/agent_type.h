@@ -36,10 +36,8 @@ struct AgentType {
   double tracking_error = 0;                       ///< epsilon_max of Eq. 1 [m]
   double horizon = 0;                              ///< tau [s]
   double attention_front = 0, attention_rear = 0;  ///< least reach of Att [m]; speed adds to it
-  double responsibility_decay =
-      0;  ///< how fast willingness falls with distance [1/m] (reference-simulation 2.3)
-  double headway = 0;  ///< desired time gap to a leader [s]
-  double min_gap = 0;  ///< standstill gap to a leader [m]
+  double headway = 0;                              ///< desired time gap to a leader [s]
+  double min_gap = 0;                              ///< standstill gap to a leader [m]
 };
 
 /// Rows in a fixed order; index with AgentTypeId.

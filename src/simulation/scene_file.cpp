@@ -43,7 +43,6 @@ AgentType scene_type(const char* name, double length, double width, double wheel
   type.horizon = 4.0;
   type.attention_front = 2.0;
   type.attention_rear = 2.0;
-  type.responsibility_decay = 0.3;
   return type;
 }
 
@@ -56,7 +55,6 @@ AgentType walking_type() {
   type.horizon = 3.0;
   type.attention_front = 2.0;
   type.attention_rear = 2.0;
-  type.responsibility_decay = 0.6;
   return type;
 }
 

@@ -131,7 +131,7 @@ TEST(SceneFigures, PairsPassEachOtherAndNobodyIsStuck) {
 
 TEST(SceneFigures, OverlapComesApart) {
   SKIP_WITHOUT_SCENES();
-  EXPECT_LE(figures("overlap_same", "--steps 400")["overlap_share_of_agent_steps"], 0.055);
+  EXPECT_LE(figures("overlap_same", "--steps 400")["overlap_share_of_agent_steps"], 0.052);
   EXPECT_LE(figures("overlap_ped", "--steps 400")["overlap_share_of_agent_steps"], 0.02);
 }
 

@@ -154,6 +154,8 @@ TEST(SceneRun, OverlappingCarsComeApartAboutAsSoonAsTheirBodiesAllow) {
       if (scene.tick > 0) taken += overlapping(type, body_of(scene, 0), body_of(scene, 1));
     });
   }
+  RecordProperty("steps_allowed", std::to_string(allowed));
+  RecordProperty("steps_taken", std::to_string(taken));
   EXPECT_GE(allowed, 30 * 10) << "it takes them more than half a second";
   EXPECT_LE(taken, 1.05 * allowed);
 }

@@ -140,7 +140,7 @@ TEST(AgentTypes, TheNineBuiltInOnesAreSane) {
           type.max_speed, type.preferred_speed, type.max_acceleration,
           type.comfortable_deceleration, type.max_deceleration, type.max_lateral_acceleration,
           type.tracking_error, type.horizon, type.attention_front, type.attention_rear,
-          type.responsibility_decay, type.headway, type.min_gap})
+          type.headway, type.min_gap})
       EXPECT_GT(positive, 0.0);
     EXPECT_LE(type.preferred_speed, type.max_speed);
     EXPECT_LE(type.comfortable_deceleration, type.max_deceleration);
