@@ -47,6 +47,16 @@ bool is_safe(const Model& model, const Scene& scene, const Surroundings& around,
   return true;
 }
 
+/// Is somebody beside about to change into the same lane, from its other side, before this agent?
+bool is_contested(const Scene& scene, const Surroundings& around, std::size_t row, LaneId target) {
+  const double front = around.along + around.half_length, rear = around.along - around.half_length;
+  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+    return scene.merge_to[user.row] == target && user.rear < front + 2.0 &&
+           user.front > rear - 2.0 && !(scene.gate[user.row] < 1e9) &&
+           (scene.merge_to[row] != target || scene.id[user.row] < scene.id[row]);
+  });
+}
+
 /// The neighbouring lane on which this agent would rather be, kNoLane where it stays.
 LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
                    const Surroundings& around, std::size_t row) {
@@ -96,26 +106,30 @@ const PathStretch* next_change(const Path& path, double along, double reach) {
 }
 
 /// A lane change that the trip needs waits for its gap: says so to whoever may leave one, and
-/// closes the gate at its begin while there is none. True where the gate is near and closed.
-bool wait_for_gap(const Model& model, const Path& path, const Surroundings& around, std::size_t row,
-                  Scene& scene) {
+/// closes the gate at its begin while there is none.
+void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
+                  const Surroundings& around, std::size_t row, LaneIntent& intent) {
   constexpr double kPressed = 3.0;  // [m/s^2]
-  scene.merge_to[row] = kNoLane;
-  scene.gate[row] = std::numeric_limits<double>::infinity();
+  const PathStretch& here = path.stretch_at(around.along);
+  if (here.changing) {
+    intent.merge_to = here.lane;
+    return;
+  }
   const double speed = around.speed;
   const PathStretch* change = next_change(path, around.along, 12.0 + 3.0 * speed);
-  if (change == nullptr) return false;
-  const PathStretch& here = path.stretch_at(around.along);
+  if (change == nullptr) return;
   const Lane &from = model.road.lane(here.lane), &to = model.road.lane(change->lane);
-  if (from.edge != to.edge) return false;
-  scene.merge_to[row] = change->lane;
+  if (from.edge != to.edge) return;
+  intent.merge_to = change->lane;
   const double left = model.road.left_hand ? -1.0 : 1.0;
   const double shift = (to.index > from.index ? left : -left) * 0.5 * (from.width + to.width);
   const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
   const double braking = speed < 2.0 ? kPressed : kSafeBraking;
-  if (is_safe(model, scene, around, row, shift, free_speed, braking)) return false;
-  scene.gate[row] = change->from;
-  return change->from - around.along < 2.0 + 1.2 * speed;
+  if (!is_contested(scene, around, row, change->lane) &&
+      is_safe(model, scene, around, row, shift, free_speed, braking))
+    return;
+  intent.gate = change->from;
+  intent.postpone = change->from - around.along < 2.0 + 1.2 * speed;
 }
 
 /// Moves the place aimed at within the lane, at walking pace, towards where it should be.
@@ -130,34 +144,39 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
                   RoadState& road, Scene& scene, LaneChoiceWork& work) {
   const auto period = std::max<std::int64_t>(1, std::llround(kPeriod / dt));
   work.around.resize(workers.count());
-  work.wanted.assign(scene.size(), kNoLane);
-  work.postponed.assign(scene.size(), 0);
+  work.intents.assign(scene.size(), {});
   workers.for_each_range(scene.size(), [&](std::size_t worker, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       const Path* path = road.path(scene.path[row]);
       if (path == nullptr || path->walking || scene.control[row] != Control::Gamma) continue;
-      if ((scene.tick + scene.id[row].value) % period == 0) {
+      LaneIntent& intent = work.intents[row];
+      intent.fresh = (scene.tick + scene.id[row].value) % period == 0;
+      if (intent.fresh) {
         Surroundings& around = work.around[worker];
         look_around(model, road, scene, grid, row, look_ahead(scene, row), 8.0, around);
         scene.passing_offset[row] = passing_offset(model, *path, scene, around, row);
         if (path->trip) {
-          work.postponed[row] = wait_for_gap(model, *path, around, row, scene);
-          if (scene.stop_left[row] <= 0.0 && !std::isfinite(scene.gate[row]))
-            work.wanted[row] = better_lane(model, *path, scene, around, row);
+          wait_for_gap(model, *path, scene, around, row, intent);
+          if (scene.stop_left[row] <= 0.0 && !std::isfinite(intent.gate))
+            intent.wanted = better_lane(model, *path, scene, around, row);
         }
       }
       move_aim(scene.passing_offset[row], dt, scene.lateral_aim[row]);
     }
   });
-  // paths are made again one after the other: others may look at them meanwhile
+  // what others look at changes only now, one after the other
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (work.wanted[row] == kNoLane && work.postponed[row] == 0) continue;
+    const LaneIntent& intent = work.intents[row];
+    if (!intent.fresh) continue;
+    scene.merge_to[row] = intent.merge_to;
+    scene.gate[row] = intent.gate;
+    if (intent.wanted == kNoLane && !intent.postpone) continue;
     double along = scene.path_along[row];
     const Path& path = *road.path(scene.path[row]);
     const double speed = scene.speed[row];
-    auto changed = work.postponed[row] != 0
+    auto changed = intent.postpone
                        ? stay_in_lane(model.road, path, along, std::max(speed, 3.0), kBack)
-                       : change_lane(model.road, path, along, work.wanted[row],
+                       : change_lane(model.road, path, along, intent.wanted,
                                      std::max(kChangeTime * speed, kShortest), kBack);
     if (!changed) continue;
     road.paths[scene.id[row].value] = std::make_shared<const Path>(std::move(*changed));

@@ -1,15 +1,25 @@
 #pragma once
 
+#include <limits>
+
 #include "base/parallel.h"
 #include "model/surroundings.h"
 
 namespace sumogamma {
 
+/// What an agent makes of the lanes around it.
+struct LaneIntent {
+  bool fresh = false;         ///< it has looked at this tick
+  bool postpone = false;      ///< a planned change is due and finds no gap yet
+  LaneId wanted = kNoLane;    ///< lane where it would be better off
+  LaneId merge_to = kNoLane;  ///< see Scene
+  double gate = std::numeric_limits<double>::infinity();  ///< see Scene
+};
+
 /// Buffers of choose_lanes, reused from tick to tick.
 struct LaneChoiceWork {
-  std::vector<Surroundings> around;     ///< by worker
-  std::vector<LaneId> wanted;           ///< by row
-  std::vector<std::uint8_t> postponed;  ///< by row: a planned change finds no gap yet
+  std::vector<Surroundings> around;  ///< by worker
+  std::vector<LaneIntent> intents;   ///< by row
 };
 
 /// Lanes and places within them, before anybody's road context is put together: who drives on a

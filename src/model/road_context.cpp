@@ -27,6 +27,8 @@ double look_ahead(const Course& course) {
   return 0.6 * course.half_length + 1.8 + 0.5 * course.speed;
 }
 
+constexpr double kDrift = 0.15;  // out of one's lane [m/s]
+
 void set_geometry(const Model& model, const Scene& scene, const Course& course,
                   RoadContext& context) {
   const Polyline& line = course.path.line;
@@ -66,14 +68,17 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
     const Lane& lane = model.road.lane(here.lane);
     const double corridor = std::max(0.5 * lane.width, half_width + 0.3) +
                             (lane.kind == LaneKind::Internal || here.changing ? 0.6 : 0.0);
-    left = std::min(left, std::max(corridor, offset + half_width + 0.4));
-    right = std::min(right, std::max(corridor, half_width + 0.4 - offset));
+    // a lane is no wall: at a snail's pace it may be left, so that two who are wedged side by side
+    // find a way on
+    const double drift = kDrift * course.type.horizon + extent;
+    left = std::min(left, std::max({corridor, offset + half_width + 0.4, course.offset + drift}));
+    right = std::min(right, std::max({corridor, half_width + 0.4 - offset, drift - course.offset}));
   }
   context.room_left = left - course.offset - extent;
   context.room_right = right + course.offset - extent;
 }
 
-constexpr double kStart = 0.5;     // [m/s]
+constexpr double kStart = 0.6;     // [m/s]
 constexpr double kCourtesy = 2.0;  // braking for somebody who has to change lanes [m/s^2]
 
 /// Tightens the context's acceleration for something to stop for or to follow.

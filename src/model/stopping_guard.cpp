@@ -219,6 +219,24 @@ std::array<Creep, 3> walking_creeps(const Scene& scene, std::size_t row, double 
   return {Creep{turn, kShuffle}, Creep{-turn, kShuffle}, Creep{0.0, kShuffle}};
 }
 
+/// A vehicle on a road that stands although nothing there has to be waited for: it is stuck between
+/// bodies.
+bool is_wedged(const Scene& scene, const AgentGeometry& own, std::size_t row) {
+  constexpr double kWedged = 5.0;  // [s]
+  const RoadContext& context = scene.context[row];
+  return own.on_wheels && context.active && context.reason == LimitReason::None &&
+         scene.standing_time[row] > kWedged;
+}
+
+/// Hardly a velocity: it has the wheels of a wedged vehicle turned to one side, then to the other,
+/// so that a way out shows that only opens with them.
+Vec2 turned_wheels(const Scene& scene, const AgentGeometry& own, std::size_t row) {
+  constexpr double kTry = 2.0;                                // [s]
+  constexpr std::array<double, 3> kTurns = {-0.5, 0.5, 0.0};  // [rad]
+  const auto tries = static_cast<std::size_t>(scene.standing_time[row] / kTry);
+  return 1e-5 * from_body(rotation(kTurns[tries % kTurns.size()]), own.forward);
+}
+
 /// The first way to creep that the hard planes and the guard admit.
 std::optional<Vec2> creep_round(StoppingGuard& guard, const Model& model, const Scene& scene,
                                 const AgentGeometry& own, std::size_t row, const Vec2& preferred,
@@ -228,7 +246,7 @@ std::optional<Vec2> creep_round(StoppingGuard& guard, const Model& model, const 
   const auto creeps = own.on_wheels ? wheeled_creeps(own, type_of(model.types, own.type), passing)
                                     : walking_creeps(scene, row, passing);
   // on a road whoever is ahead is waited for: a vehicle that creeps out of its lane gets wedged
-  const bool in_lane = own.on_wheels && scene.context[row].active;
+  const bool in_lane = own.on_wheels && scene.context[row].active && !is_wedged(scene, own, row);
   for (const Creep& creep : creeps) {
     if (in_lane && creep.turn != 0.0) continue;
     const Vec2 velocity = creep.speed * from_body(rotation(creep.turn), ahead);
@@ -260,6 +278,7 @@ Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const Scene& sce
     const auto creep = creep_round(guard, model, scene, own, row, preferred, hard);
     if (creep) return *creep;
   }
+  if (is_wedged(scene, own, row)) return turned_wheels(scene, own, row);
   const Vec2 least = std::min(asked, std::max(now - brake, 0.01 * asked)) * along;
   for (const Vec2& last : {stands ? velocity : least, least})
     if (guard.admits(last)) return last;
