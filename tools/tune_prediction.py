@@ -4,6 +4,7 @@
 usage: tune_prediction.py --program build/sumo-gamma --kind walker eth.csv hotel.csv univ003.csv zara1.csv cross.csv
        tune_prediction.py --program build/sumo-gamma --kind wheels --noise 0.02 cross.csv
        ... --leave-one-out: once for each recording, tuned on the others and scored on it
+       ... --from-present: starts from the program's own parameters, not from round guesses
 
 The score is the mean over recordings of ADE and FDE (protocol C), each divided by that of constant velocity, plus what
 COL exceeds the truth's own by. Everything is deterministic: the same recordings give the same parameters. Wheels are
@@ -23,7 +24,8 @@ FREE = {
                "acceleration_variance": (0.3, 1.7), "acceleration_time": (0.3, 1.5), "velocity_drift": (0.03, 1.5),
                "acceleration_decay": (1, 1.5), "speed_decay": (0.03, 1.8), "prior_keep_velocity": (0.3, 2),
                "prior_turn": (0.2, 2), "prior_stop": (0.05, 2), "change_of_mind": (0.05, 1.7),
-               "flow_distance": (1.5, 1.25), "flow_speed": (0.3, 1.25), "flow_prior": (4, 1.5)},
+               "flow_distance": (1.5, 1.25), "flow_speed": (0.3, 1.25), "flow_prior": (4, 1.5),
+               "companion_distance": (1.5, 1.3), "companion_speed": (0.3, 1.4), "companion_weight": (0.5, 2)},
     "wheels": {"acceleration_variance": (1, 1.7), "acceleration_time": (1, 1.7), "velocity_drift": (0.01, 1.6),
                "acceleration_decay": (1, 1.5), "speed_decay": (0.005, 1.8), "turn_decay": (1.5, 1.6),
                "stop_time": (1, 1.5), "prior_keep_velocity": (0.3, 2), "prior_turn": (0.3, 2), "prior_stop": (0.05, 2),
@@ -62,10 +64,20 @@ class Score:
         return total / len(self.recordings)
 
 
+def start_of(options):
+    """Where the search begins: round guesses, or the program's own parameters."""
+    names = {f"{options.kind}.{name}": start for name, (start, _) in FREE[options.kind].items()}
+    if not options.from_present:
+        return names
+    listed = subprocess.run([options.program, "predict", "--parameters"], check=True, capture_output=True, text=True)
+    present = dict(line.removeprefix("predict.").split("=") for line in listed.stdout.split())
+    return {name: float(present[name]) for name in names}
+
+
 def tune(options, recordings):
     """Coordinate descent with shrinking factors; returns the parameters and their score."""
     score = Score(options, recordings)
-    changed = {f"{options.kind}.{name}": start for name, (start, _) in FREE[options.kind].items()}
+    changed = start_of(options)
     best = score(changed)
     steps = {f"{options.kind}.{name}": factor for name, (_, factor) in FREE[options.kind].items()}
     for sweep in range(options.sweeps):
@@ -90,6 +102,7 @@ def main():
     parser.add_argument("--program", required=True)
     parser.add_argument("--kind", choices=sorted(FREE), default="walker")
     parser.add_argument("--noise", type=float, default=0.0)
+    parser.add_argument("--from-present", action="store_true")
     parser.add_argument("--sweeps", type=int, default=4)
     parser.add_argument("--leave-one-out", action="store_true")
     parser.add_argument("--also", nargs="*", default=[], help="recordings that stay in training with --leave-one-out")

@@ -65,7 +65,7 @@ void write_plots(const std::string& folder, const TrackSet& set, const Protocol&
       counts[static_cast<std::size_t>(k)] = 0;
   }
   std::filesystem::create_directories(folder);
-  const Method method = make_method("gamma", settings, set.period);
+  const Method method = make_method("gamma", settings, set);
   for (int frame = set.first_frame; frame <= set.last_frame; ++frame) {
     const ObservedScene scene = observe(set, frame);
     method.observe(scene);
@@ -88,6 +88,8 @@ int run(const PredictOptions& options, const CommonOptions& common) {
   }
   if (options.files.empty())
     throw Error("predict", "no recording given, expected one or more files");
+  if (options.samples == 1)
+    throw Error("--samples 1", "one sample is no distribution, expected 0 or at least 2");
   const Protocol protocol = protocol_from_letter(options.protocol);
   const MethodSettings settings{parameters, options.samples, common.seed};
   const std::vector<std::string> names =
@@ -95,12 +97,16 @@ int run(const PredictOptions& options, const CommonOptions& common) {
   std::vector<Evaluation> evaluations;
   for (const std::string& file : options.files) {
     const TrackSet truth = read_track_set(file);
+    if (windows_of(truth, protocol).empty())
+      throw Error(file,
+                  "nobody is there for " + std::to_string(protocol.observed + protocol.steps) +
+                      " frames without a gap, as protocol " + std::string(1, protocol.letter) +
+                      " needs; check the columns and that frames are a constant step apart");
     const TrackSet seen = options.noise > 0 ? with_noise(truth, options.noise, common.seed) : truth;
     for (const std::string& name : names) {
       if (interrupted()) return kExitInterrupted;
       if (!common.quiet) std::fprintf(stderr, "%s: %s\n", truth.name.c_str(), name.c_str());
-      evaluations.push_back(
-          evaluate(make_method(name, settings, truth.period), seen, truth, protocol));
+      evaluations.push_back(evaluate(make_method(name, settings, truth), seen, truth, protocol));
     }
   }
   if (!options.plots.empty())

@@ -38,6 +38,8 @@ CommandRunner add_run_command(CLI::App& parent) {
   command->add_option("--sumo-options", options->sumo_options,
                       "further options for SUMO, in quotes");
   command->add_flag("--gui", options->gui, "show the run in sumo-gui");
+  command->add_flag("--predict", options->predict,
+                    "predict everybody 4.8 s ahead and score it against what they then do");
   command->add_flag("--replay", options->replay, "write replay.html");
   command
       ->add_option("--trajectory-period", options->trajectory_period,

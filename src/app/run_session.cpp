@@ -17,6 +17,7 @@
 #include "io/results.h"
 #include "io/trajectories.h"
 #include "model/kinematic_set.h"
+#include "prediction/live_predictor.h"
 #include "road/lane_locator.h"
 #include "road/sumo_net_reader.h"
 #include "simulation/simulation.h"
@@ -158,6 +159,9 @@ class Observers {
         smoothness_(sim.dt),
         trajectories_(output_ / "trajectories.fcd.xml.gz", plan.options.trajectory_period,
                       sim.model.road, &locator_) {
+    if (plan.options.predict)
+      predictor_ = std::make_unique<LivePredictor>(sim.model.types, live_predictor_parameters(),
+                                                   &sim.model.road);
     if (plan.options.replay)
       replay_ =
           std::make_unique<ReplayRecorder>(output_ / "replay.bin", plan.input.name, sim.model.road,
@@ -173,6 +177,7 @@ class Observers {
     rules_.add(scene, types, sim_.road);
     smoothness_.add(scene, types);
     trajectories_.add(scene, types, name);
+    if (predictor_) predictor_->observe(scene);
     if (replay_) {
       replay_->add(scene, &sim_.road, name);
       for (const CollisionEvent& event : collisions_.new_events())
@@ -199,6 +204,7 @@ class Observers {
     results.flow = flow_.result(sim_.model.types);
     results.rules = rules_.result(sim_.model.types);
     results.smoothness = smoothness_.result(sim_.model.types);
+    if (predictor_) results.prediction = {true, predictor_->score(), predictor_->scores()};
     results.state_hash = hash_;
     results.agents.controlled_now = controlled_now_;
     results.agents.controlled_peak = controlled_peak_;
@@ -233,6 +239,7 @@ class Observers {
   RuleMonitor rules_;
   SmoothnessMonitor smoothness_;
   TrajectoryWriter trajectories_;
+  std::unique_ptr<LivePredictor> predictor_;
   std::unique_ptr<ReplayRecorder> replay_;
   std::size_t stuck_marked_ = 0;
   std::uint64_t hash_ = 0xcbf29ce484222325ULL, controlled_sum_ = 0, controlled_peak_ = 0,

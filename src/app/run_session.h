@@ -20,6 +20,7 @@ struct RunOptions {
   std::string connect;                   ///< HOST:PORT of a SUMO that the user started
   std::string sumo_options;
   bool gui = false, replay = false;
+  bool predict = false;  ///< predict everybody and score it against what then happens
   double trajectory_period = 0.5, replay_period = 0.1;  ///< [s]
   std::vector<std::string> fail_on;  ///< collision, deep-collision, red-light, stuck, removed
 };

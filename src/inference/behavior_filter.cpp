@@ -3,9 +3,9 @@
 namespace sumogamma {
 
 Belief initial_belief(const FilterParameters& parameters) {
-  return {Histogram<kIntentions>::from(parameters.intention_prior),
-          Histogram<kAttentions>::from(parameters.attention_prior),
-          Histogram<kResponsibilities>::from(parameters.responsibility_prior)};
+  return {HypothesisWeights<kIntentions>::from(parameters.intention_prior),
+          HypothesisWeights<kAttentions>::from(parameters.attention_prior),
+          HypothesisWeights<kResponsibilities>::from(parameters.responsibility_prior)};
 }
 
 BehaviorState likeliest_behavior(const AgentType& type, const Belief& belief) {

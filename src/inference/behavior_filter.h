@@ -10,7 +10,7 @@ namespace sumogamma {
 
 /// What the filter takes for granted about a kind of agent.
 struct FilterParameters {
-  std::array<double, kIntentions> intention_prior{1, 1, 1, 1};
+  std::array<double, kIntentions> intention_prior{1, 1, 1, 1};  ///< nothing of a road
   std::array<double, kAttentions> attention_prior{0.7, 0.3};
   std::array<double, kResponsibilities> responsibility_prior{0.7, 0.3};
   double deviation = 0.1;        ///< sigma of Eq. 9 [m]

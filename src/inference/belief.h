@@ -11,12 +11,12 @@ namespace sumogamma {
 
 /// Histogram over N hypotheses of one factor, kept as logarithms: it never underflows.
 template <std::size_t N>
-struct Histogram {
+struct HypothesisWeights {
   std::array<double, N> log_weight{};
 
   /// Normalised to sum 1. Weights of zero in the prior stay zero.
-  static Histogram from(const std::array<double, N>& prior) {
-    Histogram histogram;
+  static HypothesisWeights from(const std::array<double, N>& prior) {
+    HypothesisWeights histogram;
     for (std::size_t k = 0; k < N; ++k)
       histogram.log_weight[k] = prior[k] > 0 ? std::log(prior[k]) : -1e300;
     histogram.normalize();
@@ -40,7 +40,7 @@ struct Histogram {
   /// Bayes (Eq. 10): adds log likelihoods and normalises. Likelihoods that are all minus infinity,
   /// or not numbers, tell nothing and leave the belief as it was.
   void update(const std::array<double, N>& log_likelihood) {
-    const Histogram before = *this;
+    const HypothesisWeights before = *this;
     for (std::size_t k = 0; k < N; ++k) log_weight[k] += log_likelihood[k];
     if (!normalize()) *this = before;
   }
@@ -73,9 +73,9 @@ struct Histogram {
 /// p(theta) of III-E, factored: intention, attention range and responsibility are independent given
 /// the track. A joint histogram would cost the product of their sizes in passes of the model.
 struct Belief {
-  Histogram<kIntentions> intention;
-  Histogram<kAttentions> attention;
-  Histogram<kResponsibilities> responsibility;
+  HypothesisWeights<kIntentions> intention;
+  HypothesisWeights<kAttentions> attention;
+  HypothesisWeights<kResponsibilities> responsibility;
 };
 
 /// Log of Eq. 9's density of an observation at `distance` [m] from the expected place, two

@@ -16,9 +16,15 @@ std::string_view name_of(IntentionHypothesis intention) {
     case IntentionHypothesis::ConstantTurnRate:
       return "constant_turn_rate";
     case IntentionHypothesis::Stop:
+      return "stop";
+    case IntentionHypothesis::RoadAhead:
+      return "road_ahead";
+    case IntentionHypothesis::RoadLeft:
+      return "road_left";
+    case IntentionHypothesis::RoadRight:
       break;
   }
-  return "stop";
+  return "road_right";
 }
 
 namespace {
@@ -58,7 +64,7 @@ void intended_path(IntentionHypothesis intention, const MotionEstimate& motion,
       continue;
     }
     displacement[k] = motion.velocity * faded_time(shape.speed_decay, time);
-    if (intention == IntentionHypothesis::KeepAcceleration)
+    if (intention != IntentionHypothesis::KeepVelocity)
       displacement[k] += motion.acceleration * shape.acceleration_decay *
                          (time - faded_time(1.0 / shape.acceleration_decay, time));
   }

@@ -11,14 +11,19 @@
 
 namespace sumogamma {
 
-/// Intentions that the filter tells apart without a road network.
+/// Intentions that the filter tells apart. The last three need a road network: to go on along the
+/// lane, sidewalk or crossing, at the next junction straight on, left or right.
 enum class IntentionHypothesis : std::uint8_t {
   KeepVelocity,
   KeepAcceleration,
   ConstantTurnRate,
-  Stop
+  Stop,
+  RoadAhead,
+  RoadLeft,
+  RoadRight
 };
-inline constexpr std::size_t kIntentions = 4;
+inline constexpr std::size_t kIntentions = 7;
+inline constexpr std::size_t kFreeIntentions = 4;  ///< those that need no road
 std::string_view name_of(IntentionHypothesis intention);
 
 inline constexpr std::size_t kAttentions = 2;
@@ -33,7 +38,8 @@ struct IntentionShape {
 };
 
 /// Displacement of one intention at 1, 2, ... periods from now [m], without anybody in the way.
-/// Equivariant under rotation. The Stop hypothesis never turns back.
+/// Equivariant under rotation. The Stop hypothesis never turns back. The ways of the road are not
+/// known here: theirs is that of KeepAcceleration.
 void intended_path(IntentionHypothesis intention, const MotionEstimate& motion,
                    const IntentionShape& shape, double period, std::span<Vec2> displacement);
 

@@ -96,6 +96,24 @@ Json smoothness_json(const SmoothnessResult& smoothness) {
   return json;
 }
 
+Json score_json(const LiveScore& score) {
+  return {{"predictions", score.predictions},
+          {"left", score.left},
+          {"ade_m", score.average},
+          {"fde_m", score.final},
+          {"constant_velocity_ade_m", score.constant_velocity_average},
+          {"constant_velocity_fde_m", score.constant_velocity_final}};
+}
+
+Json prediction_json(const PredictionResult& prediction) {
+  Json json = {{"asked", prediction.asked}};
+  json.update(score_json(prediction.all));
+  Json by_type = Json::object();
+  for (const auto& [type, score] : prediction.by_type) by_type[type] = score_json(score);
+  json["by_type"] = by_type;
+  return json;
+}
+
 std::string hash_text(std::uint64_t hash) {
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
@@ -165,6 +183,7 @@ std::string results_json(const RunResults& results) {
                      {"flow", flow_json(results.flow)},
                      {"rules", rules_json(results.rules)},
                      {"smoothness", smoothness_json(results.smoothness)},
+                     {"prediction", prediction_json(results.prediction)},
                      {"coupling",
                       {{"position_error_max_m", coupling.position_error_max_m},
                        {"position_error_p99_m", coupling.position_error_p99_m},
@@ -180,6 +199,26 @@ std::string results_json(const RunResults& results) {
 void write_results(const std::filesystem::path& file, const RunResults& results) {
   write_file(file, results_json(results));
 }
+
+namespace {
+void print_prediction(Table& table, const PredictionResult& prediction) {
+  auto errors = [](double average, double final) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.2f / %.2f m", average, final);
+    return std::string(text);
+  };
+  table.heading("prediction (4.8 s ahead: mean / final error)");
+  table.count("predictions scored", static_cast<std::uint64_t>(prediction.all.predictions));
+  table.text("sumo-gamma", errors(prediction.all.average, prediction.all.final));
+  for (const auto& [type, score] : prediction.by_type)
+    if (score.predictions > 0)
+      table.text(("  " + type).c_str(),
+                 errors(score.average, score.final) + ", constant velocity " +
+                     errors(score.constant_velocity_average, score.constant_velocity_final));
+  table.text("constant velocity", errors(prediction.all.constant_velocity_average,
+                                         prediction.all.constant_velocity_final));
+}
+}  // namespace
 
 void print_results_table(std::FILE* stream, const RunResults& results) {
   Table table(stream);
@@ -232,6 +271,7 @@ void print_results_table(std::FILE* stream, const RunResults& results) {
   table.number("position error, 99th percentile", results.coupling.position_error_p99_m, "m", 4);
   table.count("teleports", results.teleports);
   table.count("emergency stops", results.emergency_stops);
+  if (results.prediction.asked) print_prediction(table, results.prediction);
   table.text("state hash", hash_text(results.state_hash));
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "prediction/live_predictor.h"
 #include "study/collisions.h"
 #include "study/coupling_metrics.h"
 #include "study/flow_metrics.h"
@@ -35,6 +36,13 @@ struct RunTiming {
   double model_cpu_us_per_agent_step = 0;
 };
 
+/// How predictions made during a run compare with what then happened (--predict).
+struct PredictionResult {
+  bool asked = false;
+  LiveScore all;
+  std::map<std::string, LiveScore> by_type;
+};
+
 /// Everything in results.json: docs/results.md defines each key.
 struct RunResults {
   std::string sumo_version, sumo_gamma_version, scenario;
@@ -50,6 +58,7 @@ struct RunResults {
   RuleResult rules;
   SmoothnessResult smoothness;
   CouplingResult coupling;
+  PredictionResult prediction;
   std::uint64_t teleports = 0, emergency_stops = 0, sumo_warnings = 0;
   std::uint64_t state_hash = 0;
 };

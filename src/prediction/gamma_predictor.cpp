@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "base/random.h"
 #include "base/units.h"
@@ -13,6 +14,8 @@ namespace {
 
 // slower than this an agent has no direction of its own [m/s]
 constexpr double kMoving = 0.2;
+// frames after which a prediction is as good as it gets, and so tells how good that is
+constexpr std::size_t kCalibrated = MotionFilter::kMemory;
 
 bool walks(const AgentType& type) { return type.kinematics == Kinematics::Holonomic; }
 
@@ -71,12 +74,23 @@ MotionEstimate raw_estimate(const ObservedAgent& agent, double period) {
 }  // namespace
 
 GammaPredictor::GammaPredictor(const AgentTypeTable& types, const PredictorParameters& parameters,
-                               const PredictorOptions& options, double period)
+                               const PredictorOptions& options, double period,
+                               const std::vector<Obstacle>& obstacles, const RoadNetwork* road)
     : model_(predictor_model(types, parameters, options, period)),
       parameters_(parameters),
       options_(options),
       period_(period),
-      flow_(options.flow_cell_capacity) {}
+      flow_(options.flow_cell_capacity) {
+  if (options.use_obstacles) model_.obstacles = ObstacleIndex(obstacles);
+  if (road == nullptr) return;
+  has_road_ = true;
+  road_ = RoadGuess(*road);
+  for (KindParameters* kind : {&parameters_.walker, &parameters_.wheels}) {
+    std::array<double, kIntentions>& prior = kind->filter.intention_prior;
+    prior[kFreeIntentions] = kind->road_ahead;
+    prior[kFreeIntentions + 1] = prior[kFreeIntentions + 2] = kind->road_turn;
+  }
+}
 
 const KindParameters& GammaPredictor::kind_of(AgentTypeId type) const {
   return walks(type_of(model_.types, type)) ? parameters_.walker : parameters_.wheels;
@@ -102,7 +116,10 @@ void GammaPredictor::measure_noise(const ObservedScene& scene) {
 
 void GammaPredictor::observe(const ObservedScene& scene) {
   measure_noise(scene);
-  for (const ObservedAgent& agent : scene.agents) flow_.resolve(agent.id, agent.now());
+  for (const ObservedAgent& agent : scene.agents) {
+    flow_.resolve(agent.id, agent.now());
+    calibration_.resolve(agent.id, agent.now());
+  }
 
   // Eqs. 9 and 10: weigh what was expected of this frame
   for (const ObservedAgent& agent : scene.agents) {
@@ -122,23 +139,71 @@ void GammaPredictor::observe(const ObservedScene& scene) {
   seen_ = scene;
   estimate_rows(scene);
   if (options_.use_inference) infer(scene);
-  for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const ObservedAgent& agent = scene.agents[row];
-    if (agent.position.size() >= 3)
-      flow_.remember(agent.id, agent.now(), rows_[row].motion.velocity, rows_[row].mean);
-  }
-  flow_.end_frame();
+  remember(scene);
 }
 
-void GammaPredictor::mean_path(const ObservedAgent& agent, Row& row) const {
+void GammaPredictor::remember(const ObservedScene& scene) {
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    const ObservedAgent& agent = scene.agents[r];
+    const Row& row = rows_[r];
+    if (agent.position.size() < 3) continue;
+    std::array<Vec2, FlowMemory::kSteps> expected = row.mean;
+    for (std::size_t k = 0; k < expected.size(); ++k) expected[k] += row.together[k];
+    flow_.remember(agent.id, agent.now(), row.motion.velocity, expected);
+    for (std::size_t k = 0; k < expected.size(); ++k) expected[k] += row.flow[k] + agent.now();
+    const std::size_t kind = walks(type_of(model_.types, agent.type)) ? 0 : 1;
+    if (agent.position.size() >= kCalibrated)
+      calibration_.remember(agent.id, kind, expected, spread_of(agent, row), period_);
+  }
+  flow_.end_frame();
+  calibration_.end_frame();
+}
+
+Spread GammaPredictor::spread_of(const ObservedAgent& agent, const Row& row) const {
   const KindParameters& kind = kind_of(agent.type);
-  std::array<Vec2, FlowMemory::kSteps> path;
+  const double speed = row.motion.velocity.norm();
+  Spread spread;
+  spread.forward =
+      speed > kMoving ? Vec2(row.motion.velocity / speed) : direction_of(agent.heading.back());
+  spread.along = kind.along_fixed + kind.along_by_speed * speed;
+  spread.across = kind.across_fixed + kind.across_by_speed * speed;
+  spread.growth = kind.growth;
+  return spread;
+}
+
+void GammaPredictor::ways(const ObservedAgent& agent, Row& row) const {
+  const KindParameters& kind = kind_of(agent.type);
+  const std::size_t known = has_road_ ? kIntentions : kFreeIntentions;
+  for (std::size_t k = 0; k < known; ++k)
+    intended_path(static_cast<IntentionHypothesis>(k), row.motion, kind.shape, period_, row.way[k]);
+  const double speed = row.motion.velocity.norm();
+  row.on_road = false;
+  if (!has_road_ || speed < kMoving) return;
+
+  // as far along the road as the present acceleration leads
+  const Vec2 forward = row.motion.velocity / speed;
+  std::array<double, FlowMemory::kSteps> progress{};
+  double most = 0;
+  for (std::size_t step = 0; step < progress.size(); ++step)
+    progress[step] = most = std::max(
+        most, row.way[static_cast<std::size_t>(IntentionHypothesis::KeepAcceleration)][step].dot(
+                  forward));
+  // people look where they go, boxes go where they point
+  const AgentType& type = type_of(model_.types, agent.type);
+  const double heading = walks(type) ? heading_of(forward) : agent.heading.back();
+  const auto lines = road_.ways(type, agent.now(), heading, most);
+  if (!lines) return;
+  row.on_road = !walks(type);
+  for (std::size_t k = 0; k < kRoadWays; ++k)
+    follow_line((*lines)[k], agent.now(), progress, row.way[kFreeIntentions + k]);
+}
+
+void GammaPredictor::mean_path(Row& row) const {
   row.mean.fill(Vec2::Zero());
   for (std::size_t k = 0; k < kIntentions; ++k) {
     if (row.weight[k] <= 0) continue;
-    intended_path(static_cast<IntentionHypothesis>(k), row.motion, kind.shape, period_, path);
-    for (std::size_t step = 0; step < path.size(); ++step)
-      row.mean[step] += row.weight[k] * path[step];
+    for (std::size_t step = 0; step < row.mean.size(); ++step)
+      row.mean[step] += row.weight[k] * row.way[k][step];
   }
 }
 
@@ -146,25 +211,50 @@ void GammaPredictor::estimate_rows(const ObservedScene& scene) {
   rows_.resize(scene.agents.size());
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const ObservedAgent& agent = scene.agents[r];
-    const KindParameters& kind = kind_of(agent.type);
     Row& row = rows_[r];
     row.motion = options_.use_smoothing ? filter_of(agent.type).estimate(agent.position)
                                         : raw_estimate(agent, period_);
     const Belief& belief = memory_.at(agent.id).belief;
     row.weight = belief.intention.weights();
-    if (!options_.use_inference) row.weight = {1, 0, 0, 0};
+    if (!options_.use_inference) row.weight = {1};
     if (options_.most_likely) {
       row.weight.fill(0);
       row.weight[belief.intention.most_likely()] = 1;
     }
-    mean_path(agent, row);
-    row.flow.fill(Vec2::Zero());
-    if (options_.use_flow)
-      row.flow = flow_.correction(agent.id, agent.now(), row.motion.velocity, kind.flow);
-    if (kind.sideways != 1.0 && row.motion.velocity.norm() > kMoving) {
-      const Vec2 left = left_of(row.motion.velocity.normalized());
-      for (Vec2& correction : row.flow)
-        correction -= (1.0 - kind.sideways) * left.dot(correction) * left;
+    ways(agent, row);
+    mean_path(row);
+    predecessors(agent, row);
+  }
+  go_together(scene);
+}
+
+void GammaPredictor::predecessors(const ObservedAgent& agent, Row& row) const {
+  row.flow.fill(Vec2::Zero());
+  if (!options_.use_flow) return;
+  row.flow = flow_.correction(agent.id, agent.now(), row.motion.velocity, kind_of(agent.type).flow);
+}
+
+void GammaPredictor::go_together(const ObservedScene& scene) {
+  for (Row& row : rows_) row.together.fill(Vec2::Zero());
+  if (!options_.use_companions) return;
+  companions_.resize(rows_.size());
+  // once for what they mean to do and once for what the place makes of it
+  for (const bool flow : {false, true}) {
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      const ObservedAgent& agent = scene.agents[r];
+      companions_[r] = {agent.now(), rows_[r].motion.velocity,
+                        walks(type_of(model_.types, agent.type)) && agent.position.size() >= 3,
+                        flow ? rows_[r].flow : rows_[r].mean};
+    }
+    join_paths(companions_, parameters_.companions, companion_grid_, joint_);
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      Row& row = rows_[r];
+      if (flow) {
+        row.flow = joint_[r];
+        continue;
+      }
+      for (std::size_t k = 0; k < row.mean.size(); ++k)
+        row.together[k] = joint_[r][k] - row.mean[k];
     }
   }
 }
@@ -176,22 +266,29 @@ void GammaPredictor::infer(const ObservedScene& scene) {
   for (std::size_t r = 0; r < rows_.size(); ++r)
     scene_.behavior[r] = likeliest_behavior(type_of(model_.types, scene_.type[r]),
                                             memory_.at(scene.agents[r].id).belief);
+  mark_road(scene_);
   prepare_tick(model_, scene_, workers_, geometry_);
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const ObservedAgent& agent = scene.agents[r];
-    const KindParameters& kind = kind_of(agent.type);
     std::array<Vec2, kIntentions> wanted;
-    for (std::size_t k = 0; k < kIntentions; ++k) {
-      Vec2 step = Vec2::Zero();
-      intended_path(static_cast<IntentionHypothesis>(k), rows_[r].motion, kind.shape, period_,
-                    {&step, 1});
-      wanted[k] = step / period_;
-    }
+    wanted.fill(Vec2::Zero());
+    for (std::size_t k = 0; k < (has_road_ ? kIntentions : kFreeIntentions); ++k)
+      wanted[k] = rows_[r].way[k].front() / period_;
     AgentMemory& memory = memory_.at(agent.id);
     memory.expectation = {};
     if (agent.position.size() >= 2)
       memory.expectation = expect_next(model_, scene_, geometry_, r, memory.belief, wanted,
                                        agent.now(), period_, work_);
+  }
+}
+
+void GammaPredictor::mark_road(Scene& scene) const {
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    if (!rows_[r].on_road) continue;
+    RoadContext& context = scene.context[r];
+    context.active = true;
+    context.tangent = direction_of(scene.heading[r]);
+    context.speed_limit = std::numeric_limits<double>::infinity();
   }
 }
 
@@ -202,6 +299,7 @@ Forecast GammaPredictor::roll_out(const std::vector<Vec2>& path, std::size_t ste
   for (std::size_t r = 0; r < rows_.size(); ++r)
     rolling_.behavior[r] = likeliest_behavior(type_of(model_.types, rolling_.type[r]),
                                               memory_.at(seen_.agents[r].id).belief);
+  mark_road(rolling_);
   Forecast forecast;
   roll_out_.run(model_, {.use_bodies = options_.use_kinematics, .rejoin = parameters_.rejoin},
                 period_, path, steps, rolling_, forecast);
@@ -213,29 +311,33 @@ Forecast GammaPredictor::forecast(std::size_t steps) {
   std::vector<Vec2> path(rows_.size() * steps);
   for (std::size_t r = 0; r < rows_.size(); ++r)
     for (std::size_t k = 0; k < steps; ++k)
-      path[r * steps + k] = seen_.agents[r].now() + rows_[r].mean[k] + rows_[r].flow[k];
+      path[r * steps + k] =
+          seen_.agents[r].now() + rows_[r].mean[k] + rows_[r].together[k] + rows_[r].flow[k];
   return roll_out(path, steps);
 }
 
 Forecast GammaPredictor::forecast_intention(IntentionHypothesis intention, std::size_t steps) {
   std::vector<Vec2> path(rows_.size() * steps);
   for (std::size_t r = 0; r < rows_.size(); ++r) {
-    std::array<Vec2, FlowMemory::kSteps> way;
-    intended_path(intention, rows_[r].motion, kind_of(seen_.agents[r].type).shape, period_, way);
+    const auto& way = rows_[r].way[static_cast<std::size_t>(intention)];
     for (std::size_t k = 0; k < steps; ++k)
-      path[r * steps + k] = seen_.agents[r].now() + way[k] + rows_[r].flow[k];
+      path[r * steps + k] =
+          seen_.agents[r].now() + way[k] + rows_[r].together[k] + rows_[r].flow[k];
   }
   return roll_out(path, steps);
 }
 
 namespace {
 
-/// Point k of n of a sunflower turned into two normal deviates: even in angle and in probability.
-Vec2 even_normal(std::size_t k, std::size_t n, double turn) {
+/// Point k of n of a sunflower turned into two deviates: even in angle and in probability. Normal
+/// for `tail` 1; a greater one stretches the tail and draws in the core, about the 90 % circle.
+Vec2 even_deviates(std::size_t k, std::size_t n, double turn, double tail) {
   constexpr double kGoldenAngle = 2.399963229728653;
+  constexpr double kCircle = 2.145966;  // that holds 90 % of a normal cloud
   const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(n);
   const double radius = std::sqrt(-2.0 * std::log1p(-share));
-  return radius * direction_of(kGoldenAngle * static_cast<double>(k) + turn);
+  return kCircle * std::pow(radius / kCircle, tail) *
+         direction_of(kGoldenAngle * static_cast<double>(k) + turn);
 }
 
 /// Intention whose cumulated weight reaches u.
@@ -264,21 +366,18 @@ Forecast GammaPredictor::sample(std::size_t index, std::size_t count, std::size_
     const double shift = random_uniform(seed, agent.id, frame, Draw::ProcessNoise);
     const std::size_t k =
         (index + static_cast<std::size_t>(shift * static_cast<double>(count))) % count;
-    const Vec2 normal = even_normal(k, count, 2.0 * kPi * shift);
+    const Vec2 normal = even_deviates(k, count, 2.0 * kPi * shift, kind.tail);
     const double u = random_uniform(seed, agent.id, frame * 4096 + index, Draw::Intention);
-    std::array<Vec2, FlowMemory::kSteps> way;
-    intended_path(static_cast<IntentionHypothesis>(draw_intention(row.weight, u)), row.motion,
-                  kind.shape, period_, way);
-    const double speed = row.motion.velocity.norm();
-    const Vec2 forward =
-        speed > kMoving ? Vec2(row.motion.velocity / speed) : direction_of(agent.heading.back());
-    const Vec2 noise =
-        normal.x() * (kind.along_fixed + kind.along_by_speed * speed) * forward +
-        normal.y() * (kind.across_fixed + kind.across_by_speed * speed) * left_of(forward);
+    const auto& way = row.way[draw_intention(row.weight, u)];
+    const Spread spread = spread_of(agent, row);
+    const double scale =
+        kind.calibrated * calibration_.scale(walks(type_of(model_.types, agent.type)) ? 0 : 1);
+    const Vec2 noise = scale * (normal.x() * spread.along * spread.forward +
+                                normal.y() * spread.across * left_of(spread.forward));
     for (std::size_t step = 0; step < steps; ++step) {
       const double time = static_cast<double>(step + 1) * period_;
-      path[r * steps + step] =
-          agent.now() + way[step] + row.flow[step] + std::pow(time, kind.growth) * noise;
+      path[r * steps + step] = agent.now() + way[step] + row.together[step] + row.flow[step] +
+                               std::pow(time, spread.growth) * noise;
     }
   }
   return roll_out(path, steps);

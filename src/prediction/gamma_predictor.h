@@ -4,10 +4,13 @@
 #include <vector>
 
 #include "inference/behavior_filter.h"
+#include "prediction/companions.h"
 #include "prediction/flow_memory.h"
 #include "prediction/observed_scene.h"
 #include "prediction/predictor_parameters.h"
+#include "prediction/road_guess.h"
 #include "prediction/roll_out.h"
+#include "prediction/spread_calibration.h"
 
 namespace sumogamma {
 
@@ -19,19 +22,22 @@ struct PredictorOptions {
   bool use_inference =
       true;              ///< false: everybody keeps its velocity, as the paper's ablation has it
   bool use_flow = true;  ///< what those did who were here before
+  bool use_companions = true;  ///< people who walk together keep together
   bool use_smoothing =
       true;                  ///< false: velocity and acceleration from the last displacements alone
   bool most_likely = false;  ///< the paper's choice: the single likeliest intention, not the mean
+  bool use_obstacles = true;             ///< hard constraints of solid things
   std::size_t flow_cell_capacity = 384;  ///< see FlowMemory
 };
 
 /// The prediction of the paper with the behaviour filter of III-E: fed with a scene frame by frame,
 /// it keeps a belief for everybody and predicts them jointly with the model. Nothing is known to it
-/// but what was passed to `observe` before.
+/// but what was passed to `observe` before. A road network, where given, must outlive it.
 class GammaPredictor {
  public:
   GammaPredictor(const AgentTypeTable& types, const PredictorParameters& parameters,
-                 const PredictorOptions& options, double period);
+                 const PredictorOptions& options, double period,
+                 const std::vector<Obstacle>& obstacles = {}, const RoadNetwork* road = nullptr);
 
   /// Takes in the next frame: updates beliefs by what everybody did since the last one. Frames must
   /// be consecutive; after a gap beliefs start anew.
@@ -62,31 +68,48 @@ class GammaPredictor {
   /// What is kept by row of the present scene.
   struct Row {
     MotionEstimate motion;
+    bool on_road = false;  ///< a vehicle on a lane of the known network
     std::array<double, kIntentions> weight{};
-    std::array<Vec2, FlowMemory::kSteps> mean;  ///< displacement without the flow [m]
-    std::array<Vec2, FlowMemory::kSteps> flow;  ///< correction [m]
+    using Path = std::array<Vec2, FlowMemory::kSteps>;
+    std::array<Path, kIntentions> way;              ///< displacement by intention [m]
+    std::array<Vec2, FlowMemory::kSteps> mean;      ///< displacement of the intentions [m]
+    std::array<Vec2, FlowMemory::kSteps> together;  ///< correction by companions [m]
+    std::array<Vec2, FlowMemory::kSteps> flow;      ///< correction by predecessors [m]
   };
 
   const KindParameters& kind_of(AgentTypeId type) const;
   const MotionFilter& filter_of(AgentTypeId type) const;
   void measure_noise(const ObservedScene& scene);
   void estimate_rows(const ObservedScene& scene);
-  void mean_path(const ObservedAgent& agent, Row& row) const;
+  void ways(const ObservedAgent& agent, Row& row) const;
+  void mean_path(Row& row) const;
+  void predecessors(const ObservedAgent& agent, Row& row) const;
+  void go_together(const ObservedScene& scene);
+  Spread spread_of(const ObservedAgent& agent, const Row& row) const;
+  void remember(const ObservedScene& scene);
   void infer(const ObservedScene& scene);
+  /// Vehicles on the carriageway keep to it: what stands beside or above it is not in their way.
+  void mark_road(Scene& scene) const;
   Forecast roll_out(const std::vector<Vec2>& path, std::size_t steps);
 
   Model model_;
   PredictorParameters parameters_;
   PredictorOptions options_;
   double period_;
+  bool has_road_ = false;
+  RoadGuess road_;
   ObservationNoise noise_;
   double walker_noise_ = 0.02, wheels_noise_ = 0.02;  ///< deviations assumed now [m]
   MotionFilter walker_filter_, wheels_filter_;
   FlowMemory flow_;
+  SpreadCalibration calibration_;
   std::unordered_map<std::uint32_t, AgentMemory>
       memory_;  ///< looked up; iterated only to drop entries
   ObservedScene seen_;
   std::vector<Row> rows_;
+  std::vector<Companion> companions_;
+  std::vector<std::array<Vec2, FlowMemory::kSteps>> joint_;
+  SpatialGrid companion_grid_;
   Scene scene_;
   Scene rolling_;
   TickGeometry geometry_;

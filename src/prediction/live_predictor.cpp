@@ -11,14 +11,29 @@ constexpr std::size_t kKept = MotionFilter::kMemory;
 constexpr std::size_t kSeenBefore = 8;
 // of the flow memory, by cell: a run covers a city and lasts
 constexpr std::size_t kLiveCellCapacity = 24;
+
+/// Where the road says how one goes on, predecessors would only tell how the signals stood for
+/// them.
+PredictorOptions live_options(bool has_road) {
+  PredictorOptions options;
+  options.use_flow = !has_road;
+  options.flow_cell_capacity = kLiveCellCapacity;
+  return options;
+}
 }  // namespace
 
+PredictorParameters live_predictor_parameters() {
+  PredictorParameters parameters = default_predictor_parameters();
+  parameters.walker.shape.speed_decay = parameters.wheels.shape.speed_decay = 0;
+  return parameters;
+}
+
 LivePredictor::LivePredictor(const AgentTypeTable& types, const PredictorParameters& parameters,
-                             double period)
+                             const RoadNetwork* road, double period)
     : types_(types),
       period_(period),
-      predictor_(types, parameters, PredictorOptions{.flow_cell_capacity = kLiveCellCapacity},
-                 period),
+      predictor_(types, parameters, live_options(road != nullptr), period,
+                 road != nullptr ? road->obstacles : std::vector<Obstacle>{}, road),
       by_type_(types.size()) {}
 
 LiveScore LivePredictor::mean_of(const Sums& sums) {
@@ -36,6 +51,14 @@ LiveScore LivePredictor::mean_of(const Sums& sums) {
 
 LiveScore LivePredictor::score_of(AgentTypeId type) const {
   return mean_of(by_type_[static_cast<std::size_t>(type)]);
+}
+
+std::map<std::string, LiveScore> LivePredictor::scores() const {
+  std::map<std::string, LiveScore> scores;
+  for (std::size_t k = 0; k < types_.size(); ++k)
+    if (by_type_[k].predictions + by_type_[k].left > 0)
+      scores[types_[k].name] = mean_of(by_type_[k]);
+  return scores;
 }
 
 void LivePredictor::score_pending(History& history, const Vec2& position) {

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -20,6 +22,10 @@ struct LiveScore {
          constant_velocity_final = 0;  ///< the same of constant velocity [m]
 };
 
+/// The parameter set for simulated traffic: that of the recordings, but nobody loses speed by
+/// itself, for SUMO's and the model's agents, unlike people, never tire of their preferred speed.
+PredictorParameters live_predictor_parameters();
+
 /// The predictor inside a run: fed with the scene every tick, it predicts every agent once a period
 /// and scores itself when the horizon has passed. It reads what can be seen (poses), never an
 /// agent's own plans, so that it may stand for a planner's view of traffic that SUMO or the model
@@ -28,8 +34,10 @@ class LivePredictor {
  public:
   static constexpr std::size_t kSteps = FlowMemory::kSteps;
 
+  /// `road`: its lanes are hypotheses, its solid things are hard; null where there is none. It must
+  /// outlive the predictor.
   LivePredictor(const AgentTypeTable& types, const PredictorParameters& parameters,
-                double period = 0.4);
+                const RoadNetwork* road = nullptr, double period = 0.4);
 
   /// Takes in the scene of a tick; does something only when a period has passed since the last time
   /// (scene.time, which must not run backwards).
@@ -39,6 +47,8 @@ class LivePredictor {
   LiveScore score() const { return mean_of(total_); }
   /// Over agents of one type.
   LiveScore score_of(AgentTypeId type) const;
+  /// By name of type, those with a score or somebody who left.
+  std::map<std::string, LiveScore> scores() const;
 
   /// The last forecast, row by row of `ids()`; reference points [m].
   const Forecast& forecast() const { return forecast_; }

@@ -29,17 +29,21 @@ constexpr Variant kVariants[] = {
      [](PredictorOptions& o) { o.use_avoidance = false; }},
     {"gamma-no-flow", "  without the flow of predecessors",
      [](PredictorOptions& o) { o.use_flow = false; }},
+    {"gamma-no-companions", "  without companions",
+     [](PredictorOptions& o) { o.use_companions = false; }},
+    {"gamma-no-obstacles", "  without solid things",
+     [](PredictorOptions& o) { o.use_obstacles = false; }},
     {"gamma-no-smoothing", "  without the motion filter",
      [](PredictorOptions& o) { o.use_smoothing = false; }},
     {"gamma-most-likely", "  likeliest intention instead of the mean",
      [](PredictorOptions& o) { o.most_likely = true; }},
 };
 
-Method gamma_method(const Variant& variant, const MethodSettings& settings, double period) {
+Method gamma_method(const Variant& variant, const MethodSettings& settings, const TrackSet& set) {
   PredictorOptions options;
   variant.change(options);
   auto predictor = std::make_shared<GammaPredictor>(recorded_agent_types(), settings.parameters,
-                                                    options, period);
+                                                    options, set.period, set.obstacles);
   Method method{variant.name, variant.title, {}, {}, {}};
   method.observe = [predictor](const ObservedScene& scene) { predictor->observe(scene); };
   method.predict = [predictor](const ObservedScene&, std::size_t steps) {
@@ -56,9 +60,9 @@ Method gamma_method(const Variant& variant, const MethodSettings& settings, doub
 }
 
 /// The bound over the hypotheses: every intention alone counts as a sample, the best is taken.
-Method oracle_method(const MethodSettings& settings, double period) {
+Method oracle_method(const MethodSettings& settings, const TrackSet& set) {
   auto predictor = std::make_shared<GammaPredictor>(recorded_agent_types(), settings.parameters,
-                                                    PredictorOptions{}, period);
+                                                    PredictorOptions{}, set.period, set.obstacles);
   Method method{"oracle", "  bound: best single intention (min columns)", {}, {}, {}};
   method.observe = [predictor](const ObservedScene& scene) { predictor->observe(scene); };
   method.predict = [predictor](const ObservedScene&, std::size_t steps) {
@@ -66,7 +70,7 @@ Method oracle_method(const MethodSettings& settings, double period) {
   };
   method.sample = [predictor](const ObservedScene&, std::size_t steps) {
     std::vector<Forecast> all;
-    for (std::size_t k = 0; k < kIntentions; ++k)
+    for (std::size_t k = 0; k < kFreeIntentions; ++k)
       all.push_back(predictor->forecast_intention(static_cast<IntentionHypothesis>(k), steps));
     all.push_back(predictor->forecast(steps));
     return all;
@@ -115,10 +119,10 @@ std::vector<std::string> default_methods(bool ablations) {
   return names;
 }
 
-Method make_method(const std::string& name, const MethodSettings& settings, double period) {
+Method make_method(const std::string& name, const MethodSettings& settings, const TrackSet& set) {
   for (const Variant& variant : kVariants)
-    if (variant.name == name) return gamma_method(variant, settings, period);
-  if (name == "oracle") return oracle_method(settings, period);
+    if (variant.name == name) return gamma_method(variant, settings, set);
+  if (name == "oracle") return oracle_method(settings, set);
   if (name == "cv-fan") {
     Method method{"cv-fan", "constant velocity, fan of directions", {}, constant_velocity, {}};
     if (settings.samples > 1)

@@ -19,8 +19,8 @@ struct MethodSettings {
 /// Names for a table: gamma and the baselines, or (ablations) gamma and its parts.
 std::vector<std::string> default_methods(bool ablations);
 
-/// A fresh predictor by name: gamma, gamma-no-..., oracle, cv-fan or one of the baselines. Throws
-/// Error on an unknown name.
-Method make_method(const std::string& name, const MethodSettings& settings, double period);
+/// A fresh predictor for a recording (of which it is told period and solid things alone) by name:
+/// gamma, gamma-no-..., oracle, cv-fan or one of the baselines. Throws Error on an unknown name.
+Method make_method(const std::string& name, const MethodSettings& settings, const TrackSet& set);
 
 }  // namespace sumogamma

@@ -9,28 +9,29 @@ namespace sumogamma {
 
 PredictorParameters default_predictor_parameters() {
   PredictorParameters p;
-  p.walker.noise = {.observation = 0.003629,
-                    .acceleration_variance = 0.06106,
+  p.walker.noise = {.observation = 0.004445,
+                    .acceleration_variance = 0.1765,
                     .acceleration_time = 0.2,
-                    .velocity_drift = 0.02};
+                    .velocity_drift = 0.01334};
   p.walker.noise_scale = 7.5;
-  p.walker.noise_power = 1.95;
+  p.walker.noise_power = 1.5;
   p.walker.shape = {
-      .acceleration_decay = 0.9036, .speed_decay = 0.054, .turn_decay = 1.5, .stop_time = 1.0};
-  p.walker.flow = {.distance = 1.875, .speed = 0.2683, .prior = 4};
-  p.walker.filter.intention_prior = {0.1636, 1, 0.2, 0.1189};
-  p.walker.filter.change_of_mind = 0.01327;
+      .acceleration_decay = 2.25, .speed_decay = 0.054, .turn_decay = 1.5, .stop_time = 1.0};
+  p.walker.flow = {.distance = 1.875, .speed = 0.3, .prior = 4};
+  p.walker.filter.intention_prior = {0.05303, 1, 0.1414, 0.1};
+  p.walker.filter.change_of_mind = 0.005988;
+  p.companions = {.distance = 1.5, .speed = 0.2143, .weight = 1.0};
 
   p.wheels.noise = {.observation = 0.02,
                     .acceleration_variance = 0.2654,
                     .acceleration_time = 4.913,
                     .velocity_drift = 0.007906};
-  p.wheels.shape = {.acceleration_decay = 0.8165,
-                    .speed_decay = 0.0006389,
-                    .turn_decay = 1.897,
-                    .stop_time = 0.5444};
+  p.wheels.shape = {.acceleration_decay = 1.225,
+                    .speed_decay = 0.0002645,
+                    .turn_decay = 1.186,
+                    .stop_time = 0.2419};
   p.wheels.flow = {.distance = 1.875, .speed = 0.6, .prior = 2.178};
-  p.wheels.filter.intention_prior = {0.6, 1, 0.15, 0.0125};
+  p.wheels.filter.intention_prior = {0.6, 1, 0.2121, 0.008839};
   p.wheels.filter.deviation = 0.1837;
   p.wheels.filter.change_of_mind = 0.07444;
 
@@ -40,12 +41,19 @@ PredictorParameters default_predictor_parameters() {
   p.walker.across_fixed = 0.06;
   p.walker.across_by_speed = 0.045;
   p.walker.growth = 1.3;
+  p.walker.tail = p.wheels.tail = 1.6;
+  p.walker.calibrated = p.wheels.calibrated = 0.85;
   p.wheels.along_fixed = 0.075;
   p.wheels.along_by_speed = 0.008;
   p.wheels.across_fixed = 0.025;
   p.wheels.across_by_speed = 0.012;
   p.wheels.growth = 2.05;
   return p;
+}
+
+std::span<const std::string_view> training_recordings() {
+  static constexpr std::string_view kNames[] = {"eth", "hotel", "univ003", "zara1", "cross"};
+  return kNames;
 }
 
 namespace {
@@ -71,12 +79,15 @@ void append_kind(const std::string& prefix, KindParameters& kind,
   add("flow_distance", kind.flow.distance);
   add("flow_speed", kind.flow.speed);
   add("flow_prior", kind.flow.prior);
-  add("flow_sideways", kind.sideways);
+  add("road_ahead", kind.road_ahead);
+  add("road_turn", kind.road_turn);
   add("along_fixed", kind.along_fixed);
   add("along_by_speed", kind.along_by_speed);
   add("across_fixed", kind.across_fixed);
   add("across_by_speed", kind.across_by_speed);
   add("growth", kind.growth);
+  add("tail", kind.tail);
+  add("calibrated", kind.calibrated);
 }
 }  // namespace
 
@@ -84,6 +95,9 @@ std::vector<NamedParameter> named_parameters(PredictorParameters& parameters) {
   std::vector<NamedParameter> all;
   append_kind("walker.", parameters.walker, all);
   append_kind("wheels.", parameters.wheels, all);
+  all.push_back({"walker.companion_distance", &parameters.companions.distance});
+  all.push_back({"walker.companion_speed", &parameters.companions.speed});
+  all.push_back({"walker.companion_weight", &parameters.companions.weight});
   all.push_back({"rejoin", &parameters.rejoin});
   all.push_back({"horizon_walker", &parameters.horizon_walker});
   all.push_back({"horizon_wheels", &parameters.horizon_wheels});

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "inference/behavior_filter.h"
+#include "prediction/companions.h"
 #include "prediction/flow_memory.h"
 
 namespace sumogamma {
@@ -18,25 +19,33 @@ struct KindParameters {
   IntentionShape shape;
   FilterParameters filter;
   FlowKernel flow;
-  double sideways = 1.0;  ///< share of the flow correction across the motion that is believed
+  /// prior of the road's ways where a network is known: straight on; each of left and right
+  double road_ahead = 1.0, road_turn = 0.3;
 
   // how far truth lies from the mean prediction, along the motion and across: fixed + by_speed * v
   // at one second, growing with time to the power `growth` [m]
   double along_fixed = 0.2, along_by_speed = 0.1, across_fixed = 0.15, across_by_speed = 0.1;
   double growth = 1.3;
+  double tail = 1.0;        ///< power of the noise's radius: above 1 more at the core and far out
+  double calibrated = 1.0;  ///< share of the measured spread that process noise makes; intentions
+                            ///< make the rest
 };
 
 /// The one parameter set, chosen by tools/tune_prediction.py on the training recordings.
 struct PredictorParameters {
   KindParameters walker, wheels;
+  CompanionKernel companions;    ///< of people on foot
   double rejoin = 0.7;           ///< see RollOutOptions
   double horizon_walker = 1.0;   ///< tau of avoidance [s]
   double horizon_wheels = 1.0;   ///< likewise
-  double margin = 0;              ///< kept around bodies [m]
+  double margin = 0;             ///< kept around bodies [m]
   double separation_time = 2.0;  ///< over which bodies that overlap come apart [s]
 };
 
 PredictorParameters default_predictor_parameters();
+
+/// Names of the recordings that the parameters were chosen on.
+std::span<const std::string_view> training_recordings();
 
 /// A parameter by its name, such as "walker.flow_distance".
 struct NamedParameter {

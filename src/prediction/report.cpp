@@ -1,5 +1,6 @@
 #include "prediction/report.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace sumogamma {
@@ -68,6 +69,8 @@ const std::vector<PublishedResult>& published_results() {
       {"eth", "PORCA (paper)", 0.52, 1.09},
       {"eth", "SR-LSTM", 0.63, 1.25},
       {"eth", "STAR", 0.56, 1.11},
+      {"eth", "SGAN, average of samples", 0.96, 1.87},
+      {"eth", "social force", 0.67, 1.52},
       {"eth", "SGAN, best of 20", 0.81, 1.52},
       {"eth", "SoPhie, best of 20", 0.70, 1.43},
       {"eth", "MATF, best of 20", 1.01, 1.75},
@@ -78,16 +81,32 @@ const std::vector<PublishedResult>& published_results() {
       {"hotel", "PORCA (paper)", 0.29, 0.60},
       {"hotel", "SR-LSTM", 0.37, 0.74},
       {"hotel", "STAR", 0.26, 0.50},
+      {"hotel", "SGAN, average of samples", 0.61, 1.31},
+      {"hotel", "social force", 0.52, 1.03},
       {"hotel", "SGAN, best of 20", 0.72, 1.61},
       {"hotel", "SoPhie, best of 20", 0.76, 1.67},
       {"hotel", "MATF, best of 20", 0.43, 0.80},
       {"hotel", "S-Ways, best of 20", 0.39, 0.66},
       {"hotel", "SGCN, best of 20", 0.32, 0.55},
       {"hotel", "GAMMA-d (paper), best of 20", 0.18, 0.40},
+      {"univ", "GAMMA (paper, protocol A)", 0.44, 1.06},
+      {"univ", "PORCA (paper)", 0.47, 1.09},
+      {"univ", "SR-LSTM", 0.51, 1.10},
+      {"univ", "STAR", 0.52, 1.15},
+      {"univ", "SGAN, average of samples", 0.57, 1.22},
+      {"univ", "social force", 0.74, 1.12},
+      {"univ", "SGAN, best of 20", 0.60, 1.26},
+      {"univ", "SoPhie, best of 20", 0.54, 1.24},
+      {"univ", "MATF, best of 20", 0.44, 0.91},
+      {"univ", "S-Ways, best of 20", 0.55, 1.31},
+      {"univ", "SGCN, best of 20", 0.37, 0.70},
+      {"univ", "GAMMA-d (paper), best of 20", 0.32, 0.79},
       {"zara1", "GAMMA (paper, protocol A)", 0.36, 0.86},
       {"zara1", "PORCA (paper)", 0.37, 0.87},
       {"zara1", "SR-LSTM", 0.41, 0.90},
       {"zara1", "STAR", 0.41, 0.90},
+      {"zara1", "SGAN, average of samples", 0.45, 0.98},
+      {"zara1", "social force", 0.40, 0.60},
       {"zara1", "SGAN, best of 20", 0.34, 0.69},
       {"zara1", "SoPhie, best of 20", 0.30, 0.63},
       {"zara1", "MATF, best of 20", 0.26, 0.45},
@@ -98,6 +117,8 @@ const std::vector<PublishedResult>& published_results() {
       {"zara2", "PORCA (paper)", 0.30, 0.70},
       {"zara2", "SR-LSTM", 0.32, 0.70},
       {"zara2", "STAR", 0.31, 0.71},
+      {"zara2", "SGAN, average of samples", 0.39, 0.86},
+      {"zara2", "social force", 0.40, 0.68},
       {"zara2", "SGAN, best of 20", 0.42, 0.84},
       {"zara2", "SoPhie, best of 20", 0.38, 0.78},
       {"zara2", "MATF, best of 20", 0.26, 0.57},
@@ -126,6 +147,9 @@ nlohmann::ordered_json to_json(const Evaluation& evaluation, std::uint64_t seed)
   json["collision_rate"] = evaluation.collisions.rate();
   json["collision_pairs"] = evaluation.collisions.pairs;
   json["true_collision_rate"] = evaluation.true_collisions.rate();
+  const auto training = training_recordings();
+  json["in_training"] =
+      std::find(training.begin(), training.end(), evaluation.set) != training.end();
   json["cpu_us_per_agent_prediction"] = microseconds(evaluation);
   Json by_class = Json::object(), by_speed = Json::object();
   for (std::size_t t = 0; t < types.size(); ++t) {
@@ -153,19 +177,28 @@ std::string to_table(const std::vector<Evaluation>& evaluations, const Protocol&
       "agents.\n",
       protocol.letter, protocol.observed, protocol.steps,
       protocol.counts_present ? ", the present counted as the first" : "");
+  text += "Parameters: one set, chosen on";
+  for (const std::string_view name : training_recordings()) text += " " + std::string(name);
+  text += ".\n";
   std::string set;
   auto published = [&] {
-    for (const PublishedResult& row : published_results())
-      if (row.set == set)
-        text += format("  %-40s %7.2f %7.2f   as published\n", row.method.c_str(), row.average,
-                       row.final);
+    for (const PublishedResult& row : published_results()) {
+      // the paper's UNIV is both of its recordings together
+      const bool both = row.set == "univ" && (set == "univ001" || set == "univ003");
+      if (row.set == set || both)
+        text += format("  %-40s %7.2f %7.2f   as published%s\n", row.method.c_str(), row.average,
+                       row.final, both ? " for univ001 and univ003 together" : "");
+    }
   };
   for (const Evaluation& evaluation : evaluations) {
     if (evaluation.set != set) {
       published();
       set = evaluation.set;
-      text += format("\n%s: %zu windows, COL of the truth %.4f\n", set.c_str(),
-                     evaluation.windows.size(), evaluation.true_collisions.rate());
+      const auto training = training_recordings();
+      const bool known = std::find(training.begin(), training.end(), set) != training.end();
+      text += format("\n%s: %zu windows, COL of the truth %.4f, parameters chosen %s it\n",
+                     set.c_str(), evaluation.windows.size(), evaluation.true_collisions.rate(),
+                     known ? "with" : "without");
       text += format("  %-40s %7s %7s %15s %6s %7s %8s", "", "ADE", "FDE", "ADE 95 %", "miss",
                      "COL", "us/pred");
       if (evaluation.has_samples) text += "   minADE  minFDE     NLL  energy  in 50  in 90";
@@ -176,7 +209,9 @@ std::string to_table(const std::vector<Evaluation>& evaluations, const Protocol&
     text += format("  %-40s %7.4f %7.4f [%.3f, %.3f] %6.3f %7.4f %8.1f", evaluation.title.c_str(),
                    summary.average, summary.final, average.low, average.high, summary.miss_rate,
                    evaluation.collisions.rate(), microseconds(evaluation));
-    if (evaluation.has_samples)
+    if (evaluation.method == "oracle")
+      text += format("  %7.4f %7.4f", summary.best_average, summary.best_final);
+    else if (evaluation.has_samples)
       text +=
           format("  %7.4f %7.4f %7.3f %7.4f %6.3f %6.3f", summary.best_average, summary.best_final,
                  summary.log_loss, summary.energy, summary.inside_50, summary.inside_90);

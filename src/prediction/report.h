@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "prediction/evaluation.h"
+#include "prediction/predictor_parameters.h"
 
 namespace sumogamma {
 

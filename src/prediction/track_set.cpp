@@ -4,6 +4,7 @@
 #include <charconv>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <sstream>
 
@@ -127,6 +128,7 @@ std::vector<Observation> read_observations(const std::filesystem::path& path) {
   while (std::getline(file, line)) {
     ++place.line;
     if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (place.line == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     if (line.find_first_not_of(" \t") == std::string::npos) continue;
     if (columns.count == 0) {
       commas = line.find(',') != std::string::npos;
@@ -150,18 +152,36 @@ int frame_step(const std::vector<Observation>& observations) {
   return std::max(step, 1);
 }
 
-/// Direction of the last motion at every position; before the first motion that of the first.
-std::vector<double> directions_of_motion(const std::vector<Vec2>& position) {
+/// {"polygons": [{"vertices_m": [[x, y], ...]}, ...]}
+std::vector<Obstacle> read_polygons(const std::filesystem::path& path) {
+  std::vector<Obstacle> obstacles;
+  std::ifstream file(path);
+  try {
+    const nlohmann::json json = nlohmann::json::parse(file);
+    for (const auto& polygon : json.at("polygons")) {
+      Obstacle obstacle;
+      for (const auto& vertex : polygon.at("vertices_m"))
+        obstacle.outline.emplace_back(vertex.at(0).get<double>(), vertex.at(1).get<double>());
+      if (obstacle.outline.size() < 3) throw Error(path.string(), "a polygon has under 3 vertices");
+      obstacles.push_back(std::move(obstacle));
+    }
+  } catch (const nlohmann::json::exception& error) {
+    throw Error(path.string(), "expected polygons with vertices_m: " + std::string(error.what()));
+  }
+  return obstacles;
+}
+
+/// Direction of the last motion at every position; 0 before the first motion, for what comes later
+/// must not tell. `begin`: first position that was reached by a motion.
+std::vector<double> directions_of_motion(const std::vector<Vec2>& position, std::size_t& begin) {
   std::vector<double> heading(position.size(), 0.0);
-  bool moved = false;
+  begin = position.size();
   for (std::size_t k = 1; k < position.size(); ++k) {
     const Vec2 step = position[k] - position[k - 1];
     heading[k] = heading[k - 1];
     if (step.squaredNorm() < 1e-16) continue;
     heading[k] = heading_of(step);
-    if (!moved)
-      std::fill(heading.begin(), heading.begin() + static_cast<std::ptrdiff_t>(k), heading[k]);
-    moved = true;
+    begin = std::min(begin, k);
   }
   return heading;
 }
@@ -213,13 +233,18 @@ TrackSet read_track_set(const std::filesystem::path& path) {
   });
   TrackSet set;
   set.name = path.stem().string();
+  const AgentTypeTable types = recorded_agent_types();
   std::uint32_t fresh_id = observations.back().id;
   std::vector<Vec2> annotated;
   auto finish = [&] {
     if (set.tracks.empty()) return;
     Track& track = set.tracks.back();
-    track.heading = directions_of_motion(track.position);
-    for (std::size_t k = 0; k < annotated.size(); ++k)
+    std::size_t begin = 0;
+    track.heading = directions_of_motion(track.position, begin);
+    // a box on wheels shows how it stands; files give people who haven't moved yet the direction
+    // in which they will
+    if (type_of(types, track.type).kinematics != Kinematics::Holonomic) begin = 0;
+    for (std::size_t k = begin; k < annotated.size(); ++k)
       if (annotated[k].squaredNorm() > 0.25) track.heading[k] = heading_of(annotated[k]);
     annotated.clear();
   };
@@ -244,11 +269,18 @@ TrackSet read_track_set(const std::filesystem::path& path) {
   finish();
   std::stable_sort(set.tracks.begin(), set.tracks.end(),
                    [](const Track& a, const Track& b) { return a.id < b.id; });
+  const auto beside = path.parent_path() / (set.name + "_obstacles.json");
+  if (std::filesystem::exists(beside)) set.obstacles = read_polygons(beside);
   set.first_frame = set.tracks.front().first;
   for (const Track& track : set.tracks) {
     set.first_frame = std::min(set.first_frame, track.first);
     set.last_frame = std::max(set.last_frame, track.last());
   }
+  constexpr int kMostFrames = 10'000'000;
+  if (set.last_frame - set.first_frame > kMostFrames)
+    throw Error(path.string(), "frames reach from " + std::to_string(set.first_frame) + " to " +
+                                   std::to_string(set.last_frame) +
+                                   ", expected counted steps, not times");
   return set;
 }
 

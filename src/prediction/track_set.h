@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/vec2.h"
+#include "road/road_network.h"
 #include "scene/agent_type.h"
 
 namespace sumogamma {
@@ -28,6 +29,7 @@ struct TrackSet {
   double period = 0.4;        ///< [s]
   std::vector<Track> tracks;  ///< in order of id
   int first_frame = 0, last_frame = -1;
+  std::vector<Obstacle> obstacles;  ///< solid things, in the same axes
 };
 
 /// The types of the recordings with the boxes, wheelbases and limits that the published predictor
@@ -38,7 +40,8 @@ AgentTypeTable recorded_agent_types();
 /// Reads `frame,agent_id,agent_type,x_m,y_m,vx_mps,vy_mps,heading_x,heading_y` (CSV with a header,
 /// columns found by name, heading and type optional) or the common text format `frame id x y`
 /// (blanks or tabs, no header, frames a constant number apart, everybody on foot). An agent whose
-/// frames have a gap becomes several tracks. Throws Error naming file and line.
+/// frames have a gap becomes several tracks. Where NAME_obstacles.json stands beside NAME.csv, its
+/// polygons come along. Throws Error naming file and line.
 TrackSet read_track_set(const std::filesystem::path& path);
 
 /// The same recording with its observations disturbed by normal noise of this deviation [m], to see

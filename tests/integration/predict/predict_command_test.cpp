@@ -53,12 +53,58 @@ TEST(PredictCommand, DrawsPictures) {
   ASSERT_FALSE(std::filesystem::is_empty(folder));
 }
 
+/// A file with such a content.
+std::string made_file(const std::string& name, const std::string& text) {
+  const auto path = std::filesystem::temp_directory_path() / ("sumogamma_predict_" + name);
+  std::ofstream(path) << text;
+  return path.string();
+}
+
+TEST(PredictCommand, RefusesBadRecordingsWithOneLine) {
+  const std::string header = "frame,agent_id,agent_type,x_m,y_m\n";
+  struct Row {
+    const char* name;
+    std::string text;
+    const char* words;
+  };
+  const Row rows[] = {
+      {"empty.csv", "", "no observations"},
+      {"header.csv", header, "no observations"},
+      {"nan.csv", header + "0,1,pedestrian,nan,0\n", ":2: x is"},
+      {"twice.csv", header + "0,1,pedestrian,0,0\n0,1,pedestrian,1,0\n", "twice in frame 0"},
+      {"type.csv", header + "0,1,dragon,0,0\n", "dragon"},
+      {"short.txt", "0 1 0 0\n10 1 1 0\n", "20 frames"},
+      {"times.txt", "0 1 0 0\n1000000000 1 0 0\n7 2 0 0\n", "counted steps"},
+  };
+  for (const Row& row : rows) {
+    SCOPED_TRACE(row.name);
+    const ProcessResult result = predict({made_file(row.name, row.text)});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.errors.rfind("sumo-gamma: ", 0), 0u) << result.errors;
+    EXPECT_NE(result.errors.find(row.words), std::string::npos) << result.errors;
+    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+  }
+}
+
+TEST(PredictCommand, TakesOneAgentAlone) {
+  std::string text;
+  for (int frame = 0; frame < 25; ++frame)
+    text += std::to_string(10 * frame) + ".0\t1.0\t" + std::to_string(0.5 * frame) + "\t2.0\r\n";
+  const ProcessResult result =
+      predict({made_file("alone.txt", "\xEF\xBB\xBF" + text), "--samples", "5"});
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_NE(result.output.find("6 windows"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("chosen without it"), std::string::npos) << result.output;
+  EXPECT_EQ(result.output.find("nan"), std::string::npos) << result.output;
+}
+
 TEST(PredictCommand, RefusesBadInputWithOneLine) {
   for (const std::vector<std::string>& arguments :
        std::vector<std::vector<std::string>>{{"nowhere.csv"},
                                              {},
                                              {small_recording(), "--protocol", "Z"},
                                              {small_recording(), "--method", "magic"},
+                                             {small_recording(), "--samples", "1"},
                                              {small_recording(), "--set", "predict.luck=1"}}) {
     const ProcessResult result = predict(arguments);
     EXPECT_EQ(result.exit_code, 2);

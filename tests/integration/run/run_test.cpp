@@ -136,7 +136,7 @@ TEST_F(RunTest, EveryKeyOfTheResultsIsThere) {
   const json results = results_of("out", {"--duration", "20", "--replay"});
   expect_keys(results, {"sumo_version", "sumo_gamma_version", "scenario", "seed", "step",
                         "duration", "backend", "threads", "agents", "timing", "collisions", "flow",
-                        "rules", "smoothness", "coupling", "state_hash"});
+                        "rules", "smoothness", "coupling", "prediction", "state_hash"});
   expect_keys(results["agents"], {"inserted", "arrived", "removed", "controlled_now",
                                   "controlled_peak", "controlled_mean", "by_type"});
   expect_keys(results["timing"],
@@ -164,6 +164,30 @@ TEST_F(RunTest, EveryKeyOfTheResultsIsThere) {
   for (const auto& [type, counts] : results["agents"]["by_type"].items())
     expect_keys(counts, {"inserted", "arrived"});
   expect_whole_outputs("out");
+}
+
+TEST_F(RunTest, PredictsWhoeverDrivesAndScoresIt) {
+  import(kFixtures / "signalled_crossing_right.osm", "20");
+  for (const std::string control : {"none", "all"}) {
+    const json plain = results_of("plain_" + control, {"--duration", "40", "--control", control});
+    EXPECT_EQ(plain["prediction"]["asked"], false);
+    EXPECT_EQ(plain["prediction"]["predictions"], 0);
+    const json results =
+        results_of(control, {"--duration", "40", "--control", control, "--predict"});
+    const json& prediction = results["prediction"];
+    EXPECT_EQ(prediction["asked"], true);
+    EXPECT_GT(prediction["predictions"], 200);
+    EXPECT_GT(prediction["ade_m"], 0.0);
+    EXPECT_GT(prediction["fde_m"], prediction["ade_m"]);
+    // whoever looks at what the road says foresees more than constant velocity
+    EXPECT_LT(prediction["ade_m"], prediction["constant_velocity_ade_m"]);
+    long sum = 0;
+    for (const auto& [type, score] : prediction["by_type"].items())
+      sum += score["predictions"].get<long>();
+    EXPECT_EQ(sum, prediction["predictions"]);
+    // looking changes nothing
+    EXPECT_EQ(results["state_hash"], plain["state_hash"]);
+  }
 }
 
 TEST_F(RunTest, TheSameStateWhateverTheThreadsTheBackEndAndTheRun) {

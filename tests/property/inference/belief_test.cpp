@@ -11,7 +11,7 @@
 namespace sumogamma {
 namespace {
 
-double sum_of(const Histogram<kIntentions>& histogram) {
+double sum_of(const HypothesisWeights<kIntentions>& histogram) {
   const auto weights = histogram.weights();
   return std::accumulate(weights.begin(), weights.end(), 0.0);
 }
@@ -38,7 +38,7 @@ TEST(BeliefProperty, SumsToOneWhateverIsObserved) {
 TEST(BeliefProperty, OrderOfObservationsDoesNotMatterWithoutAChangeOfMind) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    Histogram<4> forwards = Histogram<4>::from({1, 2, 3, 4}), backwards = forwards;
+    HypothesisWeights<4> forwards = HypothesisWeights<4>::from({1, 2, 3, 4}), backwards = forwards;
     std::array<std::array<double, 4>, 5> seen{};
     for (std::uint64_t t = 0; t < 5; ++t)
       for (std::uint64_t k = 0; k < 4; ++k)
@@ -80,7 +80,7 @@ TEST(Belief, SurvivesThousandsOfUnlikelyTicks) {
 }
 
 TEST(Belief, IsNotMovedByWhatIsNoNumber) {
-  Histogram<4> belief = Histogram<4>::from({1, 2, 3, 4});
+  HypothesisWeights<4> belief = HypothesisWeights<4>::from({1, 2, 3, 4});
   const auto before = belief.weights();
   belief.update({std::numeric_limits<double>::quiet_NaN(), 0, 0, 0});
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(belief.weights()[k], before[k], 1e-15);

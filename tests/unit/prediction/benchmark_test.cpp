@@ -50,7 +50,17 @@ TEST(TrackSet, ReadsTheCommonTextFormatAndSplitsAtGaps) {
   ASSERT_EQ(set.tracks.size(), 3u);
   EXPECT_EQ(set.tracks[0].position.size(), 2u);
   EXPECT_EQ(set.tracks[2].first, 3);  // the later part of agent 1, under an id of its own
-  EXPECT_NEAR(set.tracks[1].heading[0], std::acos(0.0), 1e-12);
+  EXPECT_NEAR(set.tracks[1].heading[1], std::acos(0.0), 1e-12);
+}
+
+TEST(TrackSet, KnowsNoHeadingOfSomebodyWhoHasNotMoved) {
+  const TrackSet set = read_track_set(
+      write("standing.csv",
+            "frame,agent_id,agent_type,x_m,y_m,heading_x,heading_y\n0,1,pedestrian,0,0,0,1\n"
+            "1,1,pedestrian,0,0,0,1\n2,1,pedestrian,0,1,0,1\n0,2,car,9,0,0,1\n1,2,car,9,0,0,1\n"));
+  EXPECT_EQ(set.tracks[0].heading[1], 0.0);
+  EXPECT_NEAR(set.tracks[0].heading[2], std::acos(0.0), 1e-12);
+  EXPECT_NEAR(set.tracks[1].heading[0], std::acos(0.0), 1e-12);  // a standing box points somewhere
 }
 
 TEST(TrackSet, NamesFileAndLineOfWhatIsWrong) {
@@ -119,7 +129,7 @@ TEST(GammaPredictor, BeatsConstantVelocityOnARecording) {
   const TrackSet set = read_track_set(recording("hotel"));
   const MethodSettings settings{default_predictor_parameters(), 0, 1};
   const Summary gamma =
-      summarize(evaluate(make_method("gamma", settings, 0.4), set, set, protocol_from_letter("C")));
+      summarize(evaluate(make_method("gamma", settings, set), set, set, protocol_from_letter("C")));
   EXPECT_LT(gamma.average, 0.275);
   EXPECT_LT(gamma.final, 0.52);
 }
