@@ -51,8 +51,10 @@ Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row,
       const RoadContext& context = scene.context[row];
       if (!context.active)
         return towards(scene.position[row], intention.goal, scene.preferred_speed[row]);
-      const Vec2 preferred = towards(scene.position[row], context.sub_goal,
-                                     std::min(context.speed_limit, scene.preferred_speed[row]));
+      double speed = std::min(context.speed_limit, scene.preferred_speed[row]);
+      // who waits on foot stands still, sideways too: the kerb need not lie across the path
+      if (type.kinematics == Kinematics::Holonomic) speed = std::min(speed, context.allowed_speed);
+      const Vec2 preferred = towards(scene.position[row], context.sub_goal, speed);
       return type.kinematics == Kinematics::Holonomic
                  ? around(preferred, scene, row)
                  : within_turning(preferred, scene.heading[row]);

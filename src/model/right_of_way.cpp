@@ -13,6 +13,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kStopMargin = 0.6;  ///< front halts this far before a line [m]
 constexpr double kFillsLane = 1.2;   ///< nobody overtakes what is wider than this on a link [m]
 constexpr double kPatience = 4.0;    ///< waited for somebody who waits for a third one [s]
+constexpr double kAmber = 2.5;       ///< reckoned with from an amber on [s]
 constexpr double kTimeMargin = 1.0;  ///< left between two users of a conflict zone [s]
 
 /// When a body is inside a conflict zone [s from now].
@@ -158,18 +159,26 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
   const Connection& connection = model.road.connection(link.connection);
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const char signal = road.signal(connection);
+  const Path& own_path = *road.path(scene.path[traveller.row]);
   const double to_line = link.stop_line - traveller.front;
   // where a front that waits comes to rest: short of the line where others turn by close, at the
-  // line where it has come too far for that
-  const double halt = traveller.front < link.halt ? link.halt : link.stop_line;
+  // line where it has come too far or is too fast for that
+  const bool stops_short = traveller.front < link.halt &&
+                           deceleration_to_stop(traveller.speed, link.halt - traveller.front) <
+                               type.comfortable_deceleration;
+  const double halt = stops_short ? link.halt : link.stop_line;
   const double stop_at = halt - kStopMargin;
   LinkDecision decision;
 
   // signals: red always; amber where braking at ease still does it. Once past the line, clear the
   // junction.
   if (to_line > -1.0) {
-    const double needed = deceleration_to_stop(traveller.speed, halt - traveller.front - 0.2);
-    const bool amber_stop = is_amber(signal) && needed < type.comfortable_deceleration;
+    const double reserve = own_path.walking ? 0.02 : 0.2;  // [m]
+    const double needed = deceleration_to_stop(traveller.speed, halt - traveller.front - reserve);
+    // who would not be over the line before red brakes harder than at ease
+    const bool late = to_line > kAmber * traveller.speed;
+    const bool amber_stop = is_amber(signal) && needed < (late ? 0.65 * type.max_deceleration
+                                                               : type.comfortable_deceleration);
     const bool red_stop =
         is_red(signal) && (needed < type.max_deceleration || traveller.speed < 1.0);
     if (amber_stop || red_stop) return {true, stop_at, LimitReason::Signal, -1};
@@ -179,7 +188,6 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
     decision = {true, stop_at, LimitReason::Yield, -1};
 
   const bool free_green = signal == 'G';
-  const Path& own_path = *road.path(scene.path[traveller.row]);
   const Judge judge{model, road, scene, approaches, traveller, link};
   for (const ConflictZone& zone_of_table : model.conflicts[index_of(link.connection)]) {
     ConflictZone zone = zone_of_table;

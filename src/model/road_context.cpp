@@ -192,7 +192,7 @@ void set_walker_limit(const Model& model, const RoadState& road, const Scene& sc
     if (link.stop_line > front + 4.0) break;
     const LinkDecision decision = decide_link(model, road, scene, approaches, traveller, link);
     if (!decision.must_stop) continue;
-    context.allowed_speed = std::max(0.0, (decision.stop_at + 0.4 - front) / 0.7);
+    context.allowed_speed = std::max(0.0, (decision.stop_at - front) / 0.7);
     context.reason = decision.reason;
     context.foe = decision.foe;
     return;
