@@ -15,6 +15,8 @@ namespace {
 
 // a body slower than this is held up, and creeps at most this fast [m/s]
 constexpr double kCreep = 0.5;
+// and one that is slower than this stands [m/s]
+constexpr double kStill = 0.01;
 // people shuffle without turning round, see tracking
 constexpr double kShuffle = 0.28;  // [m/s]
 // rounding: neither an overlap nor a smaller gap [m]
@@ -90,6 +92,10 @@ void StoppingGuard::prepare(const Model& model, const Scene& scene, const TickGe
   foes_.clear();
 }
 
+bool StoppingGuard::in_lane() const {
+  return geometry_->agent[row_].on_wheels && scene_->context[row_].active;
+}
+
 bool StoppingGuard::overlapping() const {
   return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t other) {
     return overlap_depth(*scene_, *geometry_, row_, other) > kSame;
@@ -124,7 +130,7 @@ StoppingGuard::Foe StoppingGuard::look_closely(std::uint32_t other) const {
   Foe foe;
   foe.row = other;
   foe.overlaps = overlap_depth(*scene_, *geometry_, row_, other) > kSame;
-  if (foe.overlaps) return foe;
+  if (foe.overlaps && !in_lane()) return foe;
   const double step = model_->options.step;
   Braking theirs = braking_now(their, type_of(model_->types, their.type));
   // nobody makes others brake; whoever goes the same way may
@@ -170,6 +176,7 @@ bool StoppingGuard::clear_at(Foe& foe, std::size_t instant, const Pose& pose) co
   const Room& room = room_at(foe, instant);
   // no closer than by braking now is as good as braking
   if (gap >= room.gap - kSame) return true;
+  if (foe.overlaps) return false;
   // closer than the margin already: half of what is left may be used, so that bodies side by side
   // can turn apart
   if (gap < std::min(model_->options.guard_margin, 0.5 * room.gap)) return false;
@@ -186,7 +193,8 @@ bool StoppingGuard::admits(const Vec2& velocity) {
   for (const std::uint32_t other : near_) {
     if (clear_by_far(swept, other)) continue;
     Foe& foe = foe_of(other);
-    for (std::size_t k = 0; !foe.overlaps && k < kInstants; ++k)
+    if (foe.overlaps && !in_lane()) continue;
+    for (std::size_t k = 0; k < kInstants; ++k)
       if (!clear_at(foe, k, pose_after(braking, instant_of(foe.duration, k)))) return false;
   }
   return true;
@@ -278,7 +286,10 @@ Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const Scene& sce
     const auto creep = creep_round(guard, model, scene, own, row, preferred, hard);
     if (creep) return *creep;
   }
-  if (is_wedged(scene, own, row)) return turned_wheels(scene, own, row);
+  if (is_wedged(scene, own, row) && now < kStill) {
+    const Vec2 turned = turned_wheels(scene, own, row);
+    if (guard.admits(turned)) return turned;
+  }
   const Vec2 least = std::min(asked, std::max(now - brake, 0.01 * asked)) * along;
   for (const Vec2& last : {stands ? velocity : least, least})
     if (guard.admits(last)) return last;
