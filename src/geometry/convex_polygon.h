@@ -33,6 +33,8 @@ using PolygonDifference = ConvexOutline<16>;
 /// The part of a convex outline that the origin sees: the run of edges that face it, from the left
 /// tangent vertex to the right one. A point, or a segment seen end-on, has one edge of no length
 /// across the line of sight. None where the origin is inside.
+// the arrays are filled as far as they count
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init)
 struct NearSide {
   std::uint32_t edges = 0;
   bool inside = false;             ///< the origin lies in the outline or on its boundary

@@ -5,7 +5,7 @@
 
 namespace sumogamma {
 
-Polyline::Polyline(std::vector<Vec2> points) {
+Polyline::Polyline(const std::vector<Vec2>& points) {
   constexpr double kShortest = 1e-6;
   points_.reserve(points.size());
   for (const Vec2& point : points) {

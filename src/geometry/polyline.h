@@ -20,7 +20,7 @@ struct PolylinePosition {
 class Polyline {
  public:
   Polyline() = default;
-  explicit Polyline(std::vector<Vec2> points);
+  explicit Polyline(const std::vector<Vec2>& points);
 
   const std::vector<Vec2>& points() const { return points_; }
   bool empty() const { return points_.empty(); }

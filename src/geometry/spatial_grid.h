@@ -16,7 +16,7 @@ class SpatialGrid {
   /// A point with its row, in the grid's order (by cell, then by row).
   struct Entry {
     Vec2 position;
-    std::uint32_t row;
+    std::uint32_t row = 0;
   };
 
   /// Sorts the points. No allocation while their number stays within what was seen before. Not

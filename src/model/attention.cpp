@@ -42,11 +42,9 @@ class PairSearch {
   /// Bits of the entries k and k + 1 that matter.
   unsigned within(std::uint32_t k) const {
 #ifdef __SSE2__
-    const __m128d dx = _mm_sub_pd(_mm_loadu_pd(x_ + k), own_x_);
-    const __m128d dy = _mm_sub_pd(_mm_loadu_pd(y_ + k), own_y_);
-    const __m128d reach = _mm_add_pd(_mm_loadu_pd(far_ + k), own_far_);
-    const __m128d square = _mm_add_pd(_mm_mul_pd(dx, dx), _mm_mul_pd(dy, dy));
-    return static_cast<unsigned>(_mm_movemask_pd(_mm_cmple_pd(square, _mm_mul_pd(reach, reach))));
+    const __m128d dx = _mm_loadu_pd(x_ + k) - own_x_, dy = _mm_loadu_pd(y_ + k) - own_y_;
+    const __m128d reach = _mm_loadu_pd(far_ + k) + own_far_;
+    return static_cast<unsigned>(_mm_movemask_pd(_mm_cmple_pd(dx * dx + dy * dy, reach * reach)));
 #else
     unsigned bits = 0;
     for (std::uint32_t m = 0; m < 2; ++m) {

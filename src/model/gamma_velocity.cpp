@@ -73,7 +73,7 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
   append_contextual_constraints(model, scene, row, constraints);  // C, III-C
   append_obstacle_constraints(model, scene, geometry, row, work.sides, constraints);
   constraints.hard_count = constraints.planes.size();
-  append_geometric_constraints(model, scene, geometry, row, behavior, work.preferred,
+  append_geometric_constraints(model, scene, geometry, row, {behavior, work.preferred},
                                work.neighbours.attended, constraints);  // G, III-B
 
   const Vec2 target = look_aside(model.options, geometry.agent[row], work.preferred);

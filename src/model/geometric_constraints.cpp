@@ -118,7 +118,7 @@ double responsibility_share(const Model& model, const Scene& scene, const TickGe
 
 void append_geometric_constraints(const Model& model, const Scene& scene,
                                   const TickGeometry& geometry, std::size_t row,
-                                  const BehaviorState& behavior, const Vec2& preferred,
+                                  const RowHypothesis& hypothesis,
                                   std::span<const Attended> attended, ConstraintSet& constraints) {
   const ModelOptions& options = model.options;
   if (!options.use_avoidance) return;
@@ -133,13 +133,14 @@ void append_geometric_constraints(const Model& model, const Scene& scene,
         road_horizon(scene.context[row], own, their, foe,
                      pair_horizon(options, type, type_of(model.types, their.type)));
     const std::optional<Escape> escape =
-        escape_of({model, scene, geometry, row, other, preferred,
+        escape_of({model, scene, geometry, row, other, hypothesis.preferred,
                    intended - intended_velocity(scene, their, other), horizon});
     if (!escape) continue;
     // differs from the paper: a safe pair is held to its safety (as ORCA does) unless the option
     // says otherwise
     if (!escape->colliding && !options.constrain_safe_pairs) continue;
-    const double share = responsibility_share(model, scene, geometry, row, other, behavior);
+    const double share =
+        responsibility_share(model, scene, geometry, row, other, hypothesis.behavior);
     constraints.append({own.velocity + share * escape->change, escape->normal},
                        {ConstraintKind::Neighbour, foe});
   }

@@ -8,13 +8,18 @@
 
 namespace sumogamma {
 
+/// What a row is taken to be up to.
+struct RowHypothesis {
+  const BehaviorState& behavior;  ///< its responsibility and attention: the behaviour filter asks
+                                  ///< with others than the scene's
+  const Vec2& preferred;          ///< v_pref [m/s]
+};
+
 /// Appends G of Eqs. 3-6 as soft planes: for every attended neighbour the half-plane that takes
-/// this row's share of the escape from their velocity obstacle. `behavior` supplies the
-/// responsibility and attention of this row (the behaviour filter asks with others than the
-/// scene's).
+/// this row's share of the escape from their velocity obstacle.
 void append_geometric_constraints(const Model& model, const Scene& scene,
                                   const TickGeometry& geometry, std::size_t row,
-                                  const BehaviorState& behavior, const Vec2& preferred,
+                                  const RowHypothesis& hypothesis,
                                   std::span<const Attended> attended, ConstraintSet& constraints);
 
 /// Share of the escape that `row` takes towards `other`, in [0, 1]. The two shares of a pair add up

@@ -41,10 +41,12 @@ double largest_speed(const AgentType& type, double speed, double steering, doubl
   const double down = std::sqrt(2.0 * type.max_deceleration * type.tracking_error);
   const double high = std::min(type.max_speed, speed + up + 2.0 * kSpeedStep);
   const double low = std::max(0.5 * kSpeedStep, speed - down - 2.0 * kSpeedStep);
-  for (double target = high; target >= low; target -= kSpeedStep) {
+  double target = high;
+  while (target >= low) {
     const Vec2 velocity = target * direction_of(angle);
     if (tracking_error(type, speed, steering, velocity, type.horizon) <= type.tracking_error)
       return target;
+    target -= kSpeedStep;
   }
   return 0;
 }
