@@ -15,6 +15,7 @@ constexpr double kPeriod = 0.4;       ///< between two looks of an agent [s]
 constexpr double kSafeBraking = 1.5;  ///< asked of nobody more for a lane change [m/s^2]
 constexpr double kGain = 1.0;         ///< worth a lane change [m/s]
 constexpr double kChangeTime = 3.0;   ///< [s]
+constexpr double kPatience = 4.0;     ///< with a lane change that somebody stands in the way of [s]
 constexpr double kBack = 20.0;        ///< of path kept behind the body [m]
 constexpr double kShortest = 12.0;    ///< change [m]
 
@@ -22,27 +23,30 @@ double look_ahead(const Scene& scene, std::size_t row) {
   return std::min(30.0 + 3.0 * scene.speed[row], 100.0);
 }
 
+/// Braking that it takes not to run into somebody `gap` ahead who is slower by `closing` [m/s^2].
+double braking_for(double closing, double gap) {
+  constexpr double kLeft = 0.4;  // [m]
+  return closing > 0.0 ? closing * closing / (2.0 * std::max(gap - kLeft, 0.05)) : 0.0;
+}
+
 /// Would moving over by `shift` force nobody to brake harder than `braking` [m/s^2], oneself
-/// included?
-bool is_safe(const Model& model, const Scene& scene, const Surroundings& around, std::size_t row,
-             double shift, double free_speed, double braking) {
-  const AgentType& type = type_of(model.types, scene.type[row]);
+/// included, and leave everybody a third of a second?
+bool is_safe(const Scene& scene, const Surroundings& around, std::size_t row, double shift,
+             double braking) {
+  constexpr double kLeast = 0.5, kLeastTime = 0.35;  // [m], [s]
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
   for (const RoadUser& user : around.users) {
     if (std::abs(user.offset - shift) > user.half_width + around.half_width + 0.3) continue;
     if (user.rear < front && user.front > rear) return false;
-    if (user.rear >= front) {
-      if (following_acceleration(type, around.speed, free_speed, user.rear - front,
-                                 std::max(user.speed, 0.0)) < -braking)
-        return false;
-    } else if (scene.context[user.row].foe != scene.id[row].value) {  // else it lets us in
-      const AgentType& other = type_of(model.types, scene.type[user.row]);
-      const double gap = rear - user.front;
-      if (gap < 0.5 ||
-          following_acceleration(other, std::max(user.speed, 0.0), std::max(user.speed, 5.0), gap,
-                                 around.speed) < -braking)
-        return false;
-    }
+    const bool ahead = user.rear >= front;
+    const double gap = ahead ? user.rear - front : rear - user.front;
+    const double behind_speed = std::max(ahead ? around.speed : user.speed, 0.0);
+    const double closing = ahead ? around.speed - user.speed : user.speed - around.speed;
+    const bool lets_us_in =
+        !ahead && scene.context[user.row].foe == static_cast<std::int64_t>(scene.id[row].value);
+    if (lets_us_in && gap > 0.0) continue;
+    if (gap < kLeast + kLeastTime * behind_speed || braking_for(closing, gap) > braking)
+      return false;
   }
   return true;
 }
@@ -88,8 +92,7 @@ LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
     const double shift = (inner ? inner_side : -inner_side) * 0.5 * (lane.width + other.width);
     const double there =
         hoped_speed(around, shift, std::min(free_speed, other.speed_limit * 1.2), 0.3);
-    if (there <= most || !is_safe(model, scene, around, row, shift, free_speed, kSafeBraking))
-      continue;
+    if (there <= most || !is_safe(scene, around, row, shift, kSafeBraking)) continue;
     most = there;
     best = id;
   }
@@ -113,6 +116,8 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   const PathStretch& here = path.stretch_at(around.along);
   if (here.changing) {
     intent.merge_to = here.lane;
+    intent.abort =
+        scene.standing_time[row] > kPatience && scene.context[row].reason == LimitReason::None;
     return;
   }
   const double speed = around.speed;
@@ -123,10 +128,9 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   intent.merge_to = change->lane;
   const double left = model.road.left_hand ? -1.0 : 1.0;
   const double shift = (to.index > from.index ? left : -left) * 0.5 * (from.width + to.width);
-  const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
   const double braking = speed < 2.0 ? kPressed : kSafeBraking;
   if (!is_contested(scene, around, row, change->lane) &&
-      is_safe(model, scene, around, row, shift, free_speed, braking))
+      is_safe(scene, around, row, shift, braking))
     return;
   intent.gate = change->from;
   intent.postpone = change->from - around.along < 2.0 + 1.2 * speed;
@@ -170,11 +174,12 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
     if (!intent.fresh) continue;
     scene.merge_to[row] = intent.merge_to;
     scene.gate[row] = intent.gate;
-    if (intent.wanted == kNoLane && !intent.postpone) continue;
+    if (intent.wanted == kNoLane && !intent.postpone && !intent.abort) continue;
     double along = scene.path_along[row];
     const Path& path = *road.path(scene.path[row]);
     const double speed = scene.speed[row];
-    auto changed = intent.postpone
+    auto changed = intent.abort ? back_to_lane(model.road, path, along, kBack)
+                   : intent.postpone
                        ? stay_in_lane(model.road, path, along, std::max(speed, 3.0), kBack)
                        : change_lane(model.road, path, along, intent.wanted,
                                      std::max(kChangeTime * speed, kShortest), kBack);

@@ -11,6 +11,7 @@ namespace sumogamma {
 struct LaneIntent {
   bool fresh = false;         ///< it has looked at this tick
   bool postpone = false;      ///< a planned change is due and finds no gap yet
+  bool abort = false;         ///< a change that was begun does not get on
   LaneId wanted = kNoLane;    ///< lane where it would be better off
   LaneId merge_to = kNoLane;  ///< see Scene
   double gate = std::numeric_limits<double>::infinity();  ///< see Scene

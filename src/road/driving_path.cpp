@@ -328,8 +328,9 @@ struct Remade {
   const RoadNetwork& network;
   const Path& path;
   double along, back;
+  LaneId id;  ///< where it drives
   const PathStretch& here = path.stretch_at(along);
-  const Lane& lane = network.lane(here.lane);
+  const Lane& lane = network.lane(id);
   double on_lane = here.lane_from + along - here.from;
   double begin = std::max(on_lane - back, 0.0);
 
@@ -352,7 +353,7 @@ struct Remade {
 
 std::optional<Path> change_lane(const RoadNetwork& network, const Path& path, double& along,
                                 LaneId target, double distance, double back) {
-  const Remade old{network, path, along, back};
+  const Remade old{network, path, along, back, path.stretch_at(along).lane};
   if (!old.possible()) return std::nullopt;
   const Lane& lane = network.lane(target);
   const LaneOption& option = path.trip->options[old.index()][static_cast<std::size_t>(lane.index)];
@@ -368,21 +369,45 @@ std::optional<Path> change_lane(const RoadNetwork& network, const Path& path, do
   return old.finish(builder, lane.index, changed, along);
 }
 
-std::optional<Path> stay_in_lane(const RoadNetwork& network, const Path& path, double& along,
-                                 double stay, double back) {
+namespace {
+
+/// Goes on along `old`'s lane for `stay` [m] before it changes, if that leaves room for it.
+std::optional<Path> stay_on(const Remade& old, double stay, double& along) {
   constexpr double kShortest = 12.0;  // [m] of a lane change
-  const Remade old{network, path, along, back};
   if (!old.possible()) return std::nullopt;
-  const LaneOption& option =
-      path.trip->options[old.index()][static_cast<std::size_t>(old.lane.index)];
+  const Trip& trip = *old.path.trip;
+  const LaneOption& option = trip.options[old.index()][static_cast<std::size_t>(old.lane.index)];
+  if (option.cost == kUnreachable) return std::nullopt;
   const int changes = std::abs(option.exit_index - old.lane.index);
   const double from = old.on_lane + stay;
-  if (from + kShortest * changes / 0.85 > end_of(*path.trip, old.index(), old.lane))
-    return std::nullopt;
-  Builder builder(network, path.trip->request);
+  if (from + kShortest * changes / 0.85 > end_of(trip, old.index(), old.lane)) return std::nullopt;
+  Builder builder(old.network, trip.request);
   builder.enter_edge(old.index());
-  builder.follow(old.here.lane, old.begin, from);
+  builder.follow(old.id, old.begin, from);
   return old.finish(builder, old.lane.index, from, along);
+}
+
+}  // namespace
+
+std::optional<Path> stay_in_lane(const RoadNetwork& network, const Path& path, double& along,
+                                 double stay, double back) {
+  return stay_on({network, path, along, back, path.stretch_at(along).lane}, stay, along);
+}
+
+std::optional<Path> back_to_lane(const RoadNetwork& network, const Path& path, double& along,
+                                 double back) {
+  const auto& stretches = path.stretches;
+  for (std::size_t i = 1; i < stretches.size(); ++i) {
+    const PathStretch &change = stretches[i], &before = stretches[i - 1];
+    if (!change.changing || along < change.from || along > 0.5 * (change.from + change.to))
+      continue;
+    if (network.lane(before.lane).edge != network.lane(change.lane).edge) return std::nullopt;
+    Remade old{network, path, along, back, before.lane};
+    old.on_lane = before.lane_from + along - before.from;
+    old.begin = std::max(old.on_lane - back, 0.0);
+    return stay_on(old, 1.0, along);
+  }
+  return std::nullopt;
 }
 
 }  // namespace sumogamma

@@ -112,6 +112,12 @@ std::optional<Path> change_lane(const RoadNetwork& network, const Path& path, do
 std::optional<Path> stay_in_lane(const RoadNetwork& network, const Path& path, double& along,
                                  double stay, double back);
 
+/// The path of the same trip for somebody who is amid a lane change at `along` and gives it up:
+/// back to the middle of the lane that it came from. Otherwise like change_lane. nullopt where
+/// there is no change there, or it has come more than half of the way.
+std::optional<Path> back_to_lane(const RoadNetwork& network, const Path& path, double& along,
+                                 double back);
+
 /// Path of a pedestrian along the edges of a walk: sidewalks in either direction, walking areas and
 /// crossings between them found by least distance. nullopt with `why` set where the walk can't be
 /// connected.
