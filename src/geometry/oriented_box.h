@@ -49,8 +49,8 @@ class BoxDifference {
 
   Vec2 center_;
   std::array<Vec2, 4> half_edges_, normals_;
-  std::array<double, 4> along_,
-      extents_;               ///< of the centre along the normals, and of the polygon from there
+  std::array<double, 4> along_{},
+      extents_{};             ///< of the centre along the normals, and of the polygon from there
   Vec2 axis_ = Vec2::Zero();  ///< from A to B
   double gap_ = 0;            ///< along the axis [m]; <= 0 where they overlap
 };

@@ -72,11 +72,11 @@ class StoppingGuard {
 
   /// A neighbour as it brakes.
   struct Foe {
-    std::uint32_t row;
-    bool overlaps;    ///< already: left to the push-out of G
-    double duration;  ///< until both stand [s]
-    double
-        free_way;  ///< farther apart than this nothing that the foe does within a tick matters [m]
+    std::uint32_t row = 0;
+    bool overlaps = false;  ///< already: left to the push-out of G
+    double duration = 0;    ///< until both stand [s]
+    double free_way =
+        0;  ///< farther apart than this nothing that the foe does within a tick matters [m]
     std::array<Pose, kInstants> poses;  ///< of the foe
     std::array<Room, kInstants> room;   ///< filled where it is asked for
   };
