@@ -57,6 +57,19 @@ void ease_violation(double fastest, Workspace& work) {
   work.result.violation = violation;
 }
 
+/// Hard planes that a body which creeps out of the way must keep. A vehicle that is wedged may use
+/// what lies beside its lane to get out.
+std::span<const HalfPlane> planes_for_creeping(const Scene& scene, std::size_t row,
+                                               Workspace& work) {
+  const ConstraintSet& constraints = work.constraints;
+  const std::span hard(constraints.planes.data(), constraints.hard_count);
+  if (!is_wedged(scene, row)) return hard;
+  work.firm.clear();
+  for (std::size_t k = 0; k < hard.size(); ++k)
+    if (constraints.sources[k].kind != ConstraintKind::LaneBoundary) work.firm.push_back(hard[k]);
+  return work.firm;
+}
+
 }  // namespace
 
 Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& geometry,
@@ -85,7 +98,7 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
 
   // differs from the paper: what half-planes can't say about turning and braking bodies
   work.guard.prepare(model, scene, geometry, row, work.neighbours.near);
-  const std::span hard(constraints.planes.data(), constraints.hard_count);
+  const std::span hard = planes_for_creeping(scene, row, work);
   const double wish = work.preferred.norm();
   const Vec2 allowed = wish > fastest ? Vec2(work.preferred * (fastest / wish)) : work.preferred;
   return guarded_velocity(work.guard, model, scene, geometry, row, work.result.point, allowed,

@@ -20,6 +20,7 @@ struct Workspace {
   ProgramScratch program;
   StoppingGuard guard;
   std::vector<std::uint32_t> sides;  ///< of solid things nearby
+  std::vector<HalfPlane> firm;       ///< hard planes that hold for a wedged vehicle, too
   Vec2 preferred = Vec2::Zero();     ///< v_pref [m/s]
   ProgramResult result;              ///< of Eq. 7; result.binding is an index into constraints
 

@@ -53,9 +53,17 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     // whoever is beside already is passed as close as it comes
     const double kept = gap < 0.0 ? 0.02 : margin;
     if (std::abs(place.offset - swept) > own_half_width + half_width + kept) {
-      if (scene.merge_to[other] != kNoLane && scene.merge_to[other] == scene.lane[row].lane)
+      const bool merges =
+          scene.merge_to[other] != kNoLane && scene.merge_to[other] == scene.lane[row].lane;
+      if (!merges) return;
+      // who is on its way into this lane and ahead is followed already: it needs the room
+      const Path* theirs = road.path(scene.path[other]);
+      const bool on_its_way =
+          theirs != nullptr && theirs->stretch_at(scene.path_along[other]).changing;
+      if (!on_its_way || place.along < along + own_half_length) {
         note_merging(scene, other, place, direction, along + own_half_length, ahead);
-      return;
+        return;
+      }
     }
     if (gap < -own_half_length) return;
     const Vec2 velocity = scene.velocity[other];

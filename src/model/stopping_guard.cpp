@@ -92,6 +92,13 @@ void StoppingGuard::prepare(const Model& model, const Scene& scene, const TickGe
   foes_.clear();
 }
 
+bool is_wedged(const Scene& scene, std::size_t row) {
+  constexpr double kWedged = 5.0;  // [s]
+  const RoadContext& context = scene.context[row];
+  return context.active && context.reason == LimitReason::None &&
+         scene.standing_time[row] > kWedged;
+}
+
 bool StoppingGuard::in_lane() const {
   return geometry_->agent[row_].on_wheels && scene_->context[row_].active;
 }
@@ -227,15 +234,6 @@ std::array<Creep, 3> walking_creeps(const Scene& scene, std::size_t row, double 
   return {Creep{turn, kShuffle}, Creep{-turn, kShuffle}, Creep{0.0, kShuffle}};
 }
 
-/// A vehicle on a road that stands although nothing there has to be waited for: it is stuck between
-/// bodies.
-bool is_wedged(const Scene& scene, const AgentGeometry& own, std::size_t row) {
-  constexpr double kWedged = 5.0;  // [s]
-  const RoadContext& context = scene.context[row];
-  return own.on_wheels && context.active && context.reason == LimitReason::None &&
-         scene.standing_time[row] > kWedged;
-}
-
 /// Hardly a velocity: it has the wheels of a wedged vehicle turned to one side, then to the other,
 /// so that a way out shows that only opens with them.
 Vec2 turned_wheels(const Scene& scene, const AgentGeometry& own, std::size_t row) {
@@ -254,7 +252,7 @@ std::optional<Vec2> creep_round(StoppingGuard& guard, const Model& model, const 
   const auto creeps = own.on_wheels ? wheeled_creeps(own, type_of(model.types, own.type), passing)
                                     : walking_creeps(scene, row, passing);
   // on a road whoever is ahead is waited for: a vehicle that creeps out of its lane gets wedged
-  const bool in_lane = own.on_wheels && scene.context[row].active && !is_wedged(scene, own, row);
+  const bool in_lane = own.on_wheels && scene.context[row].active && !is_wedged(scene, row);
   for (const Creep& creep : creeps) {
     if (in_lane && creep.turn != 0.0) continue;
     const Vec2 velocity = creep.speed * from_body(rotation(creep.turn), ahead);
@@ -286,7 +284,7 @@ Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const Scene& sce
     const auto creep = creep_round(guard, model, scene, own, row, preferred, hard);
     if (creep) return *creep;
   }
-  if (is_wedged(scene, own, row) && now < kStill) {
+  if (own.on_wheels && is_wedged(scene, row) && now < kStill) {
     const Vec2 turned = turned_wheels(scene, own, row);
     if (guard.admits(turned)) return turned;
   }

@@ -102,6 +102,10 @@ class StoppingGuard {
   std::vector<Foe> foes_;  ///< those that were looked at closely so far
 };
 
+/// An agent on a road that stands although nothing there has to be waited for: it is stuck between
+/// bodies.
+bool is_wedged(const Scene& scene, std::size_t row);
+
 /// v_new made safe: `velocity` if the guard admits it, or else the nearest of a few slower ones
 /// along it that it admits, or null: braking with the wheels as they are. A body that is held up
 /// (asked to stand although it prefers to go) creeps round what is in its way instead, as long as

@@ -97,10 +97,10 @@ TEST_F(ContextTest, TheSubGoalLiesAheadOnThePath) {
 
 TEST_F(ContextTest, ThePlaceThatAnAgentLikesBesideItsPathIsKeptOnTheRoad) {
   const std::size_t own = here_.add("bicycle", {"in", "out"}, 40, 4);
-  here_.scene.path_offset[own] = -0.5;
+  here_.scene.lateral_aim[own] = -0.5;
   here_.update();
   EXPECT_NEAR(here_.context(own).sub_goal.y(), -0.5, 1e-9);
-  here_.scene.path_offset[own] = -30;
+  here_.scene.lateral_aim[own] = -30;
   here_.update();
   // lane of 3.2 m, body of 0.65 m
   EXPECT_NEAR(here_.context(own).sub_goal.y(), -(1.6 - 0.325 - 0.1), 1e-9);
