@@ -52,10 +52,12 @@ bool is_safe(const Scene& scene, const Surroundings& around, std::size_t row, do
 }
 
 /// Is somebody beside about to change into the same lane, from its other side, before this agent?
-bool is_contested(const Scene& scene, const Surroundings& around, std::size_t row, LaneId target) {
+bool is_contested(const Scene& scene, const Surroundings& around, std::size_t row, LaneId target,
+                  double shift) {
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
-    return scene.merge_to[user.row] == target && user.rear < front + 2.0 &&
+    const bool other_side = (user.offset - shift) * shift > 0.0;
+    return other_side && scene.merge_to[user.row] == target && user.rear < front + 2.0 &&
            user.front > rear - 2.0 && !(scene.gate[user.row] < 1e9) &&
            (scene.merge_to[row] != target || scene.id[user.row] < scene.id[row]);
   });
@@ -129,7 +131,7 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   const double left = model.road.left_hand ? -1.0 : 1.0;
   const double shift = (to.index > from.index ? left : -left) * 0.5 * (from.width + to.width);
   const double braking = speed < 2.0 ? kPressed : kSafeBraking;
-  if (!is_contested(scene, around, row, change->lane) &&
+  if (!is_contested(scene, around, row, change->lane, shift) &&
       is_safe(scene, around, row, shift, braking))
     return;
   intent.gate = change->from;
