@@ -75,6 +75,12 @@ std::string box(const Frame& frame, const AgentType& type, const ObservedAgent& 
   return text + "\"/>\n";
 }
 
+std::string solid(const Frame& frame, const Obstacle& obstacle) {
+  std::string text = "<polygon fill=\"#e9d8c4\" stroke=\"#b08d62\" points=\"";
+  for (const Vec2& at : obstacle.outline) text += format("%.1f,%.1f ", frame.x(at), frame.y(at));
+  return text + "\"/>\n";
+}
+
 }  // namespace
 
 std::string forecast_svg(const TrackSet& truth, const ObservedScene& scene,
@@ -94,6 +100,7 @@ std::string forecast_svg(const TrackSet& truth, const ObservedScene& scene,
   text +=
       "font-family=\"sans-serif\" font-size=\"14\">\n<rect width=\"100%\" height=\"100%\" "
       "fill=\"white\"/>\n";
+  for (const Obstacle& obstacle : truth.obstacles) text += solid(frame, obstacle);
   for (std::size_t row = 0; row < scene.agents.size(); ++row)
     text += box(frame, type_of(types, scene.agents[row].type), scene.agents[row]);
   for (const Forecast& sample : samples)
