@@ -8,14 +8,12 @@ namespace sumogamma {
 
 namespace {
 
-/// Remembers the nearest of those ahead who wait for a gap in this lane.
-void note_merging(const Scene& scene, std::size_t other, const PolylinePosition& place,
-                  const Vec2& direction, double front, DrivingAhead& ahead) {
-  const double half = half_extent(scene, other, direction);
-  if (place.along - half < front + 1.0) return;
-  if (ahead.merging.id >= 0 && ahead.merging.rear <= place.along - half) return;
-  ahead.merging = {place.along - half, place.along + half,
-                   std::max(0.0, scene.velocity[other].dot(direction)), scene.id[other].value};
+/// Remembers the nearest of those ahead who wait for a gap in this lane or are on their way into
+/// it.
+void note_merging(const DrivingAhead::Vehicle& vehicle, bool on_its_way, DrivingAhead& ahead) {
+  if (ahead.merging.id >= 0 && ahead.merging.rear <= vehicle.rear) return;
+  ahead.merging = vehicle;
+  ahead.on_its_way = on_its_way;
 }
 
 }  // namespace
@@ -56,14 +54,17 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
       const bool merges =
           scene.merge_to[other] != kNoLane && scene.merge_to[other] == scene.lane[row].lane;
       if (!merges) return;
-      // who is on its way into this lane and ahead is followed already: it needs the room
       const Path* theirs = road.path(scene.path[other]);
       const bool on_its_way =
           theirs != nullptr && theirs->stretch_at(scene.path_along[other]).changing;
-      if (!on_its_way || place.along < along + own_half_length) {
-        note_merging(scene, other, place, direction, along + own_half_length, ahead);
-        return;
-      }
+      // who is on its way already needs the room beside it, too
+      const double front = along + own_half_length;
+      if (on_its_way ? place.along > front : rear > front + 1.0)
+        note_merging(
+            {rear, 2.0 * place.along - rear, std::max(0.0, scene.velocity[other].dot(direction)),
+             static_cast<std::int64_t>(scene.id[other].value)},
+            on_its_way, ahead);
+      return;
     }
     if (gap < -own_half_length) return;
     const Vec2 velocity = scene.velocity[other];

@@ -27,7 +27,8 @@ struct DrivingAhead {
   };
   std::array<Vehicle, 24> vehicles;
   std::size_t count = 0;
-  Vehicle merging;  ///< the nearest that has to change into this agent's lane and waits for a gap
+  Vehicle merging;          ///< the nearest that has to change into this agent's lane
+  bool on_its_way = false;  ///< it has begun to; else it waits for a gap
 
   void add(const Vehicle& vehicle) {
     if (count < vehicles.size()) vehicles[count++] = vehicle;

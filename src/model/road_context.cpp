@@ -148,8 +148,10 @@ void set_allowed_speed(const Model& model, const RoadState& road, const Scene& s
   if (ahead.merging.id >= 0) {
     const double courtesy = following_acceleration(type, course.speed, free_speed,
                                                    ahead.merging.rear - front, ahead.merging.speed);
-    if (courtesy > -kCourtesy)
-      limit(courtesy, LimitReason::Leader, ahead.merging.id, binding, context);
+    // who waits for a gap gets one where that is easy, who is on its way gets it anyhow
+    if (courtesy > -kCourtesy || ahead.on_its_way)
+      limit(std::max(courtesy, -kCourtesy), LimitReason::Leader, ahead.merging.id, binding,
+            context);
   }
   const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed, free_speed};
   for (const PathLink& link : course.path.links) {

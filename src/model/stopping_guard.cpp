@@ -21,6 +21,7 @@ constexpr double kStill = 0.01;
 constexpr double kShuffle = 0.28;  // [m/s]
 // rounding: neither an overlap nor a smaller gap [m]
 constexpr double kSame = 1e-6;
+constexpr double kHair = 2e-3;
 
 using Braking = StoppingGuard::Braking;
 
@@ -183,7 +184,8 @@ bool StoppingGuard::clear_at(Foe& foe, std::size_t instant, const Pose& pose) co
   const Room& room = room_at(foe, instant);
   // no closer than by braking now is as good as braking
   if (gap >= room.gap - kSame) return true;
-  if (foe.overlaps) return false;
+  // deeper by a hair is what it takes to roll out of each other side by side
+  if (foe.overlaps) return gap >= room.gap - kHair;
   // closer than the margin already: half of what is left may be used, so that bodies side by side
   // can turn apart
   if (gap < std::min(model_->options.guard_margin, 0.5 * room.gap)) return false;
