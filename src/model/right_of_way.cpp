@@ -116,6 +116,7 @@ struct Judge {
     if (!overlap) return Verdict::Free;
     const bool waits_for_us =
         foe.stands && approaches.waiting(foe.row).foe == scene.id[traveller.row].value;
+    if (waits_for_us && !zone.yields && !foe_inside) return Verdict::Held;
     if (waits_for_us) return waiting_verdict(foe);
     if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
     if (waits_behind(model, scene, approaches, foe, traveller.row)) return Verdict::Held;
@@ -150,6 +151,13 @@ struct Judge {
                                                                       : Verdict::Blocks;
   }
 };
+
+/// Do two links lead from lanes of one road into one lane?
+bool runs_together(const Model& model, ConnectionId a, ConnectionId b) {
+  const Connection &own = model.road.connection(a), &other = model.road.connection(b);
+  return own.to == other.to && own.from != other.from &&
+         model.road.lane(own.from).edge == model.road.lane(other.from).edge;
+}
 
 }  // namespace
 
@@ -196,6 +204,7 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
     zone.end = ours_to_cover.end;
     if (free_green) zone.yields = false;
     const double to_zone = link.stop_line + zone.begin - traveller.front;
+    if (runs_together(model, link.connection, zone.foe)) continue;
     if (to_zone < 0.3) continue;  // already in it: go on, avoidance does the rest
     for (const Approach& foe : approaches.of(zone.foe)) {
       const Verdict verdict = judge.of(zone, foe);
@@ -215,6 +224,28 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
     }
   }
   return decision;
+}
+
+ZipperLeader find_zipper_leader(const Model& model, const Scene& scene,
+                                const ApproachTable& approaches, const Traveller& traveller,
+                                const PathLink& link) {
+  ZipperLeader leader;
+  for (const ConflictZone& zone : model.conflicts[index_of(link.connection)]) {
+    if (!runs_together(model, link.connection, zone.foe)) continue;
+    const double own_way = link.stop_line + zone.end - traveller.front;
+    if (own_way < 0.0) continue;
+    for (const Approach& foe : approaches.of(zone.foe)) {
+      const double their_way = zone.foe_end - foe.front;
+      if (foe.row == traveller.row || their_way < -foe.length) continue;
+      const bool first = their_way < own_way ||
+                         (their_way == own_way && scene.id[foe.row] < scene.id[traveller.row]);
+      if (!first) continue;
+      const double gap = own_way - their_way - foe.length;
+      if (leader.id < 0 || gap < leader.gap)
+        leader = {gap, foe.speed, static_cast<std::int64_t>(scene.id[foe.row].value)};
+    }
+  }
+  return leader;
 }
 
 }  // namespace sumogamma

@@ -26,4 +26,14 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
                          const ApproachTable& approaches, const Traveller& traveller,
                          const PathLink& link);
 
+/// Whom to follow where lanes run together like the teeth of a zipper, into one lane from lanes of
+/// one road: who is nearer to the end of the common ground goes first.
+struct ZipperLeader {
+  double gap = 0, speed = 0;  ///< between the fronts less the other's length [m]; of it [m/s]
+  std::int64_t id = -1;       ///< -1: nobody
+};
+ZipperLeader find_zipper_leader(const Model& model, const Scene& scene,
+                                const ApproachTable& approaches, const Traveller& traveller,
+                                const PathLink& link);
+
 }  // namespace sumogamma

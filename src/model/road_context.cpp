@@ -157,6 +157,13 @@ void set_allowed_speed(const Model& model, const RoadState& road, const Scene& s
   for (const PathLink& link : course.path.links) {
     if (link.end < course.along - course.half_length) continue;
     if (link.stop_line > front + reach) break;
+    const ZipperLeader teeth = find_zipper_leader(model, scene, approaches, traveller, link);
+    if (teeth.id >= 0) {
+      const double zipped = following_acceleration(type, course.speed, free_speed,
+                                                   std::max(teeth.gap, 0.3), teeth.speed);
+      limit(std::max(zipped, -type.comfortable_deceleration), LimitReason::Leader, teeth.id,
+            binding, context);
+    }
     LinkDecision decision = decide_link(model, road, scene, approaches, traveller, link);
     const bool conflicts = !model.conflicts[index_of(link.connection)].empty();
     if (!decision.must_stop && conflicts && link.stop_line > front - 0.3) {
