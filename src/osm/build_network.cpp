@@ -1,13 +1,17 @@
 #include "osm/build_network.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "base/error.h"
+#include "osm/carriageways_apart.h"
 #include "osm/driving_side.h"
 #include "osm/geo_projection.h"
+#include "osm/lane_overlap.h"
 #include "osm/netconvert.h"
 #include "osm/network_facts.h"
 #include "osm/obstacles.h"
@@ -22,7 +26,9 @@ namespace {
 constexpr double kReadMargin =
     200.0;  // [m] read beyond the box, so that stop lines and squares at its edge are seen
 constexpr double kStopReach = 30.0;  // [m] from a stop sign to the junction it guards
-constexpr double kLargest = 100e3;   // [m] side of a map that one plane and one netconvert can bear
+constexpr double kWorthAnotherPass =
+    0.005;  // share of the lanes for wheels that still overlap: another pass takes its time
+constexpr double kLargest = 100e3;  // [m] side of a map that one plane and one netconvert can bear
 
 std::string box_text(const GeoBox& box) {
   char text[128];
@@ -100,6 +106,47 @@ std::string read_text(const std::filesystem::path& file) {
   return text.str();
 }
 
+/// Metres of lanes on lanes of other edges, for wheels and for walking, as they stand.
+void note_overlap_before(const RoadNetwork& road, BuildResult& result) {
+  const OverlapLength before = overlap_length(road, find_lane_overlaps(road));
+  result.built["overlapping_lanes_before_m"] = std::round(before.wheels);
+  result.built["overlapping_walkways_before_m"] = std::round(before.walking);
+}
+
+void note_carriageways(const CarriagewayPlan& plan, BuildResult& result) {
+  for (const auto& [edge, shape] : plan.shapes)
+    result.log.add(Severity::Note, "moved_apart",
+                   "edges moved sideways because their lanes lay on those of other edges", edge);
+  for (const auto& [lane, width] : plan.lane_widths)
+    result.log.add(Severity::Note, "lanes_narrowed",
+                   "lanes narrowed where there was no room to move edges apart", lane);
+  for (const std::string& edge : plan.dropped)
+    result.log.add(Severity::Note, "path_on_carriageway",
+                   "paths left out that ran lengthwise inside a carriageway", edge);
+}
+
+long count_crossings(const RoadNetwork& road) {
+  return std::count_if(road.edges.begin(), road.edges.end(),
+                       [](const Edge& edge) { return edge.kind == LaneKind::Crossing; });
+}
+
+/// Has netconvert apply the patch to `road`, the network as it stands, with carriageways moved
+/// apart. The patched network, or nothing where it was stopped.
+std::optional<RoadNetwork> patch_apart(const NetconvertRequest& netconvert, const RoadNetwork& road,
+                                       NetworkPatch patch, BuildResult& result) {
+  const std::filesystem::path network = netconvert.folder / netconvert.network;
+  patch.carriageways = plan_carriageways(network, road);
+  if (patch.empty()) return road;
+  if (patch_network(netconvert, patch).empty()) return std::nullopt;
+  note_carriageways(patch.carriageways, result);
+  RoadNetwork patched = read_sumo_net(network);
+  if (const long lost = count_crossings(road) - count_crossings(patched); lost > 0)
+    result.log.add(Severity::Note, "crossings_lost",
+                   "crossings for which there is no room, or no use, any more after edges moved",
+                   "", lost);
+  return patched;
+}
+
 /// Builds net.net.xml; false where it was stopped.
 bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result) {
   NetconvertRequest netconvert;
@@ -113,19 +160,26 @@ bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result
   write_prepared_osm(map, request.folder / netconvert.prepared);
   result.command = run_netconvert(netconvert);
   if (result.command.empty()) return false;
+  std::optional<RoadNetwork> road = read_sumo_net(network);
+  note_overlap_before(*road, result);
   NetworkPatch patch;
   patch.roundabouts = unmarked_roundabouts(network, map);
-  patch.stop_types = stop_types(network, find_stop_signs(map, kStopReach));
-  if (!patch.empty()) {
-    if (patch_network(netconvert, patch).empty()) return false;
-    for (const auto& ring : patch.roundabouts)
-      result.log.add(Severity::Note, "roundabout_marked",
-                     "roundabouts by tag that netconvert had not seen", ring[0]);
-    for (const auto& [junction, type] : patch.stop_types)
-      result.log.add(Severity::Note, "stop_signs",
-                     "junctions with stop signs, which netconvert does not read",
-                     junction + " " + type);
-  }
+  patch.stop_types = stop_types(*road, find_stop_signs(map, kStopReach));
+  for (const auto& ring : patch.roundabouts)
+    result.log.add(Severity::Note, "roundabout_marked",
+                   "roundabouts by tag that netconvert had not seen", ring[0]);
+  for (const auto& [junction, type] : patch.stop_types)
+    result.log.add(Severity::Note, "stop_signs",
+                   "junctions with stop signs, which netconvert does not read",
+                   junction + " " + type);
+  road = patch_apart(netconvert, *road, patch, result);
+  if (!road) return false;
+  // edges that lay on each other were partly swallowed by their junctions: only now all of them is
+  // there
+  const OverlapLength left = overlap_length(*road, find_lane_overlaps(*road));
+  if (left.wheels + left.walking > kWorthAnotherPass * left.all_wheels &&
+      !patch_apart(netconvert, *road, NetworkPatch{}, result))
+    return false;
   std::filesystem::remove_all(request.folder / "work");
   result.netconvert_messages = count_message_kinds(read_text(request.folder / netconvert.log));
   return true;
@@ -199,7 +253,7 @@ BuildResult build_network(const BuildRequest& request) {
   request.progress("building the network (netconvert)");
   if (!convert(map, request, result)) return result.stopped = true, std::move(result);
   result.road = read_sumo_net(request.folder / "net.net.xml");
-  result.built = network_facts(result.road);
+  result.built.merge(network_facts(result.road));
   check_network(result);
 
   request.progress("placing obstacles");

@@ -110,6 +110,36 @@ std::vector<std::string> run_netconvert(const NetconvertRequest& request) {
 
 namespace {
 
+/// New shapes and lane widths, and edges to leave out.
+void append_carriageways(const pugi::xml_node& network, const CarriagewayPlan& plan,
+                         pugi::xml_node& edges) {
+  for (const pugi::xml_node edge : network.children("edge")) {
+    const char* id = edge.attribute("id").value();
+    if (plan.dropped.contains(id)) {
+      edges.append_child("delete").append_attribute("id") = id;
+      continue;
+    }
+    pugi::xml_node patched;
+    const auto patch = [&] {
+      if (patched) return;
+      patched = edges.append_child("edge");
+      patched.append_attribute("id") = id;
+    };
+    if (const auto shape = plan.shapes.find(id); shape != plan.shapes.end()) {
+      patch();
+      patched.append_attribute("shape") = shape->second.c_str();
+    }
+    for (const pugi::xml_node lane : edge.children("lane")) {
+      const auto width = plan.lane_widths.find(lane.attribute("id").value());
+      if (width == plan.lane_widths.end()) continue;
+      patch();
+      pugi::xml_node patched_lane = patched.append_child("lane");
+      patched_lane.append_attribute("index") = lane.attribute("index").value();
+      patched_lane.append_attribute("width") = width->second;
+    }
+  }
+}
+
 void write_patch(const std::filesystem::path& network_file, const NetworkPatch& patch,
                  const std::filesystem::path& edge_file, const std::filesystem::path& node_file) {
   pugi::xml_document network, edge_document, node_document;
@@ -130,6 +160,7 @@ void write_patch(const std::filesystem::path& network_file, const NetworkPatch& 
     roundabout.append_attribute("nodes") = node_names.c_str();
     roundabout.append_attribute("edges") = edge_names.c_str();
   }
+  append_carriageways(network.child("net"), patch.carriageways, edges);
   for (const auto& [junction, type] : patch.stop_types) {
     pugi::xml_node node = nodes.append_child("node");
     node.append_attribute("id") = junction.c_str();

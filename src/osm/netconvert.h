@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "osm/carriageways_apart.h"
 #include "osm/osm_map.h"
 
 namespace sumogamma::osm {
@@ -42,7 +43,10 @@ struct NetworkPatch {
   /// id.
   std::map<std::string, std::string> stop_types;
 
-  bool empty() const { return roundabouts.empty() && stop_types.empty(); }
+  /// Lanes of different edges moved off each other.
+  CarriagewayPlan carriageways;
+
+  bool empty() const { return roundabouts.empty() && stop_types.empty() && carriageways.empty(); }
 };
 
 /// Applies the patch to request.network. Same returns and errors as run_netconvert().

@@ -1,12 +1,14 @@
 #include "osm/network_facts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <pugixml.hpp>
 #include <set>
 #include <sstream>
 
 #include "base/error.h"
+#include "osm/lane_overlap.h"
 #include "road/sumo_net_reader.h"
 
 namespace sumogamma::osm {
@@ -68,6 +70,9 @@ std::map<std::string, double> network_facts(const RoadNetwork& road) {
   facts["signals"] = static_cast<double>(road.signals.size());
   facts["connections"] = static_cast<double>(road.connections.size());
   facts["car_components"] = count_components(road, vehicle_class::kPassenger);
+  const OverlapLength overlaps = overlap_length(road, find_lane_overlaps(road));
+  facts["overlapping_lanes_m"] = std::round(overlaps.wheels);
+  facts["overlapping_walkways_m"] = std::round(overlaps.walking);
   facts["walk_components"] = count_components(road, vehicle_class::kPedestrian);
   return facts;
 }
@@ -119,11 +124,10 @@ std::vector<std::vector<std::string>> unmarked_roundabouts(const std::filesystem
   return rings;
 }
 
-std::map<std::string, std::string> stop_types(const std::filesystem::path& network,
+std::map<std::string, std::string> stop_types(const RoadNetwork& road,
                                               const std::map<std::int64_t, int>& stop_signs) {
   std::map<std::string, std::string> types;
   if (stop_signs.empty()) return types;
-  const RoadNetwork road = read_sumo_net(network);
   std::map<JunctionId, int> approaches;
   for (const Edge& edge : road.edges)
     if (edge.kind == LaneKind::Normal &&

@@ -13,7 +13,9 @@ namespace sumogamma::osm {
 
 /// What a network holds, by stable name: "edges", "lanes", "car_edges", "car_edges_with_sidewalk",
 /// "junctions", "signals", "crossings", "walking_areas", "roundabout_junctions", "connections",
-/// "car_components", "walk_components", "lanes_under_1_m", "kilometres".
+/// "car_components", "walk_components", "lanes_under_1_m", "kilometres", and the metres of lane
+/// that lie on lanes of other edges (see OverlapLength): "overlapping_lanes_m" for wheels,
+/// "overlapping_walkways_m" for walking.
 std::map<std::string, double> network_facts(const RoadNetwork& road);
 
 /// Rings of edges that stem from ways tagged as roundabouts and that the network file does not list
@@ -24,7 +26,7 @@ std::vector<std::vector<std::string>> unmarked_roundabouts(const std::filesystem
 /// SUMO's junction types for nodes with so many stop signs: "allway_stop" where every road for cars
 /// has one, else "priority_stop". Only junctions that kept their node's id and are ruled by
 /// priority: joined or signalled ones are left.
-std::map<std::string, std::string> stop_types(const std::filesystem::path& network,
+std::map<std::string, std::string> stop_types(const RoadNetwork& road,
                                               const std::map<std::int64_t, int>& stop_signs);
 
 }  // namespace sumogamma::osm

@@ -280,6 +280,27 @@ INSTANTIATE_TEST_SUITE_P(Maps, SharedMapTest,
                            return name.substr(0, name.find('.'));
                          });
 
+class OverlapTest : public SharedMapTest {};
+
+TEST_P(OverlapTest, LanesOfDifferentEdgesAreMovedApart) {
+  const fs::path map = kSharedMaps / GetParam();
+  if (!fs::exists(map))
+    GTEST_SKIP() << "no " << map << ": the extracts that do not ship are not here";
+  ASSERT_EQ(import(map, {"--agents", "10", "--duration", "60"}).exit_code, 0);
+  const auto built = nlohmann::json::parse(content(out() / "import.json"))["built"];
+  const double before = built["overlapping_lanes_before_m"];
+  EXPECT_GT(before, 500);
+  EXPECT_LT(built["overlapping_lanes_m"], before / 10);
+  EXPECT_LE(built["overlapping_walkways_m"], built["overlapping_walkways_before_m"]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Maps, OverlapTest,
+                         testing::Values("meskel_square.osm", "shi_men_er_lu.osm"),
+                         [](const auto& row) {
+                           const std::string name = row.param;
+                           return name.substr(0, name.find('.'));
+                         });
+
 TEST_F(ImportTest, RefusesWhatIsNoMap) {
   expect_refused(import(folder_ / "none.osm"), "no such file");
   expect_refused(import(kFixtures), "is a folder");

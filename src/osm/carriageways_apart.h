@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+#include "road/road_network.h"
+
+namespace sumogamma::osm {
+
+/// How edges are to change so that lanes of different edges no longer lie on each other.
+struct CarriagewayPlan {
+  std::map<std::string, std::string> shapes;  ///< by edge: SUMO's shape attribute "x,y,z x,y,z ..."
+  std::map<std::string, double> lane_widths;  ///< by lane: narrower than it was [m]
+  std::set<std::string> dropped;  ///< edges of paths that run lengthwise inside a carriageway
+  double farthest = 0;            ///< [m] greatest move sideways
+
+  bool empty() const { return shapes.empty() && lane_widths.empty() && dropped.empty(); }
+};
+
+/// Plans to move edges apart whose lanes lie on each other (see find_lane_overlaps()): OSM's lines
+/// are metres off, netconvert's lane widths are guessed, and it puts the sidewalk of a one-way road
+/// beside the lanes and then the middle of both on the line. A road's two directions move as one.
+///
+/// Each pair shares the move equally, but paths make way for roads; a road moves 4 m at most, a
+/// path 8 m; a move fades out at 1 m in 10 m along the road and on beyond the junctions through
+/// which traffic goes straight, and what it pushes into moves in turn. Where room is still missing,
+/// the lanes for driving are narrowed to 2.75 m. Paths (without lanes for driving) that lie on
+/// lanes for driving for more than a third of their length and cannot be cleared are dropped,
+/// unless that would cut people on foot off.
+///
+/// `network_file` is the file from which `road` was
+/// read. Throws Error where it cannot be read.
+CarriagewayPlan plan_carriageways(const std::filesystem::path& network_file,
+                                  const RoadNetwork& road);
+
+}  // namespace sumogamma::osm
