@@ -33,8 +33,8 @@ struct BuildResult {
   bool left_hand = false;
   std::string side_reason;  ///< "region Japan", "asked for", ...
   std::string projection;
-  std::map<std::string, long> read;       ///< what the extract held
-  std::map<std::string, double> built;    ///< network_facts()
+  std::map<std::string, long> read;     ///< what the extract held
+  std::map<std::string, double> built;  ///< network_facts(), and overlaps before edges moved apart
   std::map<std::string, long> obstacles;  ///< what became of buildings, walls and trees
   std::map<std::string, long> netconvert_messages;
   std::vector<std::string> command;  ///< netconvert's
