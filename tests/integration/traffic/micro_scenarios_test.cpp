@@ -1,0 +1,155 @@
+// One test a small scenario: what traffic does there, as tools/measure_traffic.py computes it from
+// the trajectories. Bands: docs/traffic.md, "Micro-scenarios".
+#include "traffic_run.h"
+
+namespace sumogamma {
+namespace {
+
+using nlohmann::json;
+
+/// Nobody touches anybody, stands for ever, is taken away or breaks a rule.
+void expect_sound(const json& figures) {
+  EXPECT_EQ(figures["colliding_pairs"], 0) << figures;
+  EXPECT_EQ(figures["stuck"], 0);
+  EXPECT_TRUE(figures["removed"].empty());
+  EXPECT_EQ(figures["red_light_crossings"], 0);
+  EXPECT_EQ(figures["wrong_way_s"], 0.0);
+  EXPECT_EQ(figures["off_road_s"], 0.0);
+  EXPECT_EQ(figures["sidewalk_by_vehicle_s"], 0.0);
+}
+
+void expect_all_arrive(const json& figures, int expected) {
+  EXPECT_EQ(figures["inserted"], expected);
+  EXPECT_EQ(figures["arrived"], expected);
+}
+
+TEST(MicroScenarios, ASignalledLaneDischargesAtItsSaturationFlow) {
+  const json figures = figures_of("saturation");
+  expect_sound(figures);
+  EXPECT_GE(figures["headways"], 30) << "the queues are too short to measure";
+  EXPECT_GE(figures["saturation_flow"], 1600.0) << figures;
+  EXPECT_LE(figures["saturation_flow"], 2000.0) << figures;
+}
+
+TEST(MicroScenarios, AtATwoWayStopTheSideRoadHaltsAndTheMainRoadDoesNot) {
+  const json figures = figures_of("two_way_stop");
+  expect_sound(figures);
+  expect_all_arrive(figures, 33);
+  EXPECT_EQ(figures["halted_share"], 1.0) << figures;
+  EXPECT_GE(figures["main_road_slowest"], 3.0) << "somebody with the right of way was held up";
+  EXPECT_LE(figures["main_road_hardest_braking"], 4.5);
+}
+
+TEST(MicroScenarios, AtAnAllWayStopEverybodyHaltsAndGoesInTurn) {
+  const json figures = figures_of("all_way_stop");
+  expect_sound(figures);
+  expect_all_arrive(figures, 40);
+  EXPECT_EQ(figures["halted_share"], 1.0) << figures;
+  EXPECT_LE(figures["out_of_turn_share"], 0.1) << figures;
+  EXPECT_LE(figures["mean_wait"], 10.0) << figures;
+}
+
+TEST(MicroScenarios, ARoundaboutFlowsAndIsNotEnteredInFrontOfWhoIsOnIt) {
+  const json figures = figures_of("roundabout");
+  expect_sound(figures);
+  expect_all_arrive(figures, 44);
+  EXPECT_EQ(figures["clockwise"], 0);
+  EXPECT_EQ(figures["halted_on_ring"], 0) << figures;
+  EXPECT_GE(figures["slowest_lap_speed"], 4.0) << figures;
+  EXPECT_LE(figures["mean_wait_at_entry"], 5.0) << figures;
+}
+
+TEST(MicroScenarios, DriversYieldAtAZebraAndGetAcrossThemselves) {
+  const json figures = figures_of("zebra");
+  expect_sound(figures);
+  expect_all_arrive(figures, 148);
+  EXPECT_EQ(figures["people_crossed"], 100);
+  EXPECT_EQ(figures["cars_that_cut_off"], 0) << figures;
+  EXPECT_LE(figures["mean_wait_at_kerb"], 2.0) << figures;
+  EXPECT_LE(figures["hardest_braking"], 6.0) << figures;
+  EXPECT_LE(figures["mean_car_delay"], 15.0) << figures;
+}
+
+TEST(MicroScenarios, BicyclesAreOvertakenWithAGapAndNobodyMeetsWhoComesTowardsThem) {
+  const json figures = figures_of("bicycle_overtaken");
+  expect_sound(figures);
+  expect_all_arrive(figures, 33);
+  const json two = figures["two_lanes"];
+  EXPECT_GE(two["overtakings"].get<double>(), 0.75 * two["pairs_met"].get<double>()) << figures;
+  EXPECT_GE(two["least_gap"], 1.0) << figures;
+  const json one = figures["one_lane"];
+  EXPECT_GE(one["overtakings"].get<double>(), one["pairs_met"].get<double>() / 3) << figures;
+  ASSERT_TRUE(one["least_gap"].is_number()) << "nobody was overtaken over the middle of the road";
+  EXPECT_GE(one["least_gap"], 1.0) << figures;
+  if (figures["least_time_to_oncoming"].is_number()) {
+    EXPECT_GE(figures["least_time_to_oncoming"], 2.0) << figures;
+  }
+}
+
+TEST(MicroScenarios, BusesHaltAtTheirStopAndArePassedWhereThereIsALane) {
+  const json figures = figures_of("bus_stop");
+  expect_sound(figures);
+  expect_all_arrive(figures, 34);
+  EXPECT_EQ(figures["stops"], 4);
+  EXPECT_LE(figures["largest_error"], 1.5) << figures;
+  EXPECT_GE(figures["shortest_stand"], 19.0) << figures;
+  EXPECT_LE(figures["longest_stand"], 25.0) << figures;
+  EXPECT_GE(figures["passed_on_two_lanes"], 4) << figures;
+  EXPECT_EQ(figures["passed_on_one_lane"], 0) << figures;
+  EXPECT_LE(figures["mean_delay_two_lanes"], 5.0) << figures;
+  EXPECT_LE(figures["mean_delay_oncoming"], 2.0) << figures;
+}
+
+TEST(MicroScenarios, TwoWheelersFilterToTheFrontOfAQueue) {
+  const json figures = figures_of("mixed_queue");
+  expect_sound(figures);
+  for (const char* kind : {"motorcycles", "bicycles"}) {
+    EXPECT_GE(figures[kind]["filtered_share"], 0.5) << figures;
+    EXPECT_GE(figures[kind]["cars_passed_each"], 1.0) << figures;
+  }
+  EXPECT_GE(figures["least_gap_while_filtering"], 0.2) << figures;
+  EXPECT_EQ(figures["crossed_in_green"], 1.0) << figures;
+}
+
+TEST(MicroScenarios, PeopleBothWaysOnASidewalkWalkAsFastAsWeidmannSays) {
+  const json figures = figures_of("sidewalk_counterflow");
+  EXPECT_EQ(figures["deep_pairs"], 0) << figures;
+  EXPECT_EQ(figures["stuck"], 0);
+  double densest = 0;
+  for (const json& walk : figures["walks"]) {
+    // his spread of walking speeds, 0.26 m/s
+    EXPECT_NEAR(walk["speed"].get<double>(), walk["weidmann"].get<double>(), 0.26) << walk;
+    EXPECT_EQ(walk["off_the_sidewalk"], 0) << walk;
+    densest = std::max(densest, walk["density"].get<double>());
+  }
+  EXPECT_GE(densest, 1.5) << figures;
+}
+
+TEST(MicroScenarios, TwoLanesBecomeOneInTurnAndAtTheFlowOfALane) {
+  const json figures = figures_of("lane_drop");
+  expect_sound(figures);
+  EXPECT_EQ(figures["passed"], 60) << figures;
+  EXPECT_GE(figures["flow"], 1500.0) << figures;
+  EXPECT_GE(figures["alternating_share"], 0.6) << figures;
+  EXPECT_LE(figures["hardest_braking"], 4.5) << figures;
+}
+
+TEST(MicroScenarios, APlatoonIsStableUpTo33MetresASecond) {
+  const json figures = figures_of("platoon");
+  expect_sound(figures);
+  expect_all_arrive(figures, 36);
+  const double limit[] = {13.89, 25.0, 33.0};
+  int row = 0;
+  for (const char* name : {"14", "25", "33"}) {
+    const json road = figures["roads"][name];
+    EXPECT_GE(road["leader_cruise"], 0.93 * limit[row++]) << road;
+    // who comes behind never has to brake down to less than who is ahead
+    EXPECT_LE(road["largest_shrink"], 0.1) << road;
+    EXPECT_LE(road["most_stops"], 1) << road;
+    EXPECT_GE(road["least_gap"], 1.0) << road;
+    for (const json& braking : road["hardest_braking"]) EXPECT_LE(braking, 4.5) << road;
+  }
+}
+
+}  // namespace
+}  // namespace sumogamma

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/subprocess.h"
+#include "support/coupling_scenario.h"
+
+namespace sumogamma {
+
+/// What tools/measure_traffic.py says of a run folder of the scenario; fails the test where it
+/// can't read it.
+inline nlohmann::json measured(const std::string& scenario, const std::string& folder) {
+  ProcessRequest request;
+  request.arguments = {"python3", "-B", SUMOGAMMA_SOURCE_DIR "/tools/measure_traffic.py", scenario,
+                       folder};
+  request.time_limit = 120.0;
+  const ProcessResult result = run_process(request);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  nlohmann::json figures = nlohmann::json::parse(result.output, nullptr, false);
+  EXPECT_FALSE(figures.is_discarded()) << result.output;
+  return figures;
+}
+
+/// Runs sumo_scenarios/NAME without a window and returns its figures.
+inline nlohmann::json figures_of(const std::string& scenario) {
+  const TemporaryFolder folder;
+  ProcessRequest request;
+  request.arguments = {
+      SUMOGAMMA_PROGRAM,
+      "run",
+      SUMOGAMMA_SOURCE_DIR "/sumo_scenarios/" + scenario + "/" + scenario + ".sumocfg",
+      "-o",
+      folder.file("out"),
+      "--trajectory-period",
+      "0.1",
+      "--quiet"};
+  request.time_limit = 300.0;
+  const ProcessResult result = run_process(request);
+  EXPECT_EQ(result.exit_code, 0) << describe_end(result, 300) << "\n" << result.errors;
+  return measured(scenario, folder.file("out"));
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,473 @@
+#!/usr/bin/env python3
+"""Computes what a small scenario of sumo_scenarios/ is there to show from the folder that a run of it left.
+
+usage: measure_traffic.py SCENARIO RUN_FOLDER     prints one JSON object (SI units; flows in vehicles an hour)
+       measure_traffic.py --table OUT             Markdown rows for runs OUT/SCENARIO-all beside OUT/SCENARIO-none
+
+Reads results.json, trajectories.fcd.xml.gz and the scenario's net; standard library only.
+"""
+import gzip
+import json
+import math
+import os
+import re
+import sys
+import xml.etree.ElementTree as ElementTree
+from bisect import bisect_left
+from collections import namedtuple
+
+SCENARIOS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "sumo_scenarios")
+SIZES = {"pedestrian": (0.40, 0.48), "bicycle": (1.65, 0.65), "motorcycle": (2.2, 0.9), "car": (4.5, 1.8),
+         "bus": (12.0, 2.5)}  # length, width [m] as in the scenarios' vTypes
+
+# front bumper of vehicles, centre of people [m]; angle in degrees clockwise from north; speed [m/s]
+Sample = namedtuple("Sample", "time x y angle speed")
+
+
+class Track:
+    """What one agent did: samples in order of time."""
+
+    def __init__(self, name, kind):
+        self.name, self.kind, self.samples, self._times = name, kind, [], None
+
+    def __getitem__(self, key):
+        return self.samples[key]
+
+    @property
+    def length(self):
+        return SIZES[self.kind][0]
+
+    @property
+    def width(self):
+        return SIZES[self.kind][1]
+
+    def at(self, time):
+        """Sample at `time` or the next one after; None where the agent was not there."""
+        if self._times is None:
+            self._times = [s.time for s in self.samples]
+        place = bisect_left(self._times, time - 1e-6)
+        return self.samples[place] if place < len(self.samples) and self.samples[0].time <= time + 1e-6 else None
+
+    def passes(self, condition):
+        """Time of the first sample that meets `condition`, or None."""
+        return next((s.time for s in self.samples if condition(s)), None)
+
+    def duration(self):
+        return self.samples[-1].time - self.samples[0].time
+
+
+def read_tracks(path):
+    """All tracks by id from SUMO's floating car data."""
+    tracks = {}
+    wanted = re.compile(r'(id|x|y|angle|type|speed)="([^"]*)"')
+    time = 0.0
+    with gzip.open(path, "rt", encoding="utf-8") as lines:
+        for line in lines:
+            line = line.lstrip()
+            if line.startswith("<timestep"):
+                time = float(re.search(r'time="([^"]*)"', line)[1])
+            elif line.startswith(("<vehicle", "<person")):
+                v = dict(wanted.findall(line))
+                track = tracks.get(v["id"])
+                if track is None:
+                    track = tracks[v["id"]] = Track(v["id"], v["type"])
+                track.samples.append(Sample(time, float(v["x"]), float(v["y"]), float(v["angle"]), float(v["speed"])))
+    return tracks
+
+
+def lane_points(scenario, lane):
+    """Points of a lane's shape in the scenario's net."""
+    net = ElementTree.parse(os.path.join(SCENARIOS, scenario, scenario + ".net.xml"))
+    shape = next(e.get("shape") for e in net.iter("lane") if e.get("id") == lane)
+    return [tuple(float(c) for c in point.split(",")[:2]) for point in shape.split()]
+
+
+def mean(values):
+    values = list(values)
+    return sum(values) / len(values) if values else None
+
+
+def share(flags):
+    return mean(1.0 if flag else 0.0 for flag in flags)
+
+
+def decelerations(track, window=0.5):
+    """(time, mean deceleration over `window`) along a track [m/s^2]: single ticks of rounded speeds are no measure."""
+    step = max(1, round(window / (track[1].time - track[0].time))) if len(track.samples) > 1 else 1
+    return [(a.time, (a.speed - b.speed) / (b.time - a.time))
+            for a, b in zip(track.samples, track.samples[step:])]
+
+
+def hardest(track):
+    return max((d for _, d in decelerations(track)), default=0.0)
+
+
+def vehicles(tracks):
+    return [t for t in tracks.values() if t.kind != "pedestrian"]
+
+
+# ---- one function a scenario: tracks -> figures ---------------------------------------------------------------------
+
+def discharge(tracks, scenario, green):
+    """Headways at the stop line of the vehicles that stood in each lane's queue, from the fourth on."""
+    lanes = []
+    for lane in (0, 1):
+        (_, _), (line, y) = lane_points(scenario, f"in_{lane}")
+        crossings = []
+        for track in vehicles(tracks):
+            time = track.passes(lambda s: s.x >= line)
+            if time is None or time < green or abs(track.at(time).y - y) > 1.6:
+                continue
+            crossings.append((time, min(s.speed for s in track.samples if s.time <= time) < 3.0))
+        crossings.sort()
+        queue = 0  # who stood in it or had to wait at its end
+        while queue < len(crossings) and crossings[queue][1]:
+            queue += 1
+        times = [t for t, _ in crossings[:queue]]
+        lanes.append({"queue": queue, "start_up": times[0] - green if times else None,
+                      "headways": [b - a for a, b in zip(times[3:], times[4:])]})
+    return lanes
+
+
+def saturation(tracks):
+    lanes = discharge(tracks, "saturation", green=57.0)
+    headways = [h for lane in lanes for h in lane["headways"]]
+    return {"saturation_flow": 3600 / mean(headways) if headways else None, "headways": len(headways),
+            "queues": [lane["queue"] for lane in lanes], "start_up": mean(lane["start_up"] for lane in lanes if lane["queue"]),
+            "longest_headway": max(headways, default=None)}
+
+
+ARMS = {"west": (1, 0), "east": (-1, 0), "north": (0, -1), "south": (0, 1)}  # direction of driving in
+
+
+def approaches(tracks, scenario, arms):
+    """(track, arm, distance of the front to the end of its lane as a function of a sample) of who comes from `arms`."""
+    ends = {arm: lane_points(scenario, arm + "_in_0")[-1] for arm in arms}
+    found = []
+    for track in vehicles(tracks):
+        arm = track.name.split("_")[0]
+        if arm in arms:
+            (ex, ey), (dx, dy) = ends[arm], ARMS[arm]
+            found.append((track, arm, lambda s, ex=ex, ey=ey, dx=dx, dy=dy: (ex - s.x) * dx + (ey - s.y) * dy))
+    return found
+
+
+def halts(tracks, scenario, arms):
+    """For each vehicle from `arms` that entered the junction: did it stand at its line, since when, when did it go in."""
+    rows = []
+    for track, arm, distance in approaches(tracks, scenario, arms):
+        entered = track.passes(lambda s: distance(s) < -0.5)
+        if entered is None:
+            continue
+        stood = track.passes(lambda s: -0.5 <= distance(s) < 4.0 and s.speed < 0.3)
+        rows.append({"name": track.name, "arm": arm, "entered": entered, "stood": stood})
+    return rows
+
+
+def two_way_stop(tracks):
+    minor = halts(tracks, "two_way_stop", ["north", "south"])
+    main = [t for t in vehicles(tracks) if t.name.startswith(("west_east", "east_west"))]
+    return {"minor_entered": len(minor), "halted_share": share(r["stood"] is not None for r in minor),
+            "main_road_hardest_braking": max(map(hardest, main)),
+            "main_road_slowest": min(min(s.speed for s in t.samples) for t in main),
+            "minor_mean_wait": mean(r["entered"] - r["stood"] for r in minor if r["stood"] is not None)}
+
+
+def crossing_ways(scenario):
+    """Pairs of (from edge, to edge) of the junction `centre` whose ways meet, from its request matrix."""
+    net = ElementTree.parse(os.path.join(SCENARIOS, scenario, scenario + ".net.xml"))
+    junction = next(j for j in net.iter("junction") if j.get("id") == "centre")
+    place = {lane: i for i, lane in enumerate(junction.get("intLanes").split())}
+    way = {place[c.get("via")]: (c.get("from"), c.get("to")) for c in net.iter("connection") if c.get("via") in place}
+    return {(way[int(r.get("index"))], way[foe]) for r in junction.iter("request")
+            for foe, bit in enumerate(reversed(r.get("foes"))) if bit == "1"}
+
+
+def all_way_stop(tracks):
+    rows = halts(tracks, "all_way_stop", list(ARMS))
+    stood = [r for r in rows if r["stood"] is not None]
+    way = lambda r: tuple(arm + end for arm, end in zip(r["name"].split(".")[0].split("_"), ("_in", "_out")))
+    meet = crossing_ways("all_way_stop")
+    # of two that stood at their lines at once and whose ways meet: who came later went first
+    pairs = [(a, b) for a in stood for b in stood
+             if (way(a), way(b)) in meet and a["stood"] + 1.0 < b["stood"] < a["entered"]]
+    times = sorted(r["entered"] for r in rows)
+    middle = [t for t in times if 15 <= t <= 85]
+    return {"entered": len(rows), "halted_share": share(r["stood"] is not None for r in rows),
+            "pairs_at_once": len(pairs), "out_of_turn_share": share(b["entered"] < a["entered"] for a, b in pairs),
+            "mean_wait": mean(r["entered"] - r["stood"] for r in stood),
+            "flow": 3600 * (len(middle) - 1) / (middle[-1] - middle[0]) if len(middle) > 1 else None}
+
+
+def roundabout(tracks):
+    on_ring = lambda s: math.hypot(s.x, s.y) < 26.5
+    ring, halted, waits, turns = 0, 0, [], []
+    for track in vehicles(tracks):
+        inside = [s for s in track.samples if on_ring(s)]
+        if not inside:
+            continue
+        ring += 1
+        halted += any(s.speed < 0.2 for s in inside)
+        waits.append(sum(b.time - a.time for a, b in zip(track.samples, track.samples[1:])
+                         if a.speed < 0.3 and not on_ring(a)))
+        # angle about the centre that was swept: positive is counter-clockwise
+        angles = [math.atan2(s.y, s.x) for s in inside]
+        turns.append(sum((b - a + math.pi) % (2 * math.pi) - math.pi for a, b in zip(angles, angles[1:])))
+    return {"went_round": ring, "halted_on_ring": halted, "mean_wait_at_entry": mean(waits),
+            "clockwise": sum(t < 0 for t in turns), "slowest_lap_speed": None if not ring else min(
+                mean(s.speed for s in t.samples if on_ring(s)) for t in vehicles(tracks)
+                if any(on_ring(s) for s in t.samples))}
+
+
+def zebra(tracks):
+    people = [t for t in tracks.values() if t.kind == "pedestrian"]
+    cars = vehicles(tracks)
+    road = 3.2  # half width of the carriageway [m]
+    waits, crossed = [], 0
+    for track in people:
+        # the last stay at the kerb before the carriageway was stepped on
+        step = next((i for i, s in enumerate(track.samples) if abs(s.y) < road), None)
+        if step is None:
+            continue
+        crossed += min(s.y for s in track.samples) < -road and max(s.y for s in track.samples) > road
+        waits.append(sum(b.time - a.time for a, b in zip(track.samples[:step], track.samples[1:step + 1])
+                         if a.speed < 0.3 and abs(a.y) < road + 2.5))
+    cut_off, passed = 0, 0
+    for car in cars:
+        way = 1 if car[-1].x > car[0].x else -1
+        time = car.passes(lambda s: s.x * way > -2.0)  # the front reaches the stripes
+        if time is None:
+            continue
+        passed += 1
+        front = car.at(time)
+        for walker in people:
+            s = walker.at(time)
+            # on the stripes in the car's way, or within a step of it
+            if s and abs(s.x) < 2.5 and abs(s.y) < road and abs(s.y - front.y) < 0.9 + 0.24 + 0.5:
+                cut_off += 1
+                break
+    free = 240 / 13.89
+    return {"people_crossed": crossed, "mean_wait_at_kerb": mean(waits), "waited_over_3_s": share(w > 3 for w in waits),
+            "cars_passed": passed, "cars_that_cut_off": cut_off,
+            "mean_car_delay": mean(c.duration() - free for c in cars),
+            "hardest_braking": max(map(hardest, cars))}
+
+
+def overtakings(tracks, prefix):
+    """Passes of bicycles by cars on one road: (car, bicycle, time abreast, least lateral gap, speed difference)."""
+    cars = [t for t in tracks.values() if t.name.startswith(prefix + ".car")]
+    bicycles = [t for t in tracks.values() if t.name.startswith(prefix + ".bicycle")]
+    found, met = [], 0
+    for car in cars:
+        for bicycle in bicycles:
+            times = [s.time for s in car.samples if bicycle.at(s.time)]
+            if not times:
+                continue
+            offsets = [(t, car.at(t), bicycle.at(t)) for t in times]
+            behind = offsets[0][1].x < offsets[0][2].x - bicycle.length
+            if not behind:
+                continue
+            met += 1
+            abreast = [(t, a, b) for t, a, b in offsets if a.x > b.x - bicycle.length and a.x - car.length < b.x]
+            if abreast and offsets[-1][1].x - car.length > offsets[-1][2].x:
+                gap = min(abs(a.y - b.y) for _, a, b in abreast) - (car.width + bicycle.width) / 2
+                t, a, b = abreast[len(abreast) // 2]
+                found.append({"car": car.name, "time": t, "gap": gap, "faster_by": a.speed - b.speed, "y": a.y})
+    return found, met
+
+
+def bicycle_overtaken(tracks):
+    figures = {}
+    oncoming = [t for t in tracks.values() if t.name.startswith("oncoming")]
+    for prefix, name in (("two", "two_lanes"), ("one", "one_lane")):
+        passes, met = overtakings(tracks, prefix)
+        figures[name] = {"overtakings": len(passes), "pairs_met": met,
+                         "least_gap": min((p["gap"] for p in passes), default=None),
+                         "mean_gap": mean(p["gap"] for p in passes),
+                         "mean_car_speed": mean(mean(s.speed for s in t.samples) for t in tracks.values()
+                                                if t.name.startswith(prefix + ".car"))}
+    # over the middle (y = 0) with somebody coming: time until the two would meet
+    least = math.inf
+    for car in tracks.values():
+        if not car.name.startswith("one.car"):
+            continue
+        for s in car.samples:
+            if s.y + car.width / 2 <= 0.05:
+                continue
+            for other in oncoming:
+                o = other.at(s.time)
+                if o and o.x > s.x:
+                    least = min(least, (o.x - s.x) / max(0.1, o.speed + s.speed))
+    figures["least_time_to_oncoming"] = None if least == math.inf else least
+    return figures
+
+
+def bus_stop(tracks):
+    stands = []
+    for track in tracks.values():
+        if track.kind == "bus":
+            standing = [s for s in track.samples if s.speed < 0.1 and abs(s.x - 220) < 10]
+            stands.append({"bus": track.name, "at": mean(s.x for s in standing),
+                           "since": standing[0].time if standing else None,
+                           "until": standing[-1].time if standing else None,
+                           "seconds": standing[-1].time - standing[0].time if standing else 0.0})
+    passed = {"two": 0, "one": 0}
+    for stand in stands:
+        road = stand["bus"].split(".")[0]
+        if stand["since"] is None:
+            continue
+        for track in tracks.values():
+            a, b = (track.at(stand["since"]), track.at(stand["until"]))
+            if track.name.startswith(road + ".car") and a and a.x < stand["at"] - 12:
+                passed[road] += b is None or b.x - track.length > stand["at"]
+    cars = lambda prefix: [t for t in tracks.values() if t.name.startswith(prefix)]
+    return {"stops": len(stands), "largest_error": max(abs(s["at"] - 220) if s["at"] else math.inf for s in stands),
+            "shortest_stand": min(s["seconds"] for s in stands), "longest_stand": max(s["seconds"] for s in stands),
+            "passed_on_two_lanes": passed["two"], "passed_on_one_lane": passed["one"],
+            "mean_delay_two_lanes": mean(t.duration() - 400 / 13.89 for t in cars("two.car")),
+            "mean_delay_one_lane": mean(t.duration() - 400 / 13.89 for t in cars("one.car")),
+            "mean_delay_oncoming": mean(t.duration() - 400 / 13.89 for t in cars("oncoming"))}
+
+
+def mixed_queue(tracks, green=57.0):
+    (_, _), (line, _) = lane_points("mixed_queue", "in_0")
+    cars = [t for t in tracks.values() if t.kind == "car"]
+    figures, gaps = {}, []
+    for kind in ("motorcycle", "bicycle"):
+        passed = []
+        for rider in (t for t in tracks.values() if t.kind == kind and t.at(green)):
+            beside = set()  # standing cars that it went by within a metre
+            for s in rider.samples:
+                if s.time > green or s.speed < 0.5:
+                    continue
+                for car in cars:
+                    c = car.at(s.time)
+                    if c and c.speed < 0.5 and s.x > c.x - car.length and s.x - rider.length < c.x:
+                        gap = abs(s.y - c.y) - (rider.width + car.width) / 2
+                        if gap < 1.0:
+                            beside.add(car.name)
+                            gaps.append(gap)
+            passed.append(sum(tracks[name].at(green).x - SIZES["car"][0] / 2 < rider.at(green).x for name in beside))
+        figures[kind + "s"] = {"at_the_light": len(passed), "cars_passed_each": mean(passed),
+                               "filtered_share": share(n > 0 for n in passed)}
+    figures["least_gap_while_filtering"] = min(gaps, default=None)
+    times = [t.passes(lambda s: s.x >= line) for t in tracks.values() if t.name[:4] != "side" and t.at(green)]
+    figures["crossed_in_green"] = share(t is not None and t < green + 58 for t in times)
+    figures["last_crossing_after_green"] = max((t - green for t in times if t), default=None)
+    return figures
+
+
+def weidmann(density):
+    """Speed of people at a density [1/m^2] (Weidmann 1993), [m/s]."""
+    return 1.34 * (1 - math.exp(-1.913 * (1 / density - 1 / 5.4))) if density > 0 else 1.34
+
+
+def sidewalk_counterflow(tracks):
+    """Density and speed after Edie in the middle 14 m of each sidewalk from 8 to 28 s, beside Weidmann's speed."""
+    begin, end, west, east, width = 8.0, 28.0, 8.0, 22.0, 3.0
+    walks = []
+    for k in range(4):
+        time = distance = 0.0
+        wrong = 0
+        for track in tracks.values():
+            if not track.name.startswith(f"{k}."):
+                continue
+            for a, b in zip(track.samples, track.samples[1:]):
+                if begin <= a.time < end and west <= a.x <= east:
+                    way = 1 if track[-1].x > track[0].x else -1
+                    time += b.time - a.time
+                    distance += (b.x - a.x) * way
+                    wrong += abs(a.y - 12 * k + width / 2) > width / 2 + 0.1
+        density = time / ((end - begin) * (east - west) * width)
+        walks.append({"density": density, "speed": distance / time if time else None, "weidmann": weidmann(density),
+                      "off_the_sidewalk": wrong})
+    return {"walks": walks, "largest_difference": max(abs(w["speed"] - w["weidmann"]) for w in walks)}
+
+
+def lane_drop(tracks):
+    (first, _), (end, _) = lane_points("lane_drop", "narrow_0")[0], lane_points("lane_drop", "wide_1")[-1]
+    left_y = lane_points("lane_drop", "wide_1")[-1][1]
+    right_y = lane_points("lane_drop", "wide_0")[-1][1]
+    rows = []
+    for track in vehicles(tracks):
+        time = track.passes(lambda s: s.x >= first)
+        before = next((s for s in track.samples if s.x >= end - 40), None)
+        if time is not None and before is not None:
+            rows.append((time, abs(before.y - left_y) < abs(before.y - right_y)))
+    rows.sort()
+    busy = [r for r in rows if 40 <= r[0] <= 130]
+    return {"passed": len(rows),
+            "flow": 3600 * (len(busy) - 1) / (busy[-1][0] - busy[0][0]) if len(busy) > 1 else None,
+            "alternating_share": share(a[1] != b[1] for a, b in zip(busy, busy[1:])),
+            "from_left_share": share(r[1] for r in busy),
+            "longest_gap": max((b[0] - a[0] for a, b in zip(busy, busy[1:])), default=None),
+            "hardest_braking": max(map(hardest, vehicles(tracks)))}
+
+
+def platoon(tracks):
+    roads = {}
+    for speed in ("14", "25", "33"):
+        cars = sorted((t for t in tracks.values() if t.name.startswith(speed + ".")), key=lambda t: t.name)
+        half = {"14": 600, "25": 1000, "33": 1400}[speed]
+        minima, hard, stops, cruising, gaps = [], [], [], [], []
+        for car in cars:
+            window = [s for s in car.samples if s.x > 0.4 * half]
+            minima.append(min((s.speed for s in window), default=math.nan))
+            hard.append(max((d for t, d in decelerations(car) if t >= window[0].time), default=0.0) if window else 0.0)
+            slow = [s.speed < 0.2 for s in window]
+            stops.append(sum(b and not a for a, b in zip(slow, slow[1:])))
+            cruising.append(max((s.speed for s in car.samples), default=0.0))
+        for ahead, behind in zip(cars, cars[1:]):
+            for s in behind.samples[::10]:
+                other = ahead.at(s.time)
+                if other:
+                    gaps.append(other.x - ahead.length - s.x)
+        roads[speed] = {"cars": len(cars), "speed_minima": [round(v, 2) for v in minima],
+                        "largest_shrink": max((a - b for a, b in zip(minima, minima[1:])), default=0.0),
+                        "hardest_braking": [round(v, 2) for v in hard], "most_stops": max(stops, default=0),
+                        "leader_cruise": cruising[0] if cruising else None, "least_gap": min(gaps, default=None)}
+    return {"roads": roads}
+
+
+MEASURES = {f.__name__: f for f in (saturation, two_way_stop, all_way_stop, roundabout, zebra, bicycle_overtaken,
+                                    bus_stop, mixed_queue, sidewalk_counterflow, lane_drop, platoon)}
+
+
+def common(results, tracks):
+    """What every scenario is asked."""
+    agents, collisions, flow = results["agents"], results["collisions"], results["flow"]
+    return {"inserted": agents["inserted"], "arrived": agents["arrived"], "removed": agents["removed"],
+            "colliding_pairs": collisions["unique_pairs"], "deep_pairs": collisions["deep_pairs"],
+            "stuck": flow["stuck_agents"], "longest_standstill": flow["longest_standstill_s"],
+            "red_light_crossings": results["rules"]["red_light_crossings"],
+            "wrong_way_s": results["rules"]["wrong_way_s"], "off_road_s": results["rules"]["off_road_s"],
+            "sidewalk_by_vehicle_s": results["rules"]["sidewalk_by_vehicle_s"],
+            "accel_p95": results["smoothness"]["accel_p95"], "jerk_p95": results["smoothness"]["jerk_p95"],
+            "mean_time_in_scenario": mean(t.duration() for t in tracks.values())}
+
+
+def rounded(value):
+    if isinstance(value, float):
+        return round(value, 3) if math.isfinite(value) else None
+    if isinstance(value, dict):
+        return {k: rounded(v) for k, v in value.items()}
+    return [rounded(v) for v in value] if isinstance(value, list) else value
+
+
+def measure(scenario, folder):
+    with open(os.path.join(folder, "results.json"), encoding="utf-8") as stream:
+        results = json.load(stream)
+    tracks = read_tracks(os.path.join(folder, "trajectories.fcd.xml.gz"))
+    return rounded({"scenario": scenario, **common(results, tracks), **MEASURES[scenario](tracks)})
+
+
+def main(arguments):
+    if len(arguments) == 2 and arguments[0] in MEASURES:
+        print(json.dumps(measure(*arguments), indent=1))
+        return 0
+    print(__doc__, file=sys.stderr)
+    return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
