@@ -7,13 +7,16 @@ namespace {
 
 using nlohmann::json;
 
-/// Nobody touches anybody, stands for ever, is taken away or breaks a rule.
-void expect_sound(const json& figures) {
+/// Nobody touches anybody, stands for ever, is taken away or breaks a rule; who may overtake over
+/// the middle of the road drives on its other side meanwhile.
+void expect_sound(const json& figures, bool may_use_other_side = false) {
   EXPECT_EQ(figures["colliding_pairs"], 0) << figures;
   EXPECT_EQ(figures["stuck"], 0);
   EXPECT_TRUE(figures["removed"].empty());
   EXPECT_EQ(figures["red_light_crossings"], 0);
-  EXPECT_EQ(figures["wrong_way_s"], 0.0);
+  if (!may_use_other_side) {
+    EXPECT_EQ(figures["wrong_way_s"], 0.0);
+  }
   EXPECT_EQ(figures["off_road_s"], 0.0);
   EXPECT_EQ(figures["sidewalk_by_vehicle_s"], 0.0);
 }
@@ -72,7 +75,7 @@ TEST(MicroScenarios, DriversYieldAtAZebraAndGetAcrossThemselves) {
 
 TEST(MicroScenarios, BicyclesAreOvertakenWithAGapAndNobodyMeetsWhoComesTowardsThem) {
   const json figures = figures_of("bicycle_overtaken");
-  expect_sound(figures);
+  expect_sound(figures, true);
   expect_all_arrive(figures, 33);
   const json two = figures["two_lanes"];
   EXPECT_GE(two["overtakings"].get<double>(), 0.75 * two["pairs_met"].get<double>()) << figures;
