@@ -17,6 +17,7 @@ constexpr double kGain = 1.0;         ///< worth a lane change [m/s]
 constexpr double kChangeTime = 3.0;   ///< [s]
 constexpr double kPatience = 4.0;     ///< with a lane change that somebody stands in the way of [s]
 constexpr double kBack = 20.0;        ///< of path kept behind the body [m]
+constexpr double kSlowest = 3.5;      ///< at which lanes are changed without need [m/s]
 constexpr double kShortest = 12.0;    ///< change [m]
 
 double look_ahead(const Scene& scene, std::size_t row) {
@@ -69,7 +70,7 @@ LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
   const PathStretch& here = path.stretch_at(around.along);
   const double distance = std::max(kChangeTime * around.speed, kShortest);
   const Lane& lane = model.road.lane(here.lane);
-  if (lane.kind != LaneKind::Normal || here.changing || around.speed < 2.0 ||
+  if (lane.kind != LaneKind::Normal || here.changing || around.speed < kSlowest ||
       std::abs(around.offset) > 1.2 || here.to - around.along < distance + 2.0 ||
       around.along - here.from < around.half_length)
     return kNoLane;

@@ -226,6 +226,13 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
   return decision;
 }
 
+bool has_crossing_traffic(const Model& model, ConnectionId link) {
+  const auto& zones = model.conflicts[index_of(link)];
+  return std::any_of(zones.begin(), zones.end(), [&](const ConflictZone& zone) {
+    return !runs_together(model, link, zone.foe);
+  });
+}
+
 ZipperLeader find_zipper_leader(const Model& model, const Scene& scene,
                                 const ApproachTable& approaches, const Traveller& traveller,
                                 const PathLink& link) {

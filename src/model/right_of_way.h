@@ -26,6 +26,9 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
                          const ApproachTable& approaches, const Traveller& traveller,
                          const PathLink& link);
 
+/// Does anybody cross or join at a link but those who come from the next lane of the same road?
+bool has_crossing_traffic(const Model& model, ConnectionId link);
+
 /// Whom to follow where lanes run together like the teeth of a zipper, into one lane from lanes of
 /// one road: who is nearer to the end of the common ground goes first.
 struct ZipperLeader {

@@ -159,13 +159,15 @@ void set_allowed_speed(const Model& model, const RoadState& road, const Scene& s
     if (link.stop_line > front + reach) break;
     const ZipperLeader teeth = find_zipper_leader(model, scene, approaches, traveller, link);
     if (teeth.id >= 0) {
-      const double zipped = following_acceleration(type, course.speed, free_speed,
-                                                   std::max(teeth.gap, 0.3), teeth.speed);
+      // closer than it will follow afterwards: the gap opens while lanes run together
+      const double gap = std::max(teeth.gap, 0.3) + 0.6 * type.headway * course.speed;
+      const double zipped =
+          following_acceleration(type, course.speed, free_speed, gap, teeth.speed);
       limit(std::max(zipped, -type.comfortable_deceleration), LimitReason::Leader, teeth.id,
             binding, context);
     }
     LinkDecision decision = decide_link(model, road, scene, approaches, traveller, link);
-    const bool conflicts = !model.conflicts[index_of(link.connection)].empty();
+    const bool conflicts = has_crossing_traffic(model, link.connection);
     if (!decision.must_stop && conflicts && link.stop_line > front - 0.3) {
       const std::int64_t blocker = blocks_exit(ahead, course, link);
       if (blocker >= 0)

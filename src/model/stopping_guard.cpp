@@ -94,10 +94,10 @@ void StoppingGuard::prepare(const Model& model, const Scene& scene, const TickGe
 }
 
 bool is_wedged(const Scene& scene, std::size_t row) {
-  constexpr double kWedged = 5.0;  // [s]
+  constexpr double kWedged = 5.0;    // [s]
+  constexpr double kMayStart = 0.5;  // [m/s]
   const RoadContext& context = scene.context[row];
-  return context.active && context.reason == LimitReason::None &&
-         scene.standing_time[row] > kWedged;
+  return context.active && context.allowed_speed > kMayStart && scene.standing_time[row] > kWedged;
 }
 
 bool StoppingGuard::in_lane() const {

@@ -396,10 +396,12 @@ std::optional<Path> stay_in_lane(const RoadNetwork& network, const Path& path, d
 
 std::optional<Path> back_to_lane(const RoadNetwork& network, const Path& path, double& along,
                                  double back) {
+  constexpr double kGivenUp = 0.65;
   const auto& stretches = path.stretches;
   for (std::size_t i = 1; i < stretches.size(); ++i) {
     const PathStretch &change = stretches[i], &before = stretches[i - 1];
-    if (!change.changing || along < change.from || along > 0.5 * (change.from + change.to))
+    if (!change.changing || along < change.from ||
+        along > change.from + kGivenUp * (change.to - change.from))
       continue;
     if (network.lane(before.lane).edge != network.lane(change.lane).edge) return std::nullopt;
     Remade old{network, path, along, back, before.lane};

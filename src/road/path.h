@@ -114,7 +114,7 @@ std::optional<Path> stay_in_lane(const RoadNetwork& network, const Path& path, d
 
 /// The path of the same trip for somebody who is amid a lane change at `along` and gives it up:
 /// back to the middle of the lane that it came from. Otherwise like change_lane. nullopt where
-/// there is no change there, or it has come more than half of the way.
+/// there is no change there, or it has come more than two thirds of the way.
 std::optional<Path> back_to_lane(const RoadNetwork& network, const Path& path, double& along,
                                  double back);
 

@@ -10,11 +10,11 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kRoom = 2.6;      ///< between the middles of a waiting and a turning vehicle [m]
+constexpr double kRoom = 2.6;       ///< between the middles of a waiting and a turning vehicle [m]
 constexpr double kFarthest = 10.0;  ///< [m]
-constexpr double kBody = 6.0;      ///< of a waiting vehicle, behind its front [m]
-constexpr double kStep = 0.5;      ///< [m]
-constexpr double kAfter = 10.0;    ///< of the road turned into that is looked at [m]
+constexpr double kBody = 6.0;       ///< of a waiting vehicle, behind its front [m]
+constexpr double kStep = 0.5;       ///< [m]
+constexpr double kAfter = 10.0;     ///< of the road turned into that is looked at [m]
 
 /// The way over a junction and into the road behind it.
 Polyline way_through(const RoadNetwork& network, ConnectionId id) {

@@ -130,7 +130,7 @@ BehaviorState draw_behavior(const AgentType& type, std::uint64_t seed, AgentId i
 double draw_path_offset(const Model& model, const AgentType& type, std::uint64_t seed, AgentId id) {
   const double kerb_side = model.road.left_hand ? 1.0 : -1.0;
   const double draw = random_uniform(seed, id.value, 1, Draw::Intention);
-  if (type.kinematics == Kinematics::Holonomic) return kerb_side * (0.1 + 0.8 * draw);
+  if (type.kinematics == Kinematics::Holonomic) return kerb_side * (0.3 + 0.7 * draw);
   if (type.width < 1.2) return kerb_side * (0.2 + 0.7 * draw);
   return 0.3 * (draw - 0.5);
 }
