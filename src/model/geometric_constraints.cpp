@@ -25,12 +25,13 @@ double pair_horizon(const ModelOptions& options, const AgentType& own, const Age
 /// Horizon of a pair on the road [s].
 /// differs from the paper: who follows a lane bends with it, so that straight lines over the whole
 /// horizon see collisions with oncoming traffic in every curve; leaders, signals and right of way
-/// look far ahead instead (C). Avoidance is what is left: the near term. People on foot follow no
-/// lane and keep the full horizon.
+/// look far ahead instead (C). Avoidance is what is left: the near term. People on foot who look
+/// far ahead on a full sidewalk meet face to face and stop, all of them.
 double road_horizon(const RoadContext& context, const AgentGeometry& own,
                     const AgentGeometry& other, std::int64_t foe, double horizon) {
-  constexpr double kLanes = 1.5, kLeader = 0.7;
-  if (!context.active || !own.on_wheels || !other.on_wheels) return horizon;
+  constexpr double kLanes = 1.5, kLeader = 0.7, kSidewalk = 1.2;
+  if (!context.active || own.on_wheels != other.on_wheels) return horizon;
+  if (!own.on_wheels) return std::min(horizon, kSidewalk);
   const bool leader = context.reason == LimitReason::Leader && context.foe == foe;
   return std::min(horizon, leader ? kLeader : kLanes);
 }
