@@ -24,42 +24,48 @@ void set_wanted_velocity(Scene& scene, std::size_t row, const Vec2& velocity) {
   scene.preferred_speed[row] = velocity.norm();
 }
 
-Expectation expect_next(const Model& model, Scene& scene, const TickGeometry& geometry,
-                        std::size_t row, const Belief& belief,
-                        const std::array<Vec2, kIntentions>& wanted, const Vec2& position,
-                        double period, Workspace& work) {
-  const AgentType& type = type_of(model.types, scene.type[row]);
+namespace {
+/// One pass of the model: where the row is expected next [m].
+Vec2 pass(const Question& asked, std::size_t intention, std::size_t attention,
+          std::size_t responsibility, Workspace& work) {
+  set_wanted_velocity(asked.scene, asked.row, asked.wanted[intention]);
+  BehaviorState behavior = asked.scene.behavior[asked.row];
+  behavior.attention =
+      attention_of(type_of(asked.model.types, asked.scene.type[asked.row]), attention);
+  behavior.responsibility = responsibility_of(responsibility);
+  return asked.position + asked.period * gamma_velocity(asked.model, asked.scene, asked.geometry,
+                                                        asked.row, behavior, work);
+}
+
+bool neighbour_binds_in(const Workspace& work) {
+  const ConstraintSource* source = work.binding_source();
+  return source != nullptr && source->kind == ConstraintKind::Neighbour;
+}
+}  // namespace
+
+Expectation expect_next(const Question& asked, const Belief& belief, Workspace& work) {
   const std::size_t likeliest = belief.intention.most_likely();
-  Expectation expectation;
-  expectation.valid = true;
-  auto pass = [&](std::size_t intention, std::size_t attention, std::size_t responsibility) {
-    set_wanted_velocity(scene, row, wanted[intention]);
-    BehaviorState behavior = scene.behavior[row];
-    behavior.attention = attention_of(type, attention);
-    behavior.responsibility = responsibility_of(responsibility);
-    const Vec2 velocity = gamma_velocity(model, scene, geometry, row, behavior, work);
-    return Vec2(position + period * velocity);
-  };
   const std::size_t attention = belief.attention.most_likely();
   const std::size_t responsibility = belief.responsibility.most_likely();
+  Expectation expectation;
+  expectation.valid = true;
   bool neighbour_binds = false;
   for (std::size_t k = 0; k < kIntentions; ++k) {
+    expectation.by_intention[k] = asked.position;
     // what the prior rules out needs no pass
-    if (belief.intention.log_weight[k] <= -1e299) {
-      expectation.by_intention[k] = position;
-      continue;
-    }
-    expectation.by_intention[k] = pass(k, attention, responsibility);
-    if (k == likeliest && work.binding_source() != nullptr)
-      neighbour_binds = work.binding_source()->kind == ConstraintKind::Neighbour;
+    if (belief.intention.log_weight[k] <= -1e299) continue;
+    expectation.by_intention[k] = pass(asked, k, attention, responsibility, work);
+    if (k == likeliest) neighbour_binds = neighbour_binds_in(work);
   }
   expectation.by_attention.fill(expectation.by_intention[likeliest]);
   expectation.by_responsibility.fill(expectation.by_intention[likeliest]);
   if (!neighbour_binds) return expectation;
   for (std::size_t k = 0; k < kAttentions; ++k)
-    if (k != attention) expectation.by_attention[k] = pass(likeliest, k, responsibility);
+    if (k != attention)
+      expectation.by_attention[k] = pass(asked, likeliest, k, responsibility, work);
   for (std::size_t k = 0; k < kResponsibilities; ++k)
-    if (k != responsibility) expectation.by_responsibility[k] = pass(likeliest, attention, k);
+    if (k != responsibility)
+      expectation.by_responsibility[k] = pass(asked, likeliest, attention, k, work);
   return expectation;
 }
 

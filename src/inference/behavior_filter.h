@@ -38,15 +38,20 @@ Belief initial_belief(const FilterParameters& parameters);
 /// theta at which each factor is likeliest, for a type; its intention has no goal yet.
 BehaviorState likeliest_behavior(const AgentType& type, const Belief& belief);
 
-/// Eq. 8 for one row of a frozen scene: one pass of gamma_velocity a hypothesis. `wanted` is the
-/// velocity that each intention asks for over the coming period [m/s], `position` the observed
-/// point that moves with it [m]. Attention and responsibility are passed through the model only
-/// where a neighbour binds; elsewhere they cannot tell. Writes the row's goal and preferred speed
-/// in `scene`.
-Expectation expect_next(const Model& model, Scene& scene, const TickGeometry& geometry,
-                        std::size_t row, const Belief& belief,
-                        const std::array<Vec2, kIntentions>& wanted, const Vec2& position,
-                        double period, Workspace& work);
+/// One row of a frozen scene whose next place is asked for.
+struct Question {
+  const Model& model;
+  Scene& scene;  ///< its goal and preferred speed in the row are written
+  const TickGeometry& geometry;
+  std::size_t row;
+  const std::array<Vec2, kIntentions>& wanted;  ///< velocity by intention over the period [m/s]
+  Vec2 position;                                ///< the observed point that moves with it [m]
+  double period;                                ///< [s]
+};
+
+/// Eq. 8 for one row: one pass of gamma_velocity a hypothesis. Attention and responsibility are
+/// passed through the model only where a neighbour binds; elsewhere they cannot tell.
+Expectation expect_next(const Question& asked, const Belief& belief, Workspace& work);
 
 /// Eqs. 9 and 10: weighs the hypotheses by the place where the agent was seen next. `noise` is the
 /// deviation of the observation itself [m].

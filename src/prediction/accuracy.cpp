@@ -1,6 +1,7 @@
 #include "prediction/accuracy.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/random.h"
 #include "geometry/oriented_box.h"
@@ -129,7 +130,8 @@ Interval bootstrap_mean(std::span<const double> value, std::span<const std::size
   }
   std::sort(means.begin(), means.end());
   const auto at = [&](double share) {
-    return means[static_cast<std::size_t>(share * static_cast<double>(means.size() - 1) + 0.5)];
+    return means[static_cast<std::size_t>(
+        std::lround(share * static_cast<double>(means.size() - 1)))];
   };
   interval.low = at(0.025);
   interval.high = at(0.975);

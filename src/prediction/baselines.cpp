@@ -125,10 +125,10 @@ Forecast constant_velocity(const ObservedScene& scene, std::size_t steps) {
 }
 
 Forecast smoothed_velocity(const ObservedScene& scene, std::size_t steps) {
-  constexpr double kWeights[] = {1.0, 0.8, 0.64, 0.4096};
+  constexpr std::array<double, 4> kWeights = {1.0, 0.8, 0.64, 0.4096};
   return go_straight(scene, steps, [&](const ObservedAgent& agent) {
     double speed = 0, weight = 0;
-    for (std::size_t j = 0; j < 4 && j + 1 < agent.position.size(); ++j) {
+    for (std::size_t j = 0; j < kWeights.size() && j + 1 < agent.position.size(); ++j) {
       speed += kWeights[j] * earlier_velocity(agent, j, scene.period).norm();
       weight += kWeights[j];
     }

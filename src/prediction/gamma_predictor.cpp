@@ -277,8 +277,8 @@ void GammaPredictor::infer(const ObservedScene& scene) {
     AgentMemory& memory = memory_.at(agent.id);
     memory.expectation = {};
     if (agent.position.size() >= 2)
-      memory.expectation = expect_next(model_, scene_, geometry_, r, memory.belief, wanted,
-                                       agent.now(), period_, work_);
+      memory.expectation = expect_next({model_, scene_, geometry_, r, wanted, agent.now(), period_},
+                                       memory.belief, work_);
   }
 }
 

@@ -32,16 +32,18 @@ struct Frame {
 };
 
 std::string polyline(const Frame& frame, const std::vector<Vec2>& points, const char* style) {
-  std::string text = "<polyline fill=\"none\" " + std::string(style) + " points=\"";
+  std::string text = R"(<polyline fill="none" )" + std::string(style) + R"( points=")";
   for (const Vec2& point : points) text += format("%.1f,%.1f ", frame.x(point), frame.y(point));
-  return text + "\"/>\n";
+  return text + R"("/>)"
+                "\n";
 }
 
 std::string dots(const Frame& frame, const std::vector<Vec2>& points, const char* color) {
   std::string text;
   for (std::size_t k = 1; k < points.size(); ++k)
-    text += format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2.2\" fill=\"%s\"/>\n", frame.x(points[k]),
-                   frame.y(points[k]), color);
+    text += format(R"(<circle cx="%.1f" cy="%.1f" r="2.2" fill="%s"/>)"
+                   "\n",
+                   frame.x(points[k]), frame.y(points[k]), color);
   return text;
 }
 
@@ -65,20 +67,22 @@ std::vector<Vec2> true_path(const TrackSet& truth, const ObservedScene& scene, s
 std::string box(const Frame& frame, const AgentType& type, const ObservedAgent& agent) {
   const Vec2 forward = direction_of(agent.heading.back());
   const Vec2 center = agent.now() + type.rear_axle_to_center * forward;
-  std::string text = "<polygon fill=\"#dddddd\" stroke=\"#888888\" points=\"";
+  std::string text = R"(<polygon fill="#dddddd" stroke="#888888" points=")";
   for (const Vec2& corner : {Vec2(1, 1), Vec2(-1, 1), Vec2(-1, -1), Vec2(1, -1)}) {
     const Vec2 at =
         center +
         from_body(Vec2(0.5 * type.length * corner.x(), 0.5 * type.width * corner.y()), forward);
     text += format("%.1f,%.1f ", frame.x(at), frame.y(at));
   }
-  return text + "\"/>\n";
+  return text + R"("/>)"
+                "\n";
 }
 
 std::string solid(const Frame& frame, const Obstacle& obstacle) {
-  std::string text = "<polygon fill=\"#e9d8c4\" stroke=\"#b08d62\" points=\"";
+  std::string text = R"(<polygon fill="#e9d8c4" stroke="#b08d62" points=")";
   for (const Vec2& at : obstacle.outline) text += format("%.1f,%.1f ", frame.x(at), frame.y(at));
-  return text + "\"/>\n";
+  return text + R"("/>)"
+                "\n";
 }
 
 }  // namespace
@@ -95,33 +99,36 @@ std::string forecast_svg(const TrackSet& truth, const ObservedScene& scene,
   }
   if (scene.agents.empty()) frame.hold(Vec2::Zero());
   std::string text =
-      format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" ",
+      format(R"(<svg xmlns="http://www.w3.org/2000/svg" width="%.0f" height="%.0f" )",
              frame.width(), frame.height());
-  text +=
-      "font-family=\"sans-serif\" font-size=\"14\">\n<rect width=\"100%\" height=\"100%\" "
-      "fill=\"white\"/>\n";
+  text += R"(font-family="sans-serif" font-size="14">)"
+          "\n"
+          R"(<rect width="100%" height="100%" )"
+          R"(fill="white"/>)"
+          "\n";
   for (const Obstacle& obstacle : truth.obstacles) text += solid(frame, obstacle);
-  for (std::size_t row = 0; row < scene.agents.size(); ++row)
-    text += box(frame, type_of(types, scene.agents[row].type), scene.agents[row]);
+  for (const ObservedAgent& agent : scene.agents)
+    text += box(frame, type_of(types, agent.type), agent);
   for (const Forecast& sample : samples)
     for (std::size_t row = 0; row < scene.agents.size(); ++row)
       text += polyline(frame, path_of(scene.agents[row], sample, row),
-                       "stroke=\"#9ecae9\" stroke-width=\"1\"");
+                       R"(stroke="#9ecae9" stroke-width="1")");
   for (std::size_t row = 0; row < scene.agents.size(); ++row) {
     const ObservedAgent& agent = scene.agents[row];
     const std::size_t seen = std::min<std::size_t>(agent.position.size(), 8);
     const auto past = agent.position.last(seen);
-    text += polyline(frame, {past.begin(), past.end()}, "stroke=\"#999999\" stroke-width=\"2\"");
+    text += polyline(frame, {past.begin(), past.end()}, R"(stroke="#999999" stroke-width="2")");
     const std::vector<Vec2> truth_path = true_path(truth, scene, agent.id, forecast.steps);
-    text += polyline(frame, truth_path, "stroke=\"#000000\" stroke-width=\"2\"") +
+    text += polyline(frame, truth_path, R"(stroke="#000000" stroke-width="2")") +
             dots(frame, truth_path, "#000000");
     const std::vector<Vec2> predicted = path_of(agent, forecast, row);
-    text += polyline(frame, predicted, "stroke=\"#1f6fb4\" stroke-width=\"2\"") +
+    text += polyline(frame, predicted, R"(stroke="#1f6fb4" stroke-width="2")") +
             dots(frame, predicted, "#1f6fb4");
   }
-  text += format(
-      "<text x=\"8\" y=\"20\">%s, frame %d: seen grey, truth black, prediction blue%s</text>\n",
-      truth.name.c_str(), scene.frame, samples.empty() ? "" : ", samples light");
+  text +=
+      format(R"(<text x="8" y="20">%s, frame %d: seen grey, truth black, prediction blue%s</text>)"
+             "\n",
+             truth.name.c_str(), scene.frame, samples.empty() ? "" : ", samples light");
   return text + "</svg>\n";
 }
 

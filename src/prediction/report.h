@@ -1,7 +1,9 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "prediction/evaluation.h"
@@ -11,12 +13,12 @@ namespace sumogamma {
 
 /// Figures published for a recording, to stand beside ours; marked as published in every table.
 struct PublishedResult {
-  std::string set, method;
+  std::string_view set, method;
   double average = 0, final = 0;
 };
 /// Deterministic and best-of-20 rows of the paper's tables (protocol A for GAMMA; the data-driven
 /// methods as their papers have it).
-const std::vector<PublishedResult>& published_results();
+std::span<const PublishedResult> published_results();
 
 /// Everything of one evaluation: summary with bootstrap intervals over agents, per class, per speed
 /// band, collisions, time.

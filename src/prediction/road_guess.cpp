@@ -38,7 +38,7 @@ double append_rest(const Polyline& line, double along, bool reversed, std::vecto
 }  // namespace
 
 std::array<ConnectionId, kRoadWays> RoadGuess::branches(LaneId lane, VehicleClassMask mask) const {
-  std::array<ConnectionId, kRoadWays> found;
+  std::array<ConnectionId, kRoadWays> found{};
   found.fill(kNoConnection);
   double straightest = 1e300, leftmost = -1e300, rightmost = 1e300;
   for (const ConnectionId id : network_->lane(lane).outgoing) {
@@ -70,7 +70,7 @@ Polyline RoadGuess::follow(LaneId lane, double along, bool reversed, std::size_t
   Polyline line(points);
   if (left <= 0) return line;
   points.push_back(line.points().back() + left * line.direction_at(line.length()));
-  return Polyline(std::move(points));
+  return Polyline(points);
 }
 
 std::optional<std::array<Polyline, kRoadWays>> RoadGuess::ways(const AgentType& type,
