@@ -109,14 +109,14 @@ def vehicles(tracks):
 # ---- one function a scenario: tracks -> figures ---------------------------------------------------------------------
 
 def discharge(tracks, scenario, green):
-    """Headways at the stop line of the vehicles that stood in each lane's queue, from the fourth on."""
+    """Headways at the stop line, in the green from `green` on, of who had queued in each lane: from the fourth on."""
     lanes = []
     for lane in (0, 1):
         (_, _), (line, y) = lane_points(scenario, f"in_{lane}")
         crossings = []
         for track in vehicles(tracks):
             time = track.passes(lambda s: s.x >= line)
-            if time is None or time < green or abs(track.at(time).y - y) > 1.6:
+            if time is None or not green <= time < green + 58 or abs(track.at(time).y - y) > 1.6:
                 continue
             crossings.append((time, min(s.speed for s in track.samples if s.time <= time) < 3.0))
         crossings.sort()
@@ -461,9 +461,68 @@ def measure(scenario, folder):
     return rounded({"scenario": scenario, **common(results, tracks), **MEASURES[scenario](tracks)})
 
 
+# what docs/traffic.md shows of each scenario: words, where to find it, decimals
+HEADLINES = {
+    "saturation": [("flow of a lane from the queue", "saturation_flow", "vehicles/h", 0)],
+    "two_way_stop": [("side road halts", "halted_share", "", 2), ("its wait", "minor_mean_wait", "s", 1),
+                     ("slowest on the main road", "main_road_slowest", "m/s", 1)],
+    "all_way_stop": [("halt", "halted_share", "", 2), ("out of turn", "out_of_turn_share", "", 2),
+                     ("flow", "flow", "vehicles/h", 0)],
+    "roundabout": [("halts on the ring", "halted_on_ring", "", 0), ("wait before it", "mean_wait_at_entry", "s", 1),
+                   ("slowest lap", "slowest_lap_speed", "m/s", 1)],
+    "zebra": [("people cut off", "cars_that_cut_off", "", 0), ("wait at the kerb", "mean_wait_at_kerb", "s", 1),
+              ("delay of cars", "mean_car_delay", "s", 1), ("hardest braking", "hardest_braking", "m/s²", 1)],
+    "bicycle_overtaken": [("overtaken, two lanes", "two_lanes.overtakings", "", 0),
+                          ("least gap", "two_lanes.least_gap", "m", 1),
+                          ("overtaken over the middle", "one_lane.overtakings", "", 0),
+                          ("least gap", "one_lane.least_gap", "m", 1)],
+    "bus_stop": [("largest error of place", "largest_error", "m", 2), ("cars passed", "passed_on_two_lanes", "", 0),
+                 ("delay, two lanes", "mean_delay_two_lanes", "s", 1), ("one lane", "mean_delay_one_lane", "s", 1)],
+    "mixed_queue": [("motorcycles that filter", "motorcycles.filtered_share", "", 2),
+                    ("bicycles", "bicycles.filtered_share", "", 2),
+                    ("least gap", "least_gap_while_filtering", "m", 2)],
+    "sidewalk_counterflow": [("people in overlap by more than 0.1 m, pairs", "deep_pairs", "", 0)],
+    "lane_drop": [("flow", "flow", "vehicles/h", 0), ("in turn", "alternating_share", "", 2),
+                  ("hardest braking", "hardest_braking", "m/s²", 1)],
+    "platoon": [("shrinking of minima, 14, 25, 33 m/s",
+                 ("roads.14.largest_shrink", "roads.25.largest_shrink", "roads.33.largest_shrink"), "m/s", 2),
+                ("hardest braking at 33 m/s", "roads.33.hardest_braking", "m/s²", 1)],
+}
+
+
+def headline(figures, scenario):
+    """One cell of the table."""
+    def number(path, decimals):
+        value = figures
+        for key in path.split("."):
+            value = value[key]
+        value = max(value) if isinstance(value, list) else value
+        return "–" if value is None else f"{max(value, 0.0) if path.endswith('shrink') else value:,.{decimals}f}"
+
+    cells = []
+    for words, paths, unit, decimals in HEADLINES[scenario]:
+        values = [number(p, decimals) for p in ((paths,) if isinstance(paths, str) else paths)]
+        cells.append(f"{words} {', '.join(values)} {unit}".strip())
+    if scenario == "sidewalk_counterflow":
+        cells += [f"{w['density']:.2f} /m²: {w['speed']:.2f} m/s (Weidmann {w['weidmann']:.2f})" for w in figures["walks"]]
+    cells.append(f"colliding pairs {figures['colliding_pairs']}, stuck {figures['stuck']}, "
+                 f"arrived {figures['arrived']} of {figures['inserted']}")
+    return "; ".join(cells)
+
+
+def table(out):
+    """Markdown rows for the runs OUT/SCENARIO-all and OUT/SCENARIO-none."""
+    for scenario in MEASURES:
+        cells = [headline(measure(scenario, os.path.join(out, f"{scenario}-{c}")), scenario) for c in ("all", "none")]
+        print(f"| `{scenario}` | {cells[0]} | {cells[1]} |")
+
+
 def main(arguments):
     if len(arguments) == 2 and arguments[0] in MEASURES:
         print(json.dumps(measure(*arguments), indent=1))
+        return 0
+    if len(arguments) == 2 and arguments[0] == "--table":
+        table(arguments[1])
         return 0
     print(__doc__, file=sys.stderr)
     return 2
