@@ -93,11 +93,15 @@ void StoppingGuard::prepare(const Model& model, const Scene& scene, const TickGe
   foes_.clear();
 }
 
-bool is_wedged(const Scene& scene, std::size_t row) {
-  constexpr double kWedged = 5.0;    // [s]
-  constexpr double kMayStart = 0.5;  // [m/s]
+bool is_wedged(const Scene& scene, std::size_t row) { return scene.wedge_left[row] > 0.0; }
+
+void update_wedge(double dt, Scene& scene, std::size_t row) {
+  constexpr double kPatience = 5.0, kLasts = 10.0;  // [s]
+  constexpr double kMayStart = 0.5;                 // [m/s]
   const RoadContext& context = scene.context[row];
-  return context.active && context.allowed_speed > kMayStart && scene.standing_time[row] > kWedged;
+  const bool stuck =
+      context.active && context.allowed_speed > kMayStart && scene.standing_time[row] > kPatience;
+  scene.wedge_left[row] = stuck ? kLasts : std::max(0.0, scene.wedge_left[row] - dt);
 }
 
 bool StoppingGuard::in_lane() const {

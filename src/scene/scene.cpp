@@ -31,6 +31,7 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.lateral_aim);
   visit(scene.merge_to);
   visit(scene.gate);
+  visit(scene.wedge_left);
   visit(scene.standing_time);
   visit(scene.halted_for);
   visit(scene.next_stop);

@@ -59,9 +59,11 @@ struct Scene {
   std::vector<double> lateral_aim;     ///< on the way from one to the other [m]
   std::vector<LaneId> merge_to;        ///< lane into which it has to change soon, kNoLane: none
   std::vector<double> gate;  ///< along its path, where it waits for a gap there; infinite: free
-  std::vector<double> standing_time;    ///< [s] since it was last faster than 0.3 m/s
+  std::vector<double> wedge_left;  ///< [s] for which it still drives as one that was stuck between
+                                   ///< bodies
+  std::vector<double> standing_time;     ///< [s] since it was last faster than 0.3 m/s
   std::vector<ConnectionId> halted_for;  ///< link before which it last came to a halt
-  std::vector<std::int32_t> next_stop;  ///< index of the path's next planned halt
+  std::vector<std::int32_t> next_stop;   ///< index of the path's next planned halt
   std::vector<double> stop_left;  ///< [s] still to stand at the present halt, 0 where there is none
   std::vector<LanePosition> lane;
   std::vector<double> height;        ///< of the ground under the agent [m]: bridges

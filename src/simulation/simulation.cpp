@@ -101,6 +101,7 @@ void tick(Simulation& sim, World& world) {
     }
     scene.standing_time[row] =
         scene.velocity[row].norm() < 0.3 ? scene.standing_time[row] + sim.dt : 0.0;
+    update_wedge(sim.dt, scene, row);
   }
   ++scene.tick;
   scene.time += sim.dt;
