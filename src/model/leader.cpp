@@ -8,6 +8,12 @@ namespace sumogamma {
 
 namespace {
 
+/// Somebody on foot who stands: at a kerb, as far as anyone can tell.
+bool waits_at_kerb(const Model& model, const Scene& scene, std::size_t row) {
+  return scene.standing_time[row] > 1.5 &&
+         type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic;
+}
+
 /// Remembers the nearest of those ahead who wait for a gap in this lane or are on their way into
 /// it.
 void note_merging(const DrivingAhead::Vehicle& vehicle, bool on_its_way, DrivingAhead& ahead) {
@@ -48,8 +54,9 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     const double swept = blend * own_offset + (1.0 - blend) * aim;
     const double rear = place.along - half_extent(scene, other, direction);
     const double gap = rear - along - own_half_length;
-    // whoever is beside already is passed as close as it comes
-    const double kept = gap < 0.0 ? 0.02 : margin;
+    // whoever is beside already, or waits at the kerb, is passed as close as it comes
+    const bool at_kerb = waits_at_kerb(model, scene, other);
+    const double kept = at_kerb ? -0.15 : gap < 0.0 ? 0.02 : margin;
     if (std::abs(place.offset - swept) > own_half_width + half_width + kept) {
       const bool merges =
           scene.merge_to[other] != kNoLane && scene.merge_to[other] == scene.lane[row].lane;

@@ -45,7 +45,7 @@ double passing_offset(const Model& model, const Path& path, const Scene& scene,
   const double base = most;
   const double gap_wanted = side_gap(narrow, around.speed);
   for (const RoadUser& user : around.users) {
-    if (!user.aligned || user.front < around.along - around.half_length ||
+    if ((!user.aligned && !user.on_foot) || user.front < around.along - around.half_length ||
         user.rear > around.along + around.half_length + 10.0 + 3.0 * around.speed)
       continue;
     if (!narrow && user.half_width > 0.5 * kNarrow) continue;

@@ -103,6 +103,7 @@ double stop_acceleration(const Scene& scene, const Course& course, double free_s
 /// Id of who takes the room, -1 where there is enough. Sorts `ahead`.
 std::int64_t blocks_exit(DrivingAhead& ahead, const Course& course, const PathLink& link) {
   constexpr double kBraking = 3.5;   // [m/s^2]
+  constexpr double kDrives = 3.0;    // [m/s]
   constexpr double kClosedUp = 1.0;  // [m]
   const auto begin = ahead.vehicles.begin(), end = begin + static_cast<std::ptrdiff_t>(ahead.count);
   std::sort(begin, end, [](const auto& a, const auto& b) {
@@ -111,8 +112,11 @@ std::int64_t blocks_exit(DrivingAhead& ahead, const Course& course, const PathLi
   // where each comes to rest at the least, from the far end of the queue
   double rest = std::numeric_limits<double>::infinity();
   for (auto vehicle = begin; vehicle != end; ++vehicle)
-    rest = std::min(vehicle->rear + vehicle->speed * vehicle->speed / (2.0 * kBraking),
-                    rest - kClosedUp - (vehicle->front - vehicle->rear));
+    // who drives and has nobody slow ahead goes on
+    const double alone = vehicle->speed > kDrives
+                             ? std::numeric_limits<double>::infinity()
+                             : vehicle->rear + vehicle->speed * vehicle->speed / (2.0 * kBraking);
+    rest = std::min(alone, rest - kClosedUp - (vehicle->front - vehicle->rear));
   const double needed = link.end + 2.0 * course.half_length + course.type.min_gap + 0.3;
   return ahead.count > 0 && rest < needed ? (end - 1)->id : -1;
 }

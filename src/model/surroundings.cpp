@@ -6,8 +6,9 @@
 
 namespace sumogamma {
 
-void look_around(const Model&, const RoadState& road, const Scene& scene, const SpatialGrid& grid,
-                 std::size_t row, double reach, double aside, Surroundings& around) {
+void look_around(const Model& model, const RoadState& road, const Scene& scene,
+                 const SpatialGrid& grid, std::size_t row, double reach, double aside,
+                 Surroundings& around) {
   const Path& path = *road.path(scene.path[row]);
   const double along = scene.path_along[row];
   const Vec2 tangent = path.line.direction_at(along);
@@ -24,11 +25,12 @@ void look_around(const Model&, const RoadState& road, const Scene& scene, const 
     if (place.distance > aside + scene.footprint[other].radius) return;
     const Vec2 direction = path.line.direction_at(place.along);
     const double half_length = half_extent(scene, other, direction);
-    around.users.push_back({place.along - half_length, place.along + half_length, place.offset,
-                            half_extent(scene, other, left_of(direction)),
-                            scene.velocity[other].dot(direction),
-                            direction.dot(direction_of(scene.heading[other])) > 0.5,
-                            static_cast<std::uint32_t>(other)});
+    around.users.push_back(
+        {place.along - half_length, place.along + half_length, place.offset,
+         half_extent(scene, other, left_of(direction)), scene.velocity[other].dot(direction),
+         direction.dot(direction_of(scene.heading[other])) > 0.5,
+         type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic,
+         static_cast<std::uint32_t>(other)});
   });
   std::sort(around.users.begin(), around.users.end(),
             [](const RoadUser& a, const RoadUser& b) { return a.row < b.row; });

@@ -16,6 +16,7 @@ struct RoadUser {
   double half_width = 0;       ///< across the path [m]
   double speed = 0;            ///< along the path; negative against it [m/s]
   bool aligned = false;        ///< heads the same way
+  bool on_foot = false;
   std::uint32_t row = 0;
 };
 

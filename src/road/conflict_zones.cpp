@@ -68,7 +68,7 @@ LinkShape shape_of(const RoadNetwork& network, ConnectionId id) {
   const Lane& lane = network.lane(connection.via != kNoLane ? connection.via : connection.to);
   // what drives on a lane is narrower than the lane; a crossing is used over its whole width
   shape.half_width =
-      lane.kind == LaneKind::Crossing ? 0.5 * lane.width : std::min(0.5 * lane.width, 1.1);
+      lane.kind == LaneKind::Crossing ? 0.5 * lane.width : std::min(0.5 * lane.width, 1.35);
   if (shape.line.empty()) return shape;
   const auto count = static_cast<int>(shape.line.length() / kStep) + 1;
   for (int k = 0; k <= count; ++k) shape.samples.push_back(shape.line.point_at(k * kStep));
