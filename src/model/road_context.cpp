@@ -111,12 +111,13 @@ std::int64_t blocks_exit(DrivingAhead& ahead, const Course& course, const PathLi
   });
   // where each comes to rest at the least, from the far end of the queue
   double rest = std::numeric_limits<double>::infinity();
-  for (auto vehicle = begin; vehicle != end; ++vehicle)
+  for (auto vehicle = begin; vehicle != end; ++vehicle) {
     // who drives and has nobody slow ahead goes on
     const double alone = vehicle->speed > kDrives
                              ? std::numeric_limits<double>::infinity()
                              : vehicle->rear + vehicle->speed * vehicle->speed / (2.0 * kBraking);
     rest = std::min(alone, rest - kClosedUp - (vehicle->front - vehicle->rear));
+  }
   const double needed = link.end + 2.0 * course.half_length + course.type.min_gap + 0.3;
   return ahead.count > 0 && rest < needed ? (end - 1)->id : -1;
 }
