@@ -7,6 +7,13 @@ namespace {
 
 using nlohmann::json;
 
+/// A scenario with one seed: desired speeds and departures differ from seed to seed.
+class MicroScenarios : public ::testing::TestWithParam<const char*> {
+ protected:
+  static json run(const std::string& scenario) { return figures_of(scenario, GetParam()); }
+};
+INSTANTIATE_TEST_SUITE_P(Seed, MicroScenarios, ::testing::Values("1", "2"));
+
 /// Nobody touches anybody, stands for ever, is taken away or breaks a rule; who may overtake over
 /// the middle of the road drives on its other side meanwhile.
 void expect_sound(const json& figures, bool may_use_other_side = false) {
@@ -26,8 +33,8 @@ void expect_all_arrive(const json& figures, int expected) {
   EXPECT_EQ(figures["arrived"], expected);
 }
 
-TEST(MicroScenarios, ASignalledLaneDischargesAtItsSaturationFlow) {
-  const json figures = figures_of("saturation");
+TEST_P(MicroScenarios, ASignalledLaneDischargesAtItsSaturationFlow) {
+  const json figures = run("saturation");
   expect_sound(figures);
   expect_all_arrive(figures, 99);
   EXPECT_GE(figures["headways"], 30) << "the queues are too short to measure";
@@ -35,8 +42,8 @@ TEST(MicroScenarios, ASignalledLaneDischargesAtItsSaturationFlow) {
   EXPECT_LE(figures["saturation_flow"], 2000.0) << figures;
 }
 
-TEST(MicroScenarios, AtATwoWayStopTheSideRoadHaltsAndTheMainRoadDoesNot) {
-  const json figures = figures_of("two_way_stop");
+TEST_P(MicroScenarios, AtATwoWayStopTheSideRoadHaltsAndTheMainRoadDoesNot) {
+  const json figures = run("two_way_stop");
   expect_sound(figures);
   expect_all_arrive(figures, 33);
   EXPECT_EQ(figures["halted_share"], 1.0) << figures;
@@ -44,8 +51,8 @@ TEST(MicroScenarios, AtATwoWayStopTheSideRoadHaltsAndTheMainRoadDoesNot) {
   EXPECT_LE(figures["main_road_hardest_braking"], 4.5);
 }
 
-TEST(MicroScenarios, AtAnAllWayStopEverybodyHaltsAndGoesInTurn) {
-  const json figures = figures_of("all_way_stop");
+TEST_P(MicroScenarios, AtAnAllWayStopEverybodyHaltsAndGoesInTurn) {
+  const json figures = run("all_way_stop");
   expect_sound(figures);
   expect_all_arrive(figures, 40);
   EXPECT_EQ(figures["halted_share"], 1.0) << figures;
@@ -53,8 +60,8 @@ TEST(MicroScenarios, AtAnAllWayStopEverybodyHaltsAndGoesInTurn) {
   EXPECT_LE(figures["mean_wait"], 10.0) << figures;
 }
 
-TEST(MicroScenarios, ARoundaboutFlowsAndIsNotEnteredInFrontOfWhoIsOnIt) {
-  const json figures = figures_of("roundabout");
+TEST_P(MicroScenarios, ARoundaboutFlowsAndIsNotEnteredInFrontOfWhoIsOnIt) {
+  const json figures = run("roundabout");
   expect_sound(figures);
   expect_all_arrive(figures, 44);
   EXPECT_EQ(figures["clockwise"], 0);
@@ -63,8 +70,8 @@ TEST(MicroScenarios, ARoundaboutFlowsAndIsNotEnteredInFrontOfWhoIsOnIt) {
   EXPECT_LE(figures["mean_wait_at_entry"], 5.0) << figures;
 }
 
-TEST(MicroScenarios, DriversYieldAtAZebraAndGetAcrossThemselves) {
-  const json figures = figures_of("zebra");
+TEST_P(MicroScenarios, DriversYieldAtAZebraAndGetAcrossThemselves) {
+  const json figures = run("zebra");
   expect_sound(figures);
   expect_all_arrive(figures, 148);
   EXPECT_EQ(figures["people_crossed"], 100);
@@ -74,8 +81,8 @@ TEST(MicroScenarios, DriversYieldAtAZebraAndGetAcrossThemselves) {
   EXPECT_LE(figures["mean_car_delay"], 15.0) << figures;
 }
 
-TEST(MicroScenarios, BicyclesAreOvertakenWithAGapAndNobodyMeetsWhoComesTowardsThem) {
-  const json figures = figures_of("bicycle_overtaken");
+TEST_P(MicroScenarios, BicyclesAreOvertakenWithAGapAndNobodyMeetsWhoComesTowardsThem) {
+  const json figures = run("bicycle_overtaken");
   expect_sound(figures, true);
   expect_all_arrive(figures, 33);
   const json two = figures["two_lanes"];
@@ -90,8 +97,8 @@ TEST(MicroScenarios, BicyclesAreOvertakenWithAGapAndNobodyMeetsWhoComesTowardsTh
   }
 }
 
-TEST(MicroScenarios, BusesHaltAtTheirStopAndArePassedWhereThereIsALane) {
-  const json figures = figures_of("bus_stop");
+TEST_P(MicroScenarios, BusesHaltAtTheirStopAndArePassedWhereThereIsALane) {
+  const json figures = run("bus_stop");
   expect_sound(figures);
   expect_all_arrive(figures, 34);
   EXPECT_EQ(figures["stops"], 4);
@@ -104,8 +111,8 @@ TEST(MicroScenarios, BusesHaltAtTheirStopAndArePassedWhereThereIsALane) {
   EXPECT_LE(figures["mean_delay_oncoming"], 2.0) << figures;
 }
 
-TEST(MicroScenarios, TwoWheelersFilterToTheFrontOfAQueue) {
-  const json figures = figures_of("mixed_queue");
+TEST_P(MicroScenarios, TwoWheelersFilterToTheFrontOfAQueue) {
+  const json figures = run("mixed_queue");
   expect_sound(figures);
   expect_all_arrive(figures, 26);
   for (const char* kind : {"motorcycles", "bicycles"}) {
@@ -116,8 +123,8 @@ TEST(MicroScenarios, TwoWheelersFilterToTheFrontOfAQueue) {
   EXPECT_EQ(figures["crossed_in_green"], 1.0) << figures;
 }
 
-TEST(MicroScenarios, PeopleBothWaysOnASidewalkWalkAsFastAsWeidmannSays) {
-  const json figures = figures_of("sidewalk_counterflow");
+TEST_P(MicroScenarios, PeopleBothWaysOnASidewalkWalkAsFastAsWeidmannSays) {
+  const json figures = run("sidewalk_counterflow");
   EXPECT_EQ(figures["deep_pairs"], 0) << figures;
   EXPECT_EQ(figures["stuck"], 0);
   double densest = 0;
@@ -130,8 +137,8 @@ TEST(MicroScenarios, PeopleBothWaysOnASidewalkWalkAsFastAsWeidmannSays) {
   EXPECT_GE(densest, 1.5) << figures;
 }
 
-TEST(MicroScenarios, TwoLanesBecomeOneInTurnAndAtTheFlowOfALane) {
-  const json figures = figures_of("lane_drop");
+TEST_P(MicroScenarios, TwoLanesBecomeOneInTurnAndAtTheFlowOfALane) {
+  const json figures = run("lane_drop");
   expect_sound(figures);
   expect_all_arrive(figures, 60);
   EXPECT_GE(figures["flow"], 1500.0) << figures;
@@ -139,8 +146,8 @@ TEST(MicroScenarios, TwoLanesBecomeOneInTurnAndAtTheFlowOfALane) {
   EXPECT_LE(figures["hardest_braking"], 4.5) << figures;
 }
 
-TEST(MicroScenarios, APlatoonIsStableUpTo33MetresASecond) {
-  const json figures = figures_of("platoon");
+TEST_P(MicroScenarios, APlatoonIsStableUpTo33MetresASecond) {
+  const json figures = run("platoon");
   expect_sound(figures);
   expect_all_arrive(figures, 36);
   const double limit[] = {13.89, 25.0, 33.0};

@@ -27,7 +27,7 @@ inline nlohmann::json measured(const std::string& scenario, const std::string& f
 }
 
 /// Runs sumo_scenarios/NAME without a window and returns its figures.
-inline nlohmann::json figures_of(const std::string& scenario) {
+inline nlohmann::json figures_of(const std::string& scenario, const std::string& seed) {
   const TemporaryFolder folder;
   ProcessRequest request;
   request.arguments = {
@@ -38,6 +38,8 @@ inline nlohmann::json figures_of(const std::string& scenario) {
       folder.file("out"),
       "--trajectory-period",
       "0.1",
+      "--seed",
+      seed,
       "--quiet"};
   request.time_limit = 300.0;
   const ProcessResult result = run_process(request);
