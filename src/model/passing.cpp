@@ -16,6 +16,14 @@ double side_gap(bool narrow, double speed) {
   return narrow ? 0.25 + 0.02 * speed : 0.45 + 0.03 * speed;
 }
 
+/// Is the body on a junction, or about to be?
+bool is_near_junction(const Path& path, const Surroundings& around) {
+  const double ahead = around.along + around.half_length + 8.0 + 1.5 * around.speed;
+  return std::any_of(path.links.begin(), path.links.end(), [&](const PathLink& link) {
+    return link.stop_line < ahead && link.end > around.along - around.half_length;
+  });
+}
+
 }  // namespace
 
 double passing_offset(const Model& model, const Path& path, const Scene& scene,
@@ -41,6 +49,8 @@ double passing_offset(const Model& model, const Path& path, const Scene& scene,
   if (most > 0.8 * free_speed) return best;
 
   const bool narrow = 2.0 * half < kNarrow;
+  // wide vehicles keep to their lane where ways cross
+  if (!narrow && is_near_junction(path, around)) return liked;
   const double inner_side = model.road.left_hand ? -1.0 : 1.0;
   const double base = most;
   const double gap_wanted = side_gap(narrow, around.speed);

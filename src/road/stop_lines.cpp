@@ -10,7 +10,7 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kRoom = 2.6;       ///< between the middles of a waiting and a turning vehicle [m]
+constexpr double kRoom = 2.9;       ///< between the middles of a waiting and a turning vehicle [m]
 constexpr double kFarthest = 10.0;  ///< [m]
 constexpr double kBody = 6.0;       ///< of a waiting vehicle, behind its front [m]
 constexpr double kStep = 0.5;       ///< [m]
