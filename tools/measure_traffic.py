@@ -377,7 +377,7 @@ def sidewalk_counterflow(tracks):
                     way = 1 if track[-1].x > track[0].x else -1
                     time += b.time - a.time
                     distance += (b.x - a.x) * way
-                    wrong += abs(a.y - 12 * k + width / 2) > width / 2 + 0.1
+                    wrong += abs(a.y - 8 * k + width / 2) > width / 2 + 0.1
         density = time / ((end - begin) * (east - west) * width)
         walks.append({"density": density, "speed": distance / time if time else None, "weidmann": weidmann(density),
                       "off_the_sidewalk": wrong})

@@ -71,8 +71,8 @@ TEST(MeasureTraffic, GapsOfOvertakingsAreBetweenOutlines) {
   // centres 2.5 m apart: 2.5 - (1.8 + 0.65) / 2
   const TemporaryFolder folder;
   write_run(folder,
-            {{"two.bicycle.0", "bicycle", 0, 60, [](double t) { return 50 + 4 * t; }, 55.2},
-             {"two.car.0", "car", 0, 60, [](double t) { return 5 + 8 * t; }, 57.7},
+            {{"two.bicycle.0", "bicycle", 0, 60, [](double t) { return 50 + 4 * t; }, 15.2},
+             {"two.car.0", "car", 0, 60, [](double t) { return 5 + 8 * t; }, 17.7},
              {"one.bicycle.0", "bicycle", 0, 60, [](double t) { return 50 + 4 * t; }, -2.0},
              {"one.car.0", "car", 0, 60, [](double t) { return 5 + 4 * t; }, -1.6}},
             3);
@@ -92,7 +92,7 @@ TEST(MeasureTraffic, DensityAndSpeedAreThoseOfEdie) {
       const double from = 2.0 * i - 30.0;
       tracks.push_back({std::to_string(walk) + "." + std::to_string(i), "pedestrian",
                         std::max(0.0, from), from + 29.0,
-                        [from](double time) { return 0.5 + time - from; }, 12.0 * walk - 1.5});
+                        [from](double time) { return 0.5 + time - from; }, 8.0 * walk - 1.5});
     }
   const TemporaryFolder folder;
   write_run(folder, tracks, 0);
