@@ -326,7 +326,7 @@ def bus_stop(tracks):
             "passed_on_two_lanes": passed["two"], "passed_on_one_lane": passed["one"],
             "mean_delay_two_lanes": mean(t.duration() - 400 / 13.89 for t in cars("two.car")),
             "mean_delay_one_lane": mean(t.duration() - 400 / 13.89 for t in cars("one.car")),
-            "mean_delay_oncoming": mean(t.duration() - 400 / 13.89 for t in cars("oncoming"))}
+            "oncoming_slowest": min(s.speed for t in cars("oncoming") for s in t.samples)}
 
 
 def mixed_queue(tracks, green=57.0):
