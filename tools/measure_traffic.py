@@ -481,7 +481,7 @@ HEADLINES = {
     "mixed_queue": [("motorcycles that filter", "motorcycles.filtered_share", "", 2),
                     ("bicycles", "bicycles.filtered_share", "", 2),
                     ("least gap", "least_gap_while_filtering", "m", 2)],
-    "sidewalk_counterflow": [("people in overlap by more than 0.1 m, pairs", "deep_pairs", "", 0)],
+    "sidewalk_counterflow": [("pairs of people in overlap by more than 0.1 m", "deep_pairs", "", 0)],
     "lane_drop": [("flow", "flow", "vehicles/h", 0), ("in turn", "alternating_share", "", 2),
                   ("hardest braking", "hardest_braking", "m/s²", 1)],
     "platoon": [("shrinking of minima, 14, 25, 33 m/s",
@@ -505,8 +505,7 @@ def headline(figures, scenario):
         cells.append(f"{words} {', '.join(values)} {unit}".strip())
     if scenario == "sidewalk_counterflow":
         cells += [f"{w['density']:.2f} /m²: {w['speed']:.2f} m/s (Weidmann {w['weidmann']:.2f})" for w in figures["walks"]]
-    cells.append(f"colliding pairs {figures['colliding_pairs']}, stuck {figures['stuck']}, "
-                 f"arrived {figures['arrived']} of {figures['inserted']}")
+    cells.append(f"**{figures['colliding_pairs']} / {figures['stuck']} / {figures['arrived']} of {figures['inserted']}**")
     return "; ".join(cells)
 
 
