@@ -22,6 +22,7 @@ struct Approach {
 struct Waiting {
   LimitReason reason = LimitReason::None;
   std::int64_t foe = -1;
+  ConnectionId halted_for = kNoConnection;  ///< link before which it came to a halt
 };
 
 /// Who approaches which link, and who waits for whom, from the frozen scene.

@@ -124,9 +124,10 @@ struct Judge {
     if (!past_line() && model.road.connection(link.connection).state == 'w') {
       const double own_time = scene.standing_time[traveller.row];
       const double their_time = scene.standing_time[foe.row];
-      return blocks_if(foe.stands &&
-                       (their_time > own_time ||
-                        (their_time == own_time && scene.id[foe.row] < scene.id[traveller.row])));
+      // one that drives again has been given its turn, one that still comes has to halt first
+      if (!foe.stands) return blocks_if(approaches.waiting(foe.row).halted_for == zone.foe);
+      return blocks_if(their_time > own_time ||
+                       (their_time == own_time && scene.id[foe.row] < scene.id[traveller.row]));
     }
     // no rule for this pair, or past the line already: who gets there first goes first, the other
     // waits for it

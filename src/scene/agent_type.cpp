@@ -93,7 +93,7 @@ AgentTypeTable default_agent_types() {
        .horizon = 4.0,
        .attention_front = 15.0,
        .attention_rear = 5.0,
-       .headway = 0.95,
+       .headway = 1.2,
        .min_gap = 1.8});
   add({.name = "van",
        .sumo_class = "delivery",
@@ -113,7 +113,7 @@ AgentTypeTable default_agent_types() {
        .horizon = 4.0,
        .attention_front = 15.0,
        .attention_rear = 5.0,
-       .headway = 1.05,
+       .headway = 1.25,
        .min_gap = 1.8});
   add({.name = "bus",
        .sumo_class = "bus",
@@ -133,7 +133,7 @@ AgentTypeTable default_agent_types() {
        .horizon = 5.0,
        .attention_front = 20.0,
        .attention_rear = 8.0,
-       .headway = 1.25,
+       .headway = 1.4,
        .min_gap = 2.2});
   add({.name = "truck",
        .sumo_class = "truck",
@@ -153,7 +153,7 @@ AgentTypeTable default_agent_types() {
        .horizon = 5.0,
        .attention_front = 20.0,
        .attention_rear = 8.0,
-       .headway = 1.25,
+       .headway = 1.4,
        .min_gap = 2.2});
   add({.name = "electric_tricycle",
        .sumo_class = "moped",

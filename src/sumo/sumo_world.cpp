@@ -170,8 +170,7 @@ void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
     // are there within a step or two
     const double reached =
         scene.path_along[row] +
-        (known.is_person ? 0.7
-                         : 0.5 * known.length + 0.3 + 1.5 * scene.speed[row] * options_.dt);
+        (known.is_person ? 0.7 : 0.5 * known.length + 0.3 + 1.5 * scene.speed[row] * options_.dt);
     if (reached < path->arrival) continue;
     if (known.is_person) {
       const std::vector<std::string> next = backend_.finish_stage(known.sumo_id);

@@ -15,7 +15,8 @@ class LeaderTest : public ::testing::Test {
   Leader leader_of(std::size_t row, double reach = 100) {
     here_.update();
     DrivingAhead ahead;
-    return find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, row, reach, ahead);
+    return find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, row, reach,
+                       ahead);
   }
   RoadScene here_{testing::small_net()};
 };

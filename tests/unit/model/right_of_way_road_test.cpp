@@ -106,7 +106,7 @@ TEST_F(PriorityTest, WhoStandsOnTheJunctionHoldsEvenTheMajorRoad) {
   const std::size_t blocker = here_.add("bus", {"SC", "CN"}, 0, 0);
   // across the eastbound lanes
   here_.move(blocker, here_.path(blocker).line.project(Vec2(0, -3)).along);
-  const std::size_t major = here_.add("car", {"WC", "CE"}, 150, 12);
+  const std::size_t major = here_.add("car", {"WC", "CE"}, 160, 12);
   here_.update();
   EXPECT_EQ(here_.context(major).reason, LimitReason::Yield);
   EXPECT_EQ(here_.context(major).foe, here_.scene.id[blocker].value);
@@ -220,7 +220,7 @@ TEST_F(CrossingTest, AnEmptyCrossingHoldsNobody) {
   EXPECT_EQ(here_.context(driver).reason, LimitReason::None);
 }
 
-TEST(ApproachTable, ListsWhoIsOnOrNearALinkByRow) {
+TEST(ApproachTable, ListsWhoIsOnOrNearALinkForemostFirst) {
   RoadScene here(testing::small_net());
   const std::size_t far = here.add("car", {"in", "out"}, 5, 2);
   const std::size_t near = here.add("car", {"in", "out"}, 80, 5);
@@ -230,12 +230,12 @@ TEST(ApproachTable, ListsWhoIsOnOrNearALinkByRow) {
   const ConnectionId link = here.path(near).links.front().connection;
   const auto approaches = here.approaches.of(link);
   ASSERT_EQ(approaches.size(), 2u);
-  EXPECT_EQ(approaches[0].row, near);
-  EXPECT_NEAR(approaches[0].front, 80 + 2.25 - 95, 1e-9);
-  EXPECT_FALSE(approaches[0].stands);
-  EXPECT_EQ(approaches[1].row, on);
-  EXPECT_NEAR(approaches[1].length, 4.5, 1e-9);
-  EXPECT_TRUE(approaches[1].stands);
+  EXPECT_EQ(approaches[0].row, on);
+  EXPECT_NEAR(approaches[0].length, 4.5, 1e-9);
+  EXPECT_TRUE(approaches[0].stands);
+  EXPECT_EQ(approaches[1].row, near);
+  EXPECT_NEAR(approaches[1].front, 80 + 2.25 - 95, 1e-9);
+  EXPECT_FALSE(approaches[1].stands);
   EXPECT_TRUE(here.approaches.of(kNoConnection).empty());
   EXPECT_NE(far, past);
 }
