@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Measures sumo-gamma beside plain SUMO on real maps and prints the tables of docs/measurements.md.
+# Measures sumo-gamma beside plain SUMO on real maps and prints the table of docs/measurements.md.
 #   tools/measure.sh OUT MAP...      OUT: folder for scenarios and runs; MAP: .osm or .osm.pbf files
-# Environment: PROGRAM (build/release/sumo-gamma), AGENTS (100), DURATION (300 s), THREADS (2).
+# Environment: PROGRAM (build/release/sumo-gamma), AGENTS ("100 300"), SEEDS ("1 2 3 4 5"), DURATION (600 s), THREADS (1).
 set -euo pipefail
 if (($# < 2)); then
   sed -n '2,4s/^# \{0,1\}//p' "$0" >&2
@@ -11,25 +11,21 @@ project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 program=${PROGRAM:-$project/build/release/sumo-gamma}
 out=$1
 shift
-mkdir -p "$out"
-gamma=()
-plain=()
+mkdir -p "$out/maps"
 for map in "$@"; do
   name=$(basename "$map")
   name=${name%%.*}
-  "$program" import "$map" -o "$out/$name" --agents "${AGENTS:-100}" --force --quiet > "$out/$name.import.txt"
-  for control in all none; do
-    "$program" run "$out/$name" -o "$out/$name-$control" --agents "${AGENTS:-100}" --duration "${DURATION:-300}" \
-      --step 0.05 --seed 1 --threads "${THREADS:-2}" --control "$control" --quiet > "$out/$name-$control.txt" 2>&1 ||
-      echo "$name --control $control: $(tail -1 "$out/$name-$control.txt")" >&2
+  "$program" import "$map" -o "$out/maps/$name" --agents 100 --force --quiet > "$out/maps/$name.txt"
+  for agents in ${AGENTS:-100 300}; do
+    for seed in ${SEEDS:-1 2 3 4 5}; do
+      for control in all none; do
+        run=$name-$agents-$seed-$control
+        echo "$run" >&2
+        "$program" run "$out/maps/$name" -o "$out/$run" --agents "$agents" --duration "${DURATION:-600}" --step 0.05 \
+          --seed "$seed" --threads "${THREADS:-1}" --control "$control" --quiet --log error > "$out/$run.txt" 2>&1 ||
+          echo "$run: $(tail -1 "$out/$run.txt")" >&2
+      done
+    done
   done
-  gamma+=("$out/$name-all")
-  plain+=("$out/$name-none")
 done
-echo "### GAMMA drives everybody"
-echo
-"$program" report "${gamma[@]}"
-echo
-echo "### Plain SUMO (\`--control none\`)"
-echo
-"$program" report "${plain[@]}"
+"$project/tools/compare_runs.py" "$out"

@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+"""Prints GAMMA beside plain SUMO as a Markdown table, from run folders named MAP-AGENTS-SEED-CONTROL.
+
+    tools/compare_runs.py OUT        OUT: what tools/measure.sh wrote
+
+One row a map and number of agents: sums over the seeds, or means where a mean is asked for. GAMMA's figure stands first, plain SUMO's
+(--control none) second.
+"""
+import json
+import pathlib
+import sys
+from collections import defaultdict
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    runs = defaultdict(lambda: {"all": [], "none": []})
+    for file in sorted(pathlib.Path(sys.argv[1]).glob("*/results.json")):
+        try:
+            name, agents, seed, control = file.parent.name.rsplit("-", 3)
+            runs[name, int(agents)][control].append(json.loads(file.read_text()))
+        except (ValueError, KeyError):
+            print(f"{file}: not a run of tools/measure.sh, left out", file=sys.stderr)
+    columns = ["map", "agents", "seeds", "arrived", "colliding pairs (deep)", "pairs per agent-hour", "stuck", "red lights", "wrong way s",
+               "sidewalk s", "mean speed m/s", "accel p95", "jerk p95", "real-time factor"]
+    print("| " + " | ".join(columns) + " |")
+    print("|---" + "|---:" * (len(columns) - 1) + "|")
+    for (name, agents), both in sorted(runs.items(), key=lambda item: (item[0][1], item[0][0])):
+        if not both["all"] or not both["none"]:
+            continue
+
+        def pair(figure, digits=0, mean=False):
+            texts = []
+            for control in ("all", "none"):
+                values = [figure(run) for run in both[control]]
+                value = sum(values) / (len(values) if mean else 1)
+                texts.append(f"{value:.{digits}f}")
+            return " / ".join(texts)
+
+        gamma, plain = (sum(r["agents"]["arrived"] for r in both[c]) for c in ("all", "none"))
+        pairs = [f"{sum(r['collisions']['unique_pairs'] for r in both[c])} ({sum(r['collisions']['deep_pairs'] for r in both[c])})"
+                 for c in ("all", "none")]
+        print("| " + " | ".join([
+            name, str(agents), f"{len(both['all'])} / {len(both['none'])}",
+            f"{gamma} / {plain} ({100 * gamma / max(plain, 1):.0f} %)", " / ".join(pairs),
+            pair(lambda r: r["collisions"]["unique_pairs_per_agent_hour"], 2, True),
+            pair(lambda r: r["flow"]["stuck_agents"]), pair(lambda r: r["rules"]["red_light_crossings"]),
+            pair(lambda r: r["rules"]["wrong_way_s"]), pair(lambda r: r["rules"]["sidewalk_by_vehicle_s"]),
+            pair(lambda r: r["flow"]["mean_speed"], 2, True), pair(lambda r: r["smoothness"]["by_type"]["car"]["accel_p95"], 1, True),
+            pair(lambda r: r["smoothness"]["by_type"]["car"]["jerk_p95"], 1, True),
+            pair(lambda r: r["timing"]["real_time_factor"], 0, True)]) + " |")
+
+
+if __name__ == "__main__":
+    main()
