@@ -329,6 +329,26 @@ def bus_stop(tracks):
             "oncoming_slowest": min(s.speed for t in cars("oncoming") for s in t.samples)}
 
 
+def corners(track, sample):
+    """Corners of a vehicle's outline in order."""
+    angle = math.radians(90 - sample.angle)
+    forward, left = (math.cos(angle), math.sin(angle)), (-math.sin(angle), math.cos(angle))
+    return [(sample.x - back * forward[0] + side * left[0], sample.y - back * forward[1] + side * left[1])
+            for back, side in ((0, track.width / 2), (track.length, track.width / 2),
+                               (track.length, -track.width / 2), (0, -track.width / 2))]
+
+
+def outline_gap(one, other):
+    """Least distance of two outlines that don't overlap: from a corner of one to a side of the other."""
+    def to_side(p, a, b):
+        dx, dy = b[0] - a[0], b[1] - a[1]
+        along = min(1.0, max(0.0, ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / (dx * dx + dy * dy)))
+        return math.hypot(p[0] - a[0] - along * dx, p[1] - a[1] - along * dy)
+
+    return min(to_side(p, a, b) for box, points in ((one, other), (other, one)) for p in points
+               for a, b in zip(box, box[1:] + box[:1]))
+
+
 def mixed_queue(tracks, green=57.0):
     (_, _), (line, _) = lane_points("mixed_queue", "in_0")
     cars = [t for t in tracks.values() if t.kind == "car"]
@@ -343,7 +363,7 @@ def mixed_queue(tracks, green=57.0):
                 for car in cars:
                     c = car.at(s.time)
                     if c and c.speed < 0.5 and s.x > c.x - car.length and s.x - rider.length < c.x:
-                        gap = abs(s.y - c.y) - (rider.width + car.width) / 2
+                        gap = outline_gap(corners(rider, s), corners(car, c))
                         if gap < 1.0:
                             beside.add(car.name)
                             gaps.append(gap)
