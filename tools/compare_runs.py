@@ -34,6 +34,9 @@ def main():
             texts = []
             for control in ("all", "none"):
                 values = [figure(run) for run in both[control]]
+                if None in values:
+                    texts.append("–")
+                    continue
                 value = sum(values) / (len(values) if mean else 1)
                 texts.append(f"{value:.{digits}f}")
             return " / ".join(texts)

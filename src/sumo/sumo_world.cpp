@@ -287,6 +287,8 @@ bool SumoWorld::insert_on(const Pending& pending, const std::shared_ptr<const Pa
 
 void SumoWorld::update_external(Scene& scene, RoadState& road) {
   for (const SumoAgent& seen : step_.agents) {
+    // SUMO's invalid numbers (-2^30): between two places, as while it is teleported
+    if (!(std::abs(seen.speed) < 1e4) || !(seen.position.norm() < 1e8)) continue;
     const auto arriving = external_arriving_.find(seen.id);
     const double heading = heading_from_sumo(seen.angle);
     if (arriving != external_arriving_.end()) {
