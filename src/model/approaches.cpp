@@ -18,7 +18,8 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
   approaches_.clear();
   waiting_.resize(scene.size());
   for (std::size_t row = 0; row < scene.size(); ++row)
-    waiting_[row] = {scene.context[row].reason, scene.context[row].foe, scene.halted_for[row]};
+    waiting_[row] = {scene.context[row].reason, scene.context[row].foe, scene.halted_for[row],
+                     scene.halted_at[row]};
 
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const Path* path = road.path(scene.path[row]);

@@ -23,6 +23,7 @@ struct Waiting {
   LimitReason reason = LimitReason::None;
   std::int64_t foe = -1;
   ConnectionId halted_for = kNoConnection;  ///< link before which it came to a halt
+  double halted_at = 0;                     ///< when it did [s]
 };
 
 /// Who approaches which link, and who waits for whom, from the frozen scene.

@@ -116,19 +116,20 @@ struct Judge {
     if (!overlap) return Verdict::Free;
     const bool waits_for_us =
         foe.stands && approaches.waiting(foe.row).foe == scene.id[traveller.row].value;
+    // all-way stop: who has halted goes in the order in which they came
+    if (!foe_inside && model.road.connection(link.connection).state == 'w') {
+      if (past_line()) return Verdict::Free;
+      const Waiting& theirs_then = approaches.waiting(foe.row);
+      if (theirs_then.halted_for != zone.foe) return Verdict::Free;  // it has to halt first
+      const double own_time = approaches.waiting(traveller.row).halted_at;
+      return blocks_if(
+          theirs_then.halted_at < own_time ||
+          (theirs_then.halted_at == own_time && scene.id[foe.row] < scene.id[traveller.row]));
+    }
     if (waits_for_us && !zone.yields && !foe_inside) return Verdict::Held;
     if (waits_for_us) return waiting_verdict(foe);
     if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
     if (waits_behind(model, scene, approaches, foe, traveller.row)) return Verdict::Held;
-    // all-way stop: who has halted goes in the order in which they came
-    if (!past_line() && model.road.connection(link.connection).state == 'w') {
-      const double own_time = scene.standing_time[traveller.row];
-      const double their_time = scene.standing_time[foe.row];
-      // one that drives again has been given its turn, one that still comes has to halt first
-      if (!foe.stands) return blocks_if(approaches.waiting(foe.row).halted_for == zone.foe);
-      return blocks_if(their_time > own_time ||
-                       (their_time == own_time && scene.id[foe.row] < scene.id[traveller.row]));
-    }
     // no rule for this pair, or past the line already: who gets there first goes first, the other
     // waits for it
     if (zone.unruled || past_line())

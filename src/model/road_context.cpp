@@ -129,7 +129,10 @@ void note_halt(const Course& course, Scene& scene) {
   const double front = course.along + course.half_length;
   for (const PathLink& link : course.path.links) {
     if (link.stop_line < front - 0.3) continue;
-    if (link.halt < front + kAtLine) scene.halted_for[course.row] = link.connection;
+    if (link.halt < front + kAtLine && scene.halted_for[course.row] != link.connection) {
+      scene.halted_for[course.row] = link.connection;
+      scene.halted_at[course.row] = scene.time;
+    }
     return;
   }
 }

@@ -34,6 +34,7 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.wedge_left);
   visit(scene.standing_time);
   visit(scene.halted_for);
+  visit(scene.halted_at);
   visit(scene.next_stop);
   visit(scene.stop_left);
   visit(scene.lane);

@@ -63,6 +63,7 @@ struct Scene {
                                    ///< bodies
   std::vector<double> standing_time;     ///< [s] since it was last faster than 0.3 m/s
   std::vector<ConnectionId> halted_for;  ///< link before which it last came to a halt
+  std::vector<double> halted_at;         ///< when it did [s]
   std::vector<std::int32_t> next_stop;   ///< index of the path's next planned halt
   std::vector<double> stop_left;  ///< [s] still to stand at the present halt, 0 where there is none
   std::vector<LanePosition> lane;
