@@ -159,8 +159,6 @@ const char* name_of_reason(LimitReason reason) {
       return "stop";
     case LimitReason::Merge:
       return "lane change";
-    case LimitReason::PathEnd:
-      return "path end";
   }
   return "none";
 }

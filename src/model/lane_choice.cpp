@@ -64,6 +64,12 @@ bool is_contested(const Scene& scene, const Surroundings& around, std::size_t ro
   });
 }
 
+/// How far aside the middle of a neighbouring lane of the same edge lies [m, positive left].
+double shift_to(const Model& model, const Lane& from, const Lane& to) {
+  const double inner = model.road.left_hand ? -1.0 : 1.0;
+  return (to.index > from.index ? inner : -inner) * 0.5 * (from.width + to.width);
+}
+
 /// The neighbouring lane on which this agent would rather be, kNoLane where it stays.
 LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
                    const Surroundings& around, std::size_t row) {
@@ -82,9 +88,7 @@ LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
 
   LaneId best = kNoLane;
   double most = stay + kGain;
-  const double inner_side = model.road.left_hand ? -1.0 : 1.0;
-  for (const bool inner : {true, false}) {
-    const LaneId id = inner ? lane.inner : lane.outer;
+  for (const LaneId id : {lane.inner, lane.outer}) {
     if (id == kNoLane) continue;
     const Lane& other = model.road.lane(id);
     const LaneOption& option = options[static_cast<std::size_t>(other.index)];
@@ -92,7 +96,7 @@ LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
     // it must lead on for long enough to be worth it, or as far as this one
     const double left_there = option.drivable - on_lane;
     if (left_there < left_here - 1.0 && left_there < std::max(80.0, 12.0 * around.speed)) continue;
-    const double shift = (inner ? inner_side : -inner_side) * 0.5 * (lane.width + other.width);
+    const double shift = shift_to(model, lane, other);
     const double there =
         hoped_speed(around, shift, std::min(free_speed, other.speed_limit * 1.2), 0.3);
     if (there <= most || !is_safe(scene, around, row, shift, kSafeBraking)) continue;
@@ -129,8 +133,7 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   const Lane &from = model.road.lane(here.lane), &to = model.road.lane(change->lane);
   if (from.edge != to.edge) return;
   intent.merge_to = change->lane;
-  const double left = model.road.left_hand ? -1.0 : 1.0;
-  const double shift = (to.index > from.index ? left : -left) * 0.5 * (from.width + to.width);
+  const double shift = shift_to(model, from, to);
   const double braking = speed < 2.0 ? kPressed : kSafeBraking;
   if (!is_contested(scene, around, row, change->lane, shift) &&
       is_safe(scene, around, row, shift, braking))

@@ -10,7 +10,6 @@ namespace sumogamma {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kStopMargin = 0.6;  ///< front halts this far before a line [m]
 constexpr double kFillsLane = 1.2;   ///< nobody overtakes what is wider than this on a link [m]
 constexpr double kPatience = 4.0;    ///< waited for somebody who waits for a third one [s]
 constexpr double kAmber = 2.5;       ///< reckoned with from an amber on [s]

@@ -179,7 +179,7 @@ void set_allowed_speed(const Model& model, const RoadState& road, const Scene& s
     if (!decision.must_stop && conflicts && link.stop_line > front - 0.3) {
       const std::int64_t blocker = blocks_exit(ahead, course, link);
       if (blocker >= 0)
-        decision = {true, (link.halt > front ? link.halt : link.stop_line) - 0.6,
+        decision = {true, (link.halt > front ? link.halt : link.stop_line) - kStopMargin,
                     LimitReason::BlockedJunction, blocker};
     }
     if (!decision.must_stop) continue;

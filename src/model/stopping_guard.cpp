@@ -21,6 +21,7 @@ constexpr double kStill = 0.01;
 constexpr double kShuffle = 0.28;  // [m/s]
 // rounding: neither an overlap nor a smaller gap [m]
 constexpr double kSame = 1e-6;
+// bodies that overlap on a road may do so deeper by this a look [m]
 constexpr double kHair = 2e-3;
 
 using Braking = StoppingGuard::Braking;

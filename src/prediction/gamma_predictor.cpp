@@ -260,13 +260,7 @@ void GammaPredictor::go_together(const ObservedScene& scene) {
 }
 
 void GammaPredictor::infer(const ObservedScene& scene) {
-  std::vector<Vec2> velocity;
-  for (const Row& row : rows_) velocity.push_back(row.motion.velocity);
-  build_scene(model_.types, scene, velocity, scene_);
-  for (std::size_t r = 0; r < rows_.size(); ++r)
-    scene_.behavior[r] = likeliest_behavior(type_of(model_.types, scene_.type[r]),
-                                            memory_.at(scene.agents[r].id).belief);
-  mark_road(scene_);
+  set_scene(scene, scene_);
   prepare_tick(model_, scene_, workers_, geometry_);
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const ObservedAgent& agent = scene.agents[r];
@@ -282,8 +276,13 @@ void GammaPredictor::infer(const ObservedScene& scene) {
   }
 }
 
-void GammaPredictor::mark_road(Scene& scene) const {
+void GammaPredictor::set_scene(const ObservedScene& observed, Scene& scene) const {
+  std::vector<Vec2> velocity;
+  for (const Row& row : rows_) velocity.push_back(row.motion.velocity);
+  build_scene(model_.types, observed, velocity, scene);
   for (std::size_t r = 0; r < rows_.size(); ++r) {
+    scene.behavior[r] = likeliest_behavior(type_of(model_.types, scene.type[r]),
+                                           memory_.at(observed.agents[r].id).belief);
     if (!rows_[r].on_road) continue;
     RoadContext& context = scene.context[r];
     context.active = true;
@@ -293,13 +292,7 @@ void GammaPredictor::mark_road(Scene& scene) const {
 }
 
 Forecast GammaPredictor::roll_out(const std::vector<Vec2>& path, std::size_t steps) {
-  std::vector<Vec2> velocity;
-  for (const Row& row : rows_) velocity.push_back(row.motion.velocity);
-  build_scene(model_.types, seen_, velocity, rolling_);
-  for (std::size_t r = 0; r < rows_.size(); ++r)
-    rolling_.behavior[r] = likeliest_behavior(type_of(model_.types, rolling_.type[r]),
-                                              memory_.at(seen_.agents[r].id).belief);
-  mark_road(rolling_);
+  set_scene(seen_, rolling_);
   Forecast forecast;
   roll_out_.run(model_, {.use_bodies = options_.use_kinematics, .rejoin = parameters_.rejoin},
                 period_, path, steps, rolling_, forecast);

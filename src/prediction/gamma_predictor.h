@@ -88,8 +88,9 @@ class GammaPredictor {
   Spread spread_of(const ObservedAgent& agent, const Row& row) const;
   void remember(const ObservedScene& scene);
   void infer(const ObservedScene& scene);
-  /// Vehicles on the carriageway keep to it: what stands beside or above it is not in their way.
-  void mark_road(Scene& scene) const;
+  /// The rows as a scene, each with its likeliest behaviour. Vehicles on the carriageway keep to
+  /// it: what stands beside or above it is not in their way.
+  void set_scene(const ObservedScene& observed, Scene& scene) const;
   Forecast roll_out(const std::vector<Vec2>& path, std::size_t steps);
 
   Model model_;

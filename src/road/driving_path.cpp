@@ -271,17 +271,22 @@ void carry_stops(const RoadNetwork& network, const Path& old_path, double along,
     if (stop.along < along) continue;
     const PathStretch& old = old_path.stretch_at(stop.along);
     const double on_lane = old.lane_from + stop.along - old.from;
-    for (const PathStretch& stretch : path.stretches) {
-      if (network.lane(stretch.lane).edge != network.lane(old.lane).edge) continue;
-      const double place = stretch.from + std::max(on_lane - stretch.lane_from, 0.0);
-      if (place > stretch.to + 0.5) continue;
-      path.stops.push_back({place, stop.duration});
-      break;
-    }
+    place_stop(network, network.lane(old.lane).edge, on_lane, stop.duration, path);
   }
 }
 
 }  // namespace
+
+void place_stop(const RoadNetwork& network, EdgeId edge, double on_lane, double duration,
+                Path& path) {
+  for (const PathStretch& stretch : path.stretches) {
+    if (network.lane(stretch.lane).edge != edge) continue;
+    const double place = stretch.from + std::max(on_lane - stretch.lane_from, 0.0);
+    if (place > stretch.to + 0.5) continue;
+    path.stops.push_back({place, duration});
+    return;
+  }
+}
 
 std::optional<Path> build_driving_path(const RoadNetwork& network, const PathRequest& request,
                                        std::string& why) {

@@ -100,6 +100,11 @@ struct Path {
 std::optional<Path> build_driving_path(const RoadNetwork& network, const PathRequest& request,
                                        std::string& why);
 
+/// Adds a halt `on_lane` [m] along a lane of `edge` to a path that leads over it; nothing where it
+/// doesn't get there.
+void place_stop(const RoadNetwork& network, EdgeId edge, double on_lane, double duration,
+                Path& path);
+
 /// The path of the same trip that moves over into `target`, a neighbour of the lane at `along`,
 /// within `distance` from there, and goes on as the trip needs. It begins `back` [m] behind the
 /// place or at the edge's begin: `along` becomes the place on the new path. Halts that lie ahead

@@ -104,21 +104,11 @@ void round_corners(double turning_radius, Path& path) {
     rounded[i] = (sums[i + window + 1] - sums[i - window]) / static_cast<double>(2 * window + 1);
     if (i > 0) along[i] = along[i - 1] + (rounded[i] - rounded[i - 1]).norm();
   }
-  auto carried = [&](double& place) {
+  carry_places(path, [&](double& place) {
     const double index = std::clamp(place / step, 0.0, static_cast<double>(count));
     const auto i = std::min(static_cast<std::size_t>(index), count - 1);
     place = along[i] + (index - static_cast<double>(i)) * (along[i + 1] - along[i]);
-  };
-  for (PathStretch& stretch : path.stretches) {
-    carried(stretch.from);
-    carried(stretch.to);
-  }
-  for (PathLink& link : path.links) {
-    carried(link.halt);
-    carried(link.stop_line);
-    carried(link.end);
-  }
-  for (PathStop& stop : path.stops) carried(stop.along);
+  });
   path.line = Polyline(without_flat_vertices(rounded));
 }
 

@@ -14,6 +14,22 @@ void compute_speed_profile(const PathRequest& request, Path& path);
 /// overshooting it. Places along the path are carried over.
 void round_corners(double turning_radius, Path& path);
 
+/// Calls carry(along) for every place on a path that moves with its line: ends of stretches, links,
+/// halts.
+template <typename Carry>
+void carry_places(Path& path, Carry&& carry) {
+  for (PathStretch& stretch : path.stretches) {
+    carry(stretch.from);
+    carry(stretch.to);
+  }
+  for (PathLink& link : path.links) {
+    carry(link.halt);
+    carry(link.stop_line);
+    carry(link.end);
+  }
+  for (PathStop& stop : path.stops) carry(stop.along);
+}
+
 /// Appends the points of a line between two places on it [m], ends included; reversed where to <
 /// from.
 void append_span(const Polyline& line, double from, double to, std::vector<Vec2>& points);

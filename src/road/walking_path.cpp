@@ -112,21 +112,12 @@ bool cut_fold(Path& path) {
     shorter.insert(shorter.end(), points.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                    points.end());
     const double bridge = (taken - left).norm();
-    auto carried = [&](double& along) {
+    carry_places(path, [&](double& along) {
       if (along >= tip + cut)
         along += bridge - 2.0 * cut;
       else if (along > tip - cut)
         along = tip - cut + bridge * (along - tip + cut) / (2.0 * cut);
-    };
-    for (PathStretch& stretch : path.stretches) {
-      carried(stretch.from);
-      carried(stretch.to);
-    }
-    for (PathLink& link : path.links) {
-      carried(link.halt);
-      carried(link.stop_line);
-      carried(link.end);
-    }
+    });
     path.line = Polyline(std::move(shorter));
     return true;
   }

@@ -20,8 +20,7 @@ enum class LimitReason : std::uint8_t {
   BlockedJunction,
   Leader,
   Stop,
-  Merge,
-  PathEnd
+  Merge
 };
 
 /// What the road says about one agent at one instant, computed from the frozen scene before anyone

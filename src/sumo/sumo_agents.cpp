@@ -76,14 +76,7 @@ std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& detail
   for (const SumoAgentDetails::Stop& stop : details.stops) {
     const auto stop_lane = network.lane_by_name.find(stop.lane);
     if (stop_lane == network.lane_by_name.end()) continue;
-    for (const PathStretch& stretch : path->stretches)
-      if (network.lane(stretch.lane).edge == network.lane(stop_lane->second).edge) {
-        const double along = stretch.from + std::max(stop.end - stretch.lane_from, 0.0);
-        if (along <= stretch.to + 0.5) {
-          path->stops.push_back({along, stop.duration});
-          break;
-        }
-      }
+    place_stop(network, network.lane(stop_lane->second).edge, stop.end, stop.duration, *path);
   }
   std::sort(path->stops.begin(), path->stops.end(),
             [](const PathStop& a, const PathStop& b) { return a.along < b.along; });
