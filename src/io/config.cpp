@@ -61,6 +61,7 @@ constexpr std::array kTypeFields{
     TypeField{"attention_rear", &AgentType::attention_rear, 0, false},
     TypeField{"headway", &AgentType::headway, 0, false},
     TypeField{"min_gap", &AgentType::min_gap, 0, false},
+    TypeField{"critical_gap", &AgentType::critical_gap, 0, false},
 };
 
 void bind_model(ModelOptions& model, std::vector<Binding>& bindings) {

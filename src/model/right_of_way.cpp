@@ -13,7 +13,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kFillsLane = 1.2;   ///< nobody overtakes what is wider than this on a link [m]
 constexpr double kPatience = 4.0;    ///< waited for somebody who waits for a third one [s]
 constexpr double kAmber = 2.5;       ///< reckoned with from an amber on [s]
-constexpr double kTimeMargin = 1.0;  ///< left between two users of a conflict zone [s]
+constexpr double kTimeMargin = 1.0;  ///< left by who needn't yield to the other in a zone [s]
 
 /// When a body is inside a conflict zone [s from now].
 struct Occupation {
@@ -110,8 +110,8 @@ struct Judge {
     const Approach own{link.connection, 0,    traveller.front - link.stop_line, traveller.length,
                        traveller.speed, false};
     const Occupation ours = occupation(own_type, own, zone.begin, zone.end, traveller.top_speed);
-    const bool overlap =
-        ours.begin < theirs.end + kTimeMargin && theirs.begin < ours.end + kTimeMargin;
+    const double margin = zone.yields ? own_type.critical_gap : kTimeMargin;
+    const bool overlap = ours.begin < theirs.end + margin && theirs.begin < ours.end + margin;
     if (!overlap) return Verdict::Free;
     const bool waits_for_us =
         foe.stands && approaches.waiting(foe.row).foe == scene.id[traveller.row].value;

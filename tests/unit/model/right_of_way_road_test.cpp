@@ -95,6 +95,18 @@ TEST_F(PriorityTest, TheMinorRoadGoesThroughAGap) {
   EXPECT_EQ(here_.context(minor).reason, LimitReason::None);
 }
 
+TEST_F(PriorityTest, TheTypeSaysHowLargeAGapHasToBe) {
+  const std::size_t minor = here_.add("car", {"SC", "CN"}, 176, 7);
+  here_.add("car", {"WC", "CE"}, 110, 10);
+  AgentType& car = here_.model.types[static_cast<std::size_t>(here_.scene.type[minor])];
+  car.critical_gap = 0.5;
+  here_.update();
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::None);
+  car.critical_gap = 8.0;
+  here_.update();
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
+}
+
 TEST_F(PriorityTest, SomebodyWhoHasPassedHoldsNobody) {
   const std::size_t minor = here_.add("car", {"SC", "CN"}, 185, 6);
   here_.add("car", {"WC", "CE"}, 225, 10);
