@@ -159,6 +159,8 @@ const char* name_of_reason(LimitReason reason) {
       return "stop";
     case LimitReason::Merge:
       return "lane change";
+    case LimitReason::GivesWay:
+      return "backed out";
   }
   return "none";
 }

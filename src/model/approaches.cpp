@@ -17,9 +17,14 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
   ranges_.resize(model.road.connections.size());
   approaches_.clear();
   waiting_.resize(scene.size());
-  for (std::size_t row = 0; row < scene.size(); ++row)
-    waiting_[row] = {scene.context[row].reason, scene.context[row].foe, scene.halted_for[row],
-                     scene.halted_at[row]};
+  constexpr double kPatience = 3.0;  // [s]
+  constexpr double kMayStart = 0.5;  // [m/s]
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    const RoadContext& context = scene.context[row];
+    waiting_[row] = {context.reason, context.foe, scene.halted_for[row], scene.halted_at[row],
+                     context.active && context.allowed_speed > kMayStart &&
+                         scene.standing_time[row] > kPatience};
+  }
 
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const Path* path = road.path(scene.path[row]);

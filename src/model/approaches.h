@@ -24,6 +24,7 @@ struct Waiting {
   std::int64_t foe = -1;
   ConnectionId halted_for = kNoConnection;  ///< link before which it came to a halt
   double halted_at = 0;                     ///< when it did [s]
+  bool blocked = false;  ///< no rule holds it, and yet it has stood for seconds: bodies do
 };
 
 /// Who approaches which link, and who waits for whom, from the frozen scene.

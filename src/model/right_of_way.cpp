@@ -56,6 +56,8 @@ bool waits_behind(const Model& model, const Scene& scene, const ApproachTable& a
     case LimitReason::Signal:
     case LimitReason::Stop:
     case LimitReason::BlockedJunction:
+    case LimitReason::GivesWay:
+    case LimitReason::Merge:
     case LimitReason::Leader:  // it stands in a queue, be it behind us
       return true;
     case LimitReason::Yield:
@@ -72,6 +74,21 @@ bool waits_behind(const Model& model, const Scene& scene, const ApproachTable& a
   // it has waited long for a third one and so have we: of two that stand for nothing one goes
   if (waiting.foe != scene.id[row].value && own > kPatience && other > kPatience) return true;
   return own > other || (own == other && scene.id[row] < scene.id[foe.row]);
+}
+
+/// Where a front waits for a zone of a link [m along its path]: before the stop line, or on the
+/// junction where SUMO's network has room for that before the zone. The flag says which.
+struct WaitingPlace {
+  double along = 0;
+  bool inside = false;
+};
+WaitingPlace waiting_place(const PathLink& link, const ConflictZone& zone) {
+  constexpr double kMargin = 0.3, kSlack = 2.0, kLeast = 1.5;  // [m]
+  const double begin = link.stop_line + zone.begin;
+  const double place = std::min(link.inside, begin) - kMargin;
+  if (begin < link.inside - kSlack || place < link.stop_line + kLeast)
+    return {link.stop_line, false};
+  return {place, true};
 }
 
 /// What a foe means for a traveller.
@@ -113,11 +130,16 @@ struct Judge {
     const double margin = zone.yields ? own_type.critical_gap : kTimeMargin;
     const bool overlap = ours.begin < theirs.end + margin && theirs.begin < ours.end + margin;
     if (!overlap) return Verdict::Free;
+    // who has backed out of a deadlock lets everybody past, wherever it stands; whom bodies hold
+    // isn't coming, and past the line it is no use to wait for it
+    const Waiting& waiting = approaches.waiting(foe.row);
+    if (foe.stands && waiting.reason == LimitReason::GivesWay) return Verdict::Held;
+    if (foe.stands && waiting.blocked && (!foe_inside || past_line(zone))) return Verdict::Held;
     const bool waits_for_us =
         foe.stands && approaches.waiting(foe.row).foe == scene.id[traveller.row].value;
     // all-way stop: who has halted goes in the order in which they came
     if (!foe_inside && model.road.connection(link.connection).state == 'w') {
-      if (past_line()) return Verdict::Free;
+      if (past_line(zone)) return Verdict::Free;
       const Waiting& theirs_then = approaches.waiting(foe.row);
       if (theirs_then.halted_for != zone.foe) return Verdict::Free;  // it has to halt first
       const double own_time = approaches.waiting(traveller.row).halted_at;
@@ -131,7 +153,7 @@ struct Judge {
     if (waits_behind(model, scene, approaches, foe, traveller.row)) return Verdict::Held;
     // no rule for this pair, or past the line already: who gets there first goes first, the other
     // waits for it
-    if (zone.unruled || past_line())
+    if (zone.unruled || past_line(zone))
       return blocks_if(theirs.begin < ours.begin ||
                        (theirs.begin == ours.begin && scene.id[foe.row] < scene.id[traveller.row]));
     if (!zone.yields) {
@@ -145,7 +167,9 @@ struct Judge {
   }
 
  private:
-  bool past_line() const { return traveller.front > link.stop_line + 0.3; }
+  bool past_line(const ConflictZone& zone) const {
+    return traveller.front > waiting_place(link, zone).along + 0.3;
+  }
   static Verdict blocks_if(bool blocks) { return blocks ? Verdict::Blocks : Verdict::Free; }
   Verdict waiting_verdict(const Approach& foe) const {
     return waits_behind(model, scene, approaches, foe, traveller.row) ? Verdict::Held
@@ -213,8 +237,12 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
       if (verdict == Verdict::Held && type_of(model.types, scene.type[foe.row]).width > kFillsLane)
         break;
       if (verdict != Verdict::Blocks) continue;
-      // wait at the line; inside the junction only where the own body is past the line already
-      const double line = to_line > -0.2 ? stop_at : link.stop_line + zone.begin - kStopMargin;
+      // wait at the line; inside the junction where there is a place for that, or where the own
+      // body is past the line already
+      const WaitingPlace place = waiting_place(link, zone);
+      const double line = place.inside && traveller.front < place.along + 0.3 ? place.along
+                          : to_line > -0.2                                    ? stop_at
+                                           : link.stop_line + zone.begin - kStopMargin;
       if (deceleration_to_stop(traveller.speed, line - traveller.front) >
               0.8 * type.max_deceleration &&
           traveller.speed > 1.0)

@@ -21,6 +21,15 @@ struct Course {
   double speed;  ///< on foot along the path, on wheels along the heading [m/s]
 };
 
+/// The frozen scene and what is known of its roads.
+struct View {
+  const Model& model;
+  const RoadState& road;
+  const Scene& scene;
+  const SpatialGrid& grid;
+  const ApproachTable& approaches;
+};
+
 /// Distance to the look-ahead sub-goal [m] (III-D): a body length and some, growing with speed.
 double look_ahead(const Course& course) {
   if (course.path.walking) return 1.2 + 0.6 * course.speed;
@@ -137,9 +146,26 @@ void note_halt(const Course& course, Scene& scene) {
   }
 }
 
-void set_allowed_speed(const Model& model, const RoadState& road, const Scene& scene,
-                       const SpatialGrid& grid, const ApproachTable& approaches,
-                       const Course& course, double dt, RoadContext& context) {
+/// Keep clear of junctions that follow each other closely: who would have to wait before the next
+/// one with its rear still on this one waits here already. After a minute it goes all the same.
+LinkDecision decide_beyond(const View& view, const Course& course, const Traveller& traveller,
+                           const PathLink& link) {
+  constexpr double kPatience = 60.0;  // [s]
+  if (view.scene.standing_time[course.row] > kPatience) return {};
+  const PathLink* last = &link;
+  for (const PathLink& next : course.path.links) {
+    if (next.stop_line <= link.stop_line) continue;
+    if (next.halt - kStopMargin - traveller.length > last->end) break;
+    const LinkDecision decision =
+        decide_link(view.model, view.road, view.scene, view.approaches, traveller, next);
+    if (decision.must_stop) return decision;
+    last = &next;
+  }
+  return {};
+}
+
+void set_allowed_speed(const View& view, const Course& course, double dt, RoadContext& context) {
+  const auto& [model, road, scene, grid, approaches] = view;
   const AgentType& type = course.type;
   const double front = course.along + course.half_length;
   const double free_speed = context.speed_limit;
@@ -175,12 +201,15 @@ void set_allowed_speed(const Model& model, const RoadState& road, const Scene& s
             binding, context);
     }
     LinkDecision decision = decide_link(model, road, scene, approaches, traveller, link);
-    const bool conflicts = has_crossing_traffic(model, link.connection);
-    if (!decision.must_stop && conflicts && link.stop_line > front - 0.3) {
+    if (!decision.must_stop && link.stop_line > front - 0.3 &&
+        has_crossing_traffic(model, link.connection)) {
       const std::int64_t blocker = blocks_exit(ahead, course, link);
-      if (blocker >= 0)
+      const LinkDecision beyond =
+          blocker >= 0 ? LinkDecision{true, 0.0, LimitReason::BlockedJunction, blocker}
+                       : decide_beyond(view, course, traveller, link);
+      if (beyond.must_stop)
         decision = {true, (link.halt > front ? link.halt : link.stop_line) - kStopMargin,
-                    LimitReason::BlockedJunction, blocker};
+                    beyond.reason, beyond.foe};
     }
     if (!decision.must_stop) continue;
     const double gap = decision.stop_at - front + type.min_gap;
@@ -195,21 +224,27 @@ void set_allowed_speed(const Model& model, const RoadState& road, const Scene& s
   }
   limit(stop_acceleration(scene, course, free_speed), LimitReason::Stop, -1, binding, context);
   context.allowed_speed = std::max(0.0, course.speed + binding * dt);
+  if (scene.gives_way_left[course.row] > 0.0) {
+    context.allowed_speed = 0.0;
+    context.reason = LimitReason::GivesWay;
+    context.foe = -1;
+    return;
+  }
   // who may start has room to find out where to: how fast it gets there is the body's business
   if (binding > 0.5 * type.max_acceleration)
     context.allowed_speed = std::max(context.allowed_speed, kStart);
 }
 
 /// Walkers stop dead at a kerb, and otherwise leave each other to avoidance.
-void set_walker_limit(const Model& model, const RoadState& road, const Scene& scene,
-                      const ApproachTable& approaches, const Course& course, RoadContext& context) {
+void set_walker_limit(const View& view, const Course& course, RoadContext& context) {
   const double front = course.along + course.half_length;
   const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed,
                             context.speed_limit};
   for (const PathLink& link : course.path.links) {
     if (link.end < course.along || link.stop_line < front - 0.5) continue;
     if (link.stop_line > front + 4.0) break;
-    const LinkDecision decision = decide_link(model, road, scene, approaches, traveller, link);
+    const LinkDecision decision =
+        decide_link(view.model, view.road, view.scene, view.approaches, traveller, link);
     if (!decision.must_stop) continue;
     context.allowed_speed = std::max(0.0, (decision.stop_at - front) / 0.7);
     context.reason = decision.reason;
@@ -223,6 +258,7 @@ void set_walker_limit(const Model& model, const RoadState& road, const Scene& sc
 void update_road_contexts(const Model& model, const RoadState& road, const SpatialGrid& grid,
                           double dt, Workers& workers, ApproachTable& approaches, Scene& scene) {
   approaches.rebuild(model, road, scene);
+  const View view{model, road, scene, grid, approaches};
   workers.for_each_range(scene.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       RoadContext context;
@@ -242,10 +278,10 @@ void update_road_contexts(const Model& model, const RoadState& road, const Spati
         context.speed_limit = std::min(path->profile_at(along), scene.preferred_speed[row]);
         set_geometry(model, scene, course, context);
         if (path->walking) {
-          set_walker_limit(model, road, scene, approaches, course, context);
+          set_walker_limit(view, course, context);
         } else {
           note_halt(course, scene);
-          set_allowed_speed(model, road, scene, grid, approaches, course, dt, context);
+          set_allowed_speed(view, course, dt, context);
         }
       }
       // a row reads other rows' state but never their new context

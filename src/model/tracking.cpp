@@ -80,18 +80,11 @@ Steering turn_wheels(const AgentType& type, const BodyState& body, double speed,
   return angle == wanted.angle ? wanted : Steering{angle, tangent(angle)};
 }
 
-Advanced advance_single_track(const AgentType& type, const BodyState& body, const Vec2& forward,
-                              const Vec2& velocity, double dt) {
+/// Rolls by `distance` [m] (negative: back) on the exact arc of the rear axle with these wheels.
+Advanced roll(const AgentType& type, const BodyState& body, const Vec2& forward,
+              const Steering& steering, double distance, double dt) {
   Advanced next{body};
-  const Vec2 asked = to_body(velocity, forward);
-
-  const double target = std::clamp(asked.x(), 0.0, type.max_speed);
-  const double speed = std::max(0.0, std::clamp(target, body.speed - type.max_deceleration * dt,
-                                                body.speed + type.max_acceleration * dt));
-  const Steering steering = turn_wheels(type, body, speed, asked, dt);
-
-  // exact arc of the rear axle, and the centre's swing about it
-  const double distance = speed * dt;
+  // the arc, and the centre's swing about the rear axle
   const double turn = distance * steering.lock / type.wheelbase;
   const double half = 0.5 * turn;
   const Vec2 half_turn = rotation(half);
@@ -100,7 +93,6 @@ Advanced advance_single_track(const AgentType& type, const BodyState& body, cons
                         2.0 * half_turn.x() * half_turn.y());
   const Vec2 displacement =
       from_body(chord * half_turn + type.rear_axle_to_center * (whole_turn - Vec2(1, 0)), forward);
-  next.body.speed = speed;
   next.body.steering = steering.angle;
   next.body.heading = body.heading + turn;
   if (std::abs(next.body.heading) > kPi) next.body.heading = wrap_angle(next.body.heading);
@@ -108,6 +100,18 @@ Advanced advance_single_track(const AgentType& type, const BodyState& body, cons
   next.body.velocity = displacement / dt;
   next.forward = from_body(whole_turn, forward);
   next.lock = steering.lock;
+  return next;
+}
+
+Advanced advance_single_track(const AgentType& type, const BodyState& body, const Vec2& forward,
+                              const Vec2& velocity, double dt) {
+  const Vec2 asked = to_body(velocity, forward);
+  const double target = std::clamp(asked.x(), 0.0, type.max_speed);
+  const double speed = std::max(0.0, std::clamp(target, body.speed - type.max_deceleration * dt,
+                                                body.speed + type.max_acceleration * dt));
+  const Steering steering = turn_wheels(type, body, speed, asked, dt);
+  Advanced next = roll(type, body, forward, steering, speed * dt, dt);
+  next.body.speed = speed;
   return next;
 }
 
@@ -126,6 +130,18 @@ Advanced advance_body(const AgentType& type, const BodyState& body, const Vec2& 
 BodyState advance_body(const AgentType& type, const BodyState& body, const Vec2& velocity,
                        double dt) {
   return advance_body(type, body, rotation(body.heading), velocity, dt).body;
+}
+
+BodyState roll_back(const AgentType& type, const BodyState& body, double lock, double speed,
+                    double dt) {
+  const Steering wanted = within_limits(type, speed, lock);
+  const double most_change = type.max_steering_rate * dt;
+  const double angle =
+      std::clamp(wanted.angle, body.steering - most_change, body.steering + most_change);
+  BodyState next =
+      roll(type, body, rotation(body.heading), {angle, tangent(angle)}, -speed * dt, dt).body;
+  next.speed = 0.0;
+  return next;
 }
 
 BodyState body_of(const Scene& scene, std::size_t row) {

@@ -35,6 +35,12 @@ struct Advanced {
 Advanced advance_body(const AgentType& type, const BodyState& body, const Vec2& forward,
                       const Vec2& velocity, double dt);
 
+/// One step backwards at `speed` [m/s, >= 0] with the front wheels turned towards `lock` (tangent
+/// of their angle) within angle and rate: on an exact arc of the rear axle, too. For backing out
+/// (see backing) alone; single track only. The forward speed of the result is 0.
+BodyState roll_back(const AgentType& type, const BodyState& body, double lock, double speed,
+                    double dt);
+
 /// The body of a row as it stands.
 BodyState body_of(const Scene& scene, std::size_t row);
 

@@ -129,7 +129,8 @@ class Builder {
   /// the target.
   bool cross(ConnectionId id) {
     const Connection& connection = network_.connection(id);
-    PathLink link{id, length(), 0.0, std::max(length() - connection.setback, 0.0)};
+    PathLink link{id, length(), 0.0, std::max(length() - connection.setback, 0.0), length()};
+    const bool may_wait = may_stop_inside(network_, connection);
     LaneId lane = connection.via;
     for (int hops = 0; lane != kNoLane; ++hops) {
       if (hops > 8) return false;
@@ -143,6 +144,7 @@ class Builder {
         break;
       }
       if (!arrived && !network_.lane(lane).outgoing.empty()) return false;
+      if (hops == 0 && next != kNoLane && may_wait) link.inside = length();
       lane = next;
     }
     link.end = length();

@@ -30,6 +30,8 @@ struct PathLink {
   double stop_line = 0;  ///< along the path, where the link begins [m]
   double end = 0;        ///< along the path, where the junction is left [m]
   double halt = 0;       ///< along the path, where a front that waits comes to rest at most [m]
+  double inside = 0;     ///< along the path, up to where a front may wait on the junction for those
+                         ///< who go first (SUMO's cont); the stop line or less where it may not [m]
 };
 
 /// A planned halt: a <stop> of the route.

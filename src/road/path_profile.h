@@ -26,6 +26,7 @@ void carry_places(Path& path, Carry&& carry) {
     carry(link.halt);
     carry(link.stop_line);
     carry(link.end);
+    carry(link.inside);
   }
   for (PathStop& stop : path.stops) carry(stop.along);
 }

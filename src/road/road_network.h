@@ -154,4 +154,12 @@ struct RoadNetwork {
   const Junction& junction(JunctionId id) const { return junctions[index_of(id)]; }
 };
 
+/// May who takes a connection wait on the junction, where its first internal lane ends?
+inline bool may_stop_inside(const RoadNetwork& network, const Connection& connection) {
+  if (connection.junction == kNoJunction || connection.junction_link < 0) return false;
+  const auto& requests = network.junction(connection.junction).requests;
+  const auto link = static_cast<std::size_t>(connection.junction_link);
+  return link < requests.size() && requests[link].may_stop_inside;
+}
+
 }  // namespace sumogamma

@@ -20,7 +20,8 @@ enum class LimitReason : std::uint8_t {
   BlockedJunction,
   Leader,
   Stop,
-  Merge
+  Merge,
+  GivesWay  ///< after backing out of a deadlock
 };
 
 /// What the road says about one agent at one instant, computed from the frozen scene before anyone

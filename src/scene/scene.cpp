@@ -32,6 +32,8 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.merge_to);
   visit(scene.gate);
   visit(scene.wedge_left);
+  visit(scene.backing_left);
+  visit(scene.gives_way_left);
   visit(scene.standing_time);
   visit(scene.halted_for);
   visit(scene.halted_at);

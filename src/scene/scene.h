@@ -61,6 +61,8 @@ struct Scene {
   std::vector<double> gate;  ///< along its path, where it waits for a gap there; infinite: free
   std::vector<double> wedge_left;  ///< [s] for which it still drives as one that was stuck between
                                    ///< bodies
+  std::vector<double> backing_left;      ///< [s] for which it still backs out
+  std::vector<double> gives_way_left;    ///< [s] for which it lets others go first after that
   std::vector<double> standing_time;     ///< [s] since it was last faster than 0.3 m/s
   std::vector<ConnectionId> halted_for;  ///< link before which it last came to a halt
   std::vector<double> halted_at;         ///< when it did [s]

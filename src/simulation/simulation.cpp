@@ -3,6 +3,7 @@
 #include <chrono>
 #include <ctime>
 
+#include "model/backing.h"
 #include "model/locate.h"
 #include "model/road_context.h"
 
@@ -85,6 +86,10 @@ void tick(Simulation& sim, World& world) {
   sim.workers->for_each_range(rows, [&](std::size_t worker, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       if (scene.control[row] != Control::Gamma) continue;
+      if (const auto backed = back_out(sim.model, sim.road, scene, sim.geometry, row, sim.dt)) {
+        sim.commands[row] = *backed;
+        continue;
+      }
       const Vec2 velocity = gamma_velocity(sim.model, scene, sim.geometry, row, scene.behavior[row],
                                            sim.workspaces[worker]);
       sim.commands[row] =
@@ -102,6 +107,7 @@ void tick(Simulation& sim, World& world) {
     scene.standing_time[row] =
         scene.velocity[row].norm() < 0.3 ? scene.standing_time[row] + sim.dt : 0.0;
     update_wedge(sim.dt, scene, row);
+    update_backing(sim.dt, scene, row);
   }
   ++scene.tick;
   scene.time += sim.dt;

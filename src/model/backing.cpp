@@ -1,0 +1,114 @@
+#include "model/backing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "geometry/rotation.h"
+#include "model/stopping_guard.h"
+
+namespace sumogamma {
+
+namespace {
+
+constexpr double kPace = 0.45;        // walking backwards [m/s]
+constexpr double kThrottle = 1.0;     // [m/s^2]
+constexpr double kBrake = 2.0;        // [m/s^2]
+constexpr double kLeast = 8.0;        // wedged for so long before anybody backs out [s]
+constexpr double kStagger = 8.0;      // and up to so much longer, so that not all do at once [s]
+constexpr double kTries = 8.0;        // [s]
+constexpr double kGivesWay = 8.0;     // [s]
+constexpr double kClear = 0.3;        // kept to everybody behind [m]
+constexpr double kRoomToBegin = 0.8;  // [m]
+constexpr double kTarget = 3.0;       // behind the rear axle, aimed at on the path [m]
+constexpr double kStill = 0.01;       // [m/s]
+
+double backward_speed(const Scene& scene, std::size_t row) {
+  return std::max(0.0, -scene.velocity[row].dot(direction_of(scene.heading[row])));
+}
+
+/// How long this row stands wedged before it backs out [s]: drawn anew for each stretch of time.
+double patience(const Scene& scene, std::size_t row) {
+  const auto stretch = static_cast<std::uint64_t>(scene.time / (kLeast + kStagger));
+  return kLeast + random_uniform(0, scene.id[row].value, stretch, Draw::Intention, 0.0, kStagger);
+}
+
+/// Front wheels that bring the rear axle back along the path (pure pursuit backwards).
+double lock_along_path(const Path& path, const Scene& scene, const AgentType& type,
+                       std::size_t row) {
+  const Vec2 forward = direction_of(scene.heading[row]);
+  const Vec2 axle = scene.position[row] - type.rear_axle_to_center * forward;
+  const double behind = scene.path_along[row] - type.rear_axle_to_center - kTarget;
+  if (behind < 0.0) return 0.0;
+  const Vec2 way = path.line.point_at(behind) - axle;
+  return type.wheelbase * 2.0 * cross(forward, way) / std::max(way.squaredNorm(), 1.0);
+}
+
+/// Does a pose keep clear of everybody as they brake now, or come no closer to who is close?
+bool keeps_clear(const Scene& scene, const TickGeometry& geometry, std::size_t row,
+                 const BodyState& body) {
+  const AgentGeometry& own = geometry.agent[row];
+  const Vec2 forward = direction_of(body.heading);
+  const OrientedBox box{body.position + own.shift * forward, forward, own.half};
+  bool clear = true;
+  geometry.grid.visit_within(body.position, own.radius + 12.0, [&](std::size_t other, double) {
+    if (other == row || !clear || std::abs(scene.height[other] - scene.height[row]) > kStorey)
+      return;
+    const AgentGeometry& their = geometry.agent[other];
+    const double kept = kClear + std::min(their.throttle_way, 0.3);
+    if (!their.is_box) {
+      clear = (their.position - body.position).norm() > own.radius + their.radius + kept ||
+              (their.position - body.position).norm() > (their.position - own.position).norm();
+      return;
+    }
+    const double gap = separation(box, their.braking);
+    if (gap < kept) clear = gap > separation(own.box(), their.braking) - 1e-9;
+  });
+  return clear;
+}
+
+}  // namespace
+
+bool is_backing(const Scene& scene, std::size_t row) {
+  return scene.backing_left[row] > 0.0 || backward_speed(scene, row) > kStill;
+}
+
+void update_backing(double dt, Scene& scene, std::size_t row) {
+  double& left = scene.backing_left[row];
+  double& gives_way = scene.gives_way_left[row];
+  gives_way = std::max(0.0, gives_way - dt);
+  if (left > 0.0) {
+    const bool moved_on = scene.speed[row] > kPace;
+    left = moved_on ? 0.0 : left - dt;
+    if (left <= 0.0) {
+      left = 0.0;
+      gives_way = moved_on ? 0.0 : kGivesWay;
+    }
+  } else if (gives_way <= 0.0 && is_wedged(scene, row) &&
+             scene.standing_time[row] > patience(scene, row)) {
+    left = kTries;
+  }
+}
+
+std::optional<BodyState> back_out(const Model& model, const RoadState& road, const Scene& scene,
+                                  const TickGeometry& geometry, std::size_t row, double dt) {
+  if (!is_backing(scene, row) || scene.speed[row] > kStill) return std::nullopt;
+  const AgentGeometry& own = geometry.agent[row];
+  const Path* path = road.path(scene.path[row]);
+  if (path == nullptr || !own.on_wheels || !own.is_box) return std::nullopt;
+  const AgentType& type = type_of(model.types, scene.type[row]);
+  const double lock = lock_along_path(*path, scene, type, row);
+  const double now = backward_speed(scene, row);
+  const BodyState body = body_of(scene, row);
+  if (now <= kStill &&
+      !keeps_clear(scene, geometry, row, roll_back(type, body, lock, kRoomToBegin / dt, dt)))
+    return std::nullopt;
+  // as fast as it can still stop before the time is over and before whoever is behind
+  double speed = std::min({kPace, now + kThrottle * dt, kBrake * scene.backing_left[row]});
+  const double way = speed * dt + 0.5 * speed * speed / kBrake;
+  if (!keeps_clear(scene, geometry, row, roll_back(type, body, lock, way / dt, dt)))
+    speed = std::max(0.0, now - kBrake * dt);
+  return roll_back(type, body, lock, speed, dt);
+}
+
+}  // namespace sumogamma
