@@ -56,7 +56,7 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     const double gap = rear - along - own_half_length;
     // whoever is beside already, or waits at the kerb, is passed as close as it comes
     const bool at_kerb = waits_at_kerb(model, scene, other);
-    const double kept = at_kerb ? -0.15 : gap < 0.0 ? 0.02 : margin;
+    const double kept = at_kerb ? -0.35 : gap < 0.0 ? 0.02 : margin;
     if (std::abs(place.offset - swept) > own_half_width + half_width + kept) {
       const bool merges =
           scene.merge_to[other] != kNoLane && scene.merge_to[other] == scene.lane[row].lane;

@@ -149,6 +149,10 @@ struct Judge {
     }
     if (waits_for_us && !zone.yields && !foe_inside) return Verdict::Held;
     if (waits_for_us) return waiting_verdict(foe);
+    // on foot one walks round what stands on the crossing
+    if (foe_inside && foe.stands && own_type.kinematics == Kinematics::Holonomic &&
+        waits_behind(model, scene, approaches, foe, traveller.row))
+      return Verdict::Held;
     if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
     if (waits_behind(model, scene, approaches, foe, traveller.row)) return Verdict::Held;
     // no rule for this pair, or past the line already: who gets there first goes first, the other

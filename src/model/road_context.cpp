@@ -108,27 +108,48 @@ double stop_acceleration(const Scene& scene, const Course& course, double free_s
   return following_acceleration(course.type, course.speed, free_speed, gap, 0.0);
 }
 
+/// Where the next queue behind a link may have its head [m along the path]: before the next link
+/// at which somebody might have to wait, infinite where none is near.
+double next_queue_head(const View& view, const Course& course, const PathLink& link) {
+  constexpr double kNear = 80.0;  // [m]
+  for (const PathLink& next : course.path.links) {
+    if (next.stop_line <= link.stop_line) continue;
+    if (next.stop_line > link.end + kNear) break;
+    const Connection& connection = view.model.road.connection(next.connection);
+    const char signal = view.road.signal(connection);
+    const bool first = signal == 'G' || (signal == 'O' && connection.state == 'M');
+    if (!first && has_crossing_traffic(view.model, next.connection)) return next.halt;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
 /// Keep clear: is there room behind a link for the body, should everybody ahead close up and stop?
 /// Id of who takes the room, -1 where there is enough. Sorts `ahead`.
-std::int64_t blocks_exit(DrivingAhead& ahead, const Course& course, const PathLink& link) {
+std::int64_t blocks_exit(const View& view, DrivingAhead& ahead, const Course& course,
+                         const PathLink& link) {
   constexpr double kBraking = 3.5;   // [m/s^2]
   constexpr double kDrives = 3.0;    // [m/s]
   constexpr double kClosedUp = 1.0;  // [m]
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (ahead.count == 0) return -1;
   const auto begin = ahead.vehicles.begin(), end = begin + static_cast<std::ptrdiff_t>(ahead.count);
   std::sort(begin, end, [](const auto& a, const auto& b) {
     return a.rear != b.rear ? a.rear > b.rear : a.id < b.id;
   });
   // where each comes to rest at the least, from the far end of the queue
-  double rest = std::numeric_limits<double>::infinity();
+  const double head = next_queue_head(view, course, link);
+  double rest = kNever;
   for (auto vehicle = begin; vehicle != end; ++vehicle) {
-    // who drives and has nobody slow ahead goes on
+    // who drives and has nobody slow ahead goes on, as far as to the next place where it may have
+    // to wait
     const double alone = vehicle->speed > kDrives
-                             ? std::numeric_limits<double>::infinity()
+                             ? kNever
                              : vehicle->rear + vehicle->speed * vehicle->speed / (2.0 * kBraking);
+    if (vehicle->front < head) rest = std::min(rest, head + kClosedUp);
     rest = std::min(alone, rest - kClosedUp - (vehicle->front - vehicle->rear));
   }
   const double needed = link.end + 2.0 * course.half_length + course.type.min_gap + 0.3;
-  return ahead.count > 0 && rest < needed ? (end - 1)->id : -1;
+  return rest < needed ? (end - 1)->id : -1;
 }
 
 /// Remembers for stop signs that the agent came to a halt before its next link.
@@ -201,15 +222,18 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
             binding, context);
     }
     LinkDecision decision = decide_link(model, road, scene, approaches, traveller, link);
-    if (!decision.must_stop && link.stop_line > front - 0.3 &&
+    // who waits on the junction goes no further, either
+    const double entry = std::max(link.stop_line, link.inside);
+    if (!decision.must_stop && entry > front - 0.3 &&
         has_crossing_traffic(model, link.connection)) {
-      const std::int64_t blocker = blocks_exit(ahead, course, link);
+      const std::int64_t blocker = blocks_exit(view, ahead, course, link);
       const LinkDecision beyond =
           blocker >= 0 ? LinkDecision{true, 0.0, LimitReason::BlockedJunction, blocker}
                        : decide_beyond(view, course, traveller, link);
-      if (beyond.must_stop)
-        decision = {true, (link.halt > front ? link.halt : link.stop_line) - kStopMargin,
-                    beyond.reason, beyond.foe};
+      const double line = link.halt > front              ? link.halt
+                          : link.stop_line > front - 0.3 ? link.stop_line
+                                                         : link.inside;
+      if (beyond.must_stop) decision = {true, line - kStopMargin, beyond.reason, beyond.foe};
     }
     if (!decision.must_stop) continue;
     const double gap = decision.stop_at - front + type.min_gap;
@@ -237,16 +261,24 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
 
 /// Walkers stop dead at a kerb, and otherwise leave each other to avoidance.
 void set_walker_limit(const View& view, const Course& course, RoadContext& context) {
+  constexpr double kStep = 0.4;  // [m]
   const double front = course.along + course.half_length;
   const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed,
                             context.speed_limit};
   for (const PathLink& link : course.path.links) {
     if (link.end < course.along || link.stop_line < front - 0.5) continue;
-    if (link.stop_line > front + 4.0) break;
+    if (link.halt > front + 4.0) break;
     const LinkDecision decision =
         decide_link(view.model, view.road, view.scene, view.approaches, traveller, link);
     if (!decision.must_stop) continue;
-    context.allowed_speed = std::max(0.0, (decision.stop_at - front) / 0.7);
+    const double beyond = front - (link.halt - kStopMargin);
+    if (link.halt < link.stop_line && beyond > kStep) {
+      // on the road already when the light changed: back to where nobody drives
+      context.sub_goal = course.path.line.point_at(course.along - beyond);
+      context.allowed_speed = std::min(beyond / 0.7, 1.0);
+    } else {
+      context.allowed_speed = std::max(0.0, (decision.stop_at - front) / 0.7);
+    }
     context.reason = decision.reason;
     context.foe = decision.foe;
     return;

@@ -46,7 +46,40 @@ double setback_on(const Lane& lane, const std::vector<Polyline>& ways) {
   return clear_from <= std::min(kFarthest, 0.5 * length) ? clear_from : 0.0;
 }
 
+/// Middle lines of all ways over a junction that vehicles drive.
+std::vector<Polyline> driven_ways(const RoadNetwork& network, const Junction& junction) {
+  std::vector<Polyline> ways;
+  for (const ConnectionId id : junction.links)
+    if (id != kNoConnection && is_driven(network, network.connection(id)))
+      ways.push_back(link_geometry(network, id));
+  return ways;
+}
+
+/// Where on a walk, at `along` or so far before it as it takes, nobody drives.
+double off_the_road(const Path& path, double along, const std::vector<Polyline>& ways) {
+  constexpr double kWalkerRoom = 1.55;  // between the middles of a vehicle and a walker [m]
+  constexpr double kMost = 10.0;       // [m]
+  constexpr double kWalkerStep = 0.4;  // [m]
+  for (double back = 0.0; back <= std::min(kMost, along); back += kWalkerStep) {
+    const Vec2 place = path.line.point_at(along - back);
+    const bool driven = std::any_of(ways.begin(), ways.end(), [&](const Polyline& way) {
+      return way.project(place).distance < kWalkerRoom;
+    });
+    if (!driven) return along - back;
+  }
+  return along;
+}
+
 }  // namespace
+
+void halt_off_the_road(const RoadNetwork& network, Path& path) {
+  for (PathLink& link : path.links) {
+    const JunctionId junction = network.connection(link.connection).junction;
+    if (junction == kNoJunction) continue;
+    link.halt =
+        off_the_road(path, link.stop_line, driven_ways(network, network.junction(junction)));
+  }
+}
 
 void set_back_stop_lines(RoadNetwork& network) {
   std::vector<std::vector<ConnectionId>> by_junction(network.junctions.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "road/path.h"
 #include "road/road_network.h"
 
 namespace sumogamma {
@@ -9,5 +10,10 @@ namespace sumogamma {
 /// turn into the road beside it. The front halts so much earlier that they get past; 0 where that
 /// is no matter, or where 10 m do not help.
 void set_back_stop_lines(RoadNetwork& network);
+
+/// Moves PathLink::halt of every crossing on a walk back to where nobody drives: SUMO's walking
+/// areas, and so the ends of its crossings, may lie on the ways that vehicles take. Up to 10 m;
+/// where that does not help the halt stays as it is.
+void halt_off_the_road(const RoadNetwork& network, Path& path);
 
 }  // namespace sumogamma

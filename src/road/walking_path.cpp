@@ -5,6 +5,7 @@
 
 #include "road/path.h"
 #include "road/path_profile.h"
+#include "road/stop_lines.h"
 
 namespace sumogamma {
 
@@ -166,6 +167,7 @@ class Walk {
     }
     path_.arrival = path_.line.length();
     path_.stretches.back().to = path_.arrival;
+    halt_off_the_road(network_, path_);
     compute_speed_profile(request, path_);
     return std::move(path_);
   }
