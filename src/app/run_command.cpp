@@ -33,6 +33,10 @@ CommandRunner add_run_command(CLI::App& parent) {
       ->add_option("--backend", options->backend,
                    "traci (SUMO as a child process) or libsumo (in process)")
       ->check(CLI::IsMember({"traci", "libsumo"}));
+  command
+      ->add_option("--preset", options->preset,
+                   "how people behave: compliant (keep every rule) or observed (as recorded)")
+      ->check(CLI::IsMember({"compliant", "observed"}));
   command->add_option("--connect", options->connect,
                       "HOST:PORT of a SUMO or sumo-gui started with --remote-port");
   command->add_option("--sumo-options", options->sumo_options,

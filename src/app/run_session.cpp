@@ -83,7 +83,9 @@ RunPlan make_plan(const RunOptions& options, const CommonOptions& common) {
   RunPlan plan;
   plan.options = options;
   plan.input = find_scenario(options.scenario);
-  plan.config = read_config(plan.input.settings, common.set);
+  std::vector<std::string> overrides = common.set;
+  if (options.preset) overrides.push_back("behavior.preset=" + *options.preset);
+  plan.config = read_config(plan.input.settings, overrides);
   plan.step = options.step.value_or(plan.config.step);
   // a user's own .sumocfg may say itself how long it is
   const bool set = std::any_of(common.set.begin(), common.set.end(), [](const std::string& key) {
@@ -379,6 +381,8 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   results.step = plan.step;
   results.duration = simulated;
   results.control = plan.control_text;
+  results.preset = name_of(plan.config.preset);
+  results.types = plan.config.types;
   results.threads = common.threads;
   observers.fill(results);
   fill_agents(world.life_cycle(), results.agents);

@@ -17,6 +17,7 @@ struct RunOptions {
   std::vector<std::string> control;      ///< all | none | types and ids
   std::vector<double> region;            ///< x0,y0,x1,y1 of --region [m]
   std::optional<std::string> backend;    ///< traci | libsumo
+  std::optional<std::string> preset;     ///< compliant | observed
   std::string connect;                   ///< HOST:PORT of a SUMO that the user started
   std::string sumo_options;
   bool gui = false, replay = false;

@@ -16,6 +16,7 @@ enum class Draw : std::uint32_t {
   CriticalGap,
   Headway,
   Jaywalking,
+  Yielding,
 };
 
 /// 64 well-mixed bits: a pure function of its arguments (splitmix64 finaliser, applied a word at a

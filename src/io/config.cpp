@@ -26,13 +26,16 @@ struct Choice {
   std::vector<std::pair<std::string, Enum>> words;
 };
 
-/// A key and where its value goes. Numbers must be finite and at least `least`, or above it where
-/// `open`.
+/// A key and where its value goes. Numbers must be finite, at least `least`, or above it where
+/// `open`, and at most `most`.
 struct Binding {
   std::string key;
-  std::variant<double*, int*, bool*, std::string*, Choice<Kinematics>, Choice<PairHorizon>> target;
+  std::variant<double*, int*, bool*, std::string*, Choice<Kinematics>, Choice<PairHorizon>,
+               Choice<BehaviorPreset>>
+      target;
   double least = kAny;
   bool open = false;
+  double most = std::numeric_limits<double>::infinity();
 };
 
 struct TypeField {
@@ -64,6 +67,25 @@ constexpr std::array kTypeFields{
     TypeField{"critical_gap", &AgentType::critical_gap, 0, false},
 };
 
+struct ComplianceField {
+  const char* name;
+  double Compliance::*member;
+  bool share;  ///< from 0 to 1
+};
+
+constexpr std::array kComplianceFields{
+    ComplianceField{"red_light_running", &Compliance::red_light_running, true},
+    ComplianceField{"yielding_rate", &Compliance::yielding_rate, true},
+    ComplianceField{"jaywalking_rate", &Compliance::jaywalking_rate, true},
+    ComplianceField{"speed_factor", &Compliance::speed_factor, false},
+    ComplianceField{"speed_factor_deviation", &Compliance::speed_factor_deviation, false},
+    ComplianceField{"headway_deviation", &Compliance::headway_deviation, false},
+    ComplianceField{"responsibility_least", &Compliance::responsibility_least, true},
+    ComplianceField{"responsibility_most", &Compliance::responsibility_most, true},
+    ComplianceField{"attention_least", &Compliance::attention_least, false},
+    ComplianceField{"attention_most", &Compliance::attention_most, false},
+};
+
 void bind_model(ModelOptions& model, std::vector<Binding>& bindings) {
   bindings.push_back({"model.use_kinematics", &model.use_kinematics});
   bindings.push_back({"model.use_polygons", &model.use_polygons});
@@ -90,6 +112,13 @@ void bind_model(ModelOptions& model, std::vector<Binding>& bindings) {
   bindings.push_back({"model.walker_margin", &model.walker_margin, 0});
 }
 
+void bind_preset(BehaviorPreset& preset, std::vector<Binding>& bindings) {
+  Choice<BehaviorPreset> choice{&preset, {}};
+  for (const BehaviorPreset one : {BehaviorPreset::Compliant, BehaviorPreset::Observed})
+    choice.words.emplace_back(name_of(one), one);
+  bindings.push_back({"behavior.preset", choice});
+}
+
 std::vector<Binding> bind_all(ScenarioConfig& config) {
   std::vector<Binding> bindings{
       {"scenario.name", &config.name},     {"scenario.map", &config.map},
@@ -98,6 +127,7 @@ std::vector<Binding> bind_all(ScenarioConfig& config) {
       {"run.step", &config.step, 0, true}, {"run.control", &config.control},
       {"run.backend", &config.backend},
   };
+  bind_preset(config.preset, bindings);
   bind_model(config.model, bindings);
   for (AgentType& type : config.types) {
     const std::string prefix = "types." + type.name + ".";
@@ -108,6 +138,9 @@ std::vector<Binding> bind_all(ScenarioConfig& config) {
                                                     {"single_track", Kinematics::SingleTrack}}}});
     for (const TypeField& field : kTypeFields)
       bindings.push_back({prefix + field.name, &(type.*field.member), field.least, field.open});
+    for (const ComplianceField& field : kComplianceFields)
+      bindings.push_back({prefix + field.name, &(type.compliance.*field.member), 0, false,
+                          field.share ? 1.0 : std::numeric_limits<double>::infinity()});
   }
   return bindings;
 }
@@ -190,20 +223,25 @@ class Document {
             });
         fail(value, "unknown key '" + full + "', the nearest known one is '" + nearest->key + "'");
       }
-      // clang 14 can't capture a structured binding
-      const toml::node& node = value;
-      std::visit([&](const auto& target) { assign(node, *found, target); }, found->target);
+      assign_to(value, *found);
     }
+  }
+
+  void assign_to(const toml::node& node, const Binding& binding) const {
+    std::visit([&](const auto& target) { assign(node, binding, target); }, binding.target);
   }
 
  private:
   void check_range(const toml::node& node, const Binding& binding, double value) const {
-    const bool fits =
-        std::isfinite(value) && (binding.open ? value > binding.least : value >= binding.least);
+    const bool fits = std::isfinite(value) && value <= binding.most &&
+                      (binding.open ? value > binding.least : value >= binding.least);
     if (fits) return;
     char text[64];
-    std::snprintf(text, sizeof text, "%s %g", binding.open ? "above" : "of at least",
-                  binding.least);
+    if (std::isfinite(binding.most))
+      std::snprintf(text, sizeof text, "from %g to %g", binding.least, binding.most);
+    else
+      std::snprintf(text, sizeof text, "%s %g", binding.open ? "above" : "of at least",
+                    binding.least);
     fail(node, "'" + binding.key + "' must be a number " +
                    (binding.least == kAny ? "that is finite" : text));
   }
@@ -277,22 +315,28 @@ toml::table parse_override(const std::string& text) {
 
 ScenarioConfig read_config(const std::filesystem::path& file,
                            std::span<const std::string> overrides) {
-  ScenarioConfig config;
+  std::vector<std::pair<Document, toml::table>> documents;
   if (!file.empty()) {
     const std::string content = read_file(file);
-    toml::table root;
     try {
-      root = toml::parse(content);
+      documents.emplace_back(Document(file.string(), true), toml::parse(content));
     } catch (const toml::parse_error& error) {
       throw Error(file.string() + ":" + std::to_string(error.source().begin.line),
                   "not TOML (" + std::string(error.description()) + ")");
     }
-    apply_document(Document(file.string(), true), root, config);
   }
-  for (const std::string& text : overrides) {
-    const toml::table root = parse_override(text);
-    apply_document(Document("--set " + text, false), root, config);
-  }
+  for (const std::string& text : overrides)
+    documents.emplace_back(Document("--set " + text, false), parse_override(text));
+
+  ScenarioConfig config;
+  // the last word on the preset counts, and comes before what is said of single types
+  std::vector<Binding> preset;
+  bind_preset(config.preset, preset);
+  for (const auto& [document, root] : documents)
+    if (const toml::node* node = root.at_path("behavior.preset").node())
+      document.assign_to(*node, preset.front());
+  apply_preset(config.preset, config.types);
+  for (const auto& [document, root] : documents) apply_document(document, root, config);
   return config;
 }
 

@@ -6,6 +6,7 @@
 
 #include "model/model.h"
 #include "scene/agent_type.h"
+#include "scene/behavior_preset.h"
 
 namespace sumogamma {
 
@@ -20,6 +21,8 @@ struct ScenarioConfig {
   double step = 0.05;     ///< [s]
   std::string control = "all";
   std::string backend = "traci";
+  // [behavior]
+  BehaviorPreset preset = BehaviorPreset::Compliant;  ///< keys of types win over it
   // [model]
   ModelOptions model;
   // [types.NAME]: rows changed, or added with base = "car"
@@ -27,9 +30,10 @@ struct ScenarioConfig {
 };
 
 /// Reads scenario.toml (an empty path: defaults alone) and applies overrides "key=value" in order,
-/// later ones winning. Throws Error naming file and line (or the override) for what isn't TOML, an
-/// unknown key (with the nearest known one), a value of the wrong type or out of range, and a new
-/// type without a known `base`.
+/// later ones winning. The preset comes before all of [types.NAME], wherever it stands. Throws
+/// Error naming file and line (or the override) for what isn't TOML, an unknown key (with the
+/// nearest known one), a value of the wrong type or out of range, and a new type without a known
+/// `base`.
 ScenarioConfig read_config(const std::filesystem::path& file,
                            std::span<const std::string> overrides = {});
 

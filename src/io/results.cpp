@@ -66,6 +66,7 @@ Json flow_json(const FlowResult& flow) {
 Json rule_counts_json(const RuleCounts& counts) {
   return {{"red_light_crossings", counts.red_light_crossings},
           {"signal_crossings", counts.signal_crossings},
+          {"red_lights_met", counts.red_lights_met},
           {"wrong_way_s", counts.wrong_way_s},
           {"off_road_s", counts.off_road_s},
           {"sidewalk_by_vehicle_s", counts.sidewalk_by_vehicle_s}};
@@ -77,6 +78,28 @@ Json rules_json(const RuleResult& rules) {
   for (const auto& [type, counts] : rules.by_type) by_types[type] = rule_counts_json(counts);
   json["by_types"] = by_types;
   return json;
+}
+
+/// How each type that came behaved: the preset with what was said of types beyond it.
+Json behavior_json(const RunResults& results) {
+  Json by_type = Json::object();
+  for (const AgentType& type : results.types) {
+    if (!results.agents.by_type.contains(type.name)) continue;
+    const Compliance& own = type.compliance;
+    by_type[type.name] = {{"red_light_running", own.red_light_running},
+                          {"yielding_rate", own.yielding_rate},
+                          {"jaywalking_rate", own.jaywalking_rate},
+                          {"critical_gap", type.critical_gap},
+                          {"headway", type.headway},
+                          {"headway_deviation", own.headway_deviation},
+                          {"speed_factor", own.speed_factor},
+                          {"speed_factor_deviation", own.speed_factor_deviation},
+                          {"responsibility_least", own.responsibility_least},
+                          {"responsibility_most", own.responsibility_most},
+                          {"attention_least", own.attention_least},
+                          {"attention_most", own.attention_most}};
+  }
+  return {{"preset", results.preset}, {"by_type", by_type}};
 }
 
 Json smoothness_values_json(const SmoothnessValues& values) {
@@ -177,6 +200,7 @@ std::string results_json(const RunResults& results) {
                      {"threads", results.threads},
                      {"control", results.control},
                      {"ended", results.ended},
+                     {"behavior", behavior_json(results)},
                      {"agents", agents_json(results.agents)},
                      {"timing", timing_json(results.timing)},
                      {"collisions", collisions_json(results.collisions)},
@@ -227,6 +251,7 @@ void print_results_table(std::FILE* stream, const RunResults& results) {
   table.heading("run");
   table.text("scenario", scenario);
   table.number("simulated", results.duration, "s");
+  table.text("behavior", results.preset);
   table.text("ended", results.ended);
   table.number("real-time factor", results.timing.real_time_factor, "", 1);
   table.number("model CPU per agent step", results.timing.model_cpu_us_per_agent_step, "us", 1);

@@ -50,6 +50,8 @@ struct RunResults {
   double step = 0, duration = 0;  ///< [s]; duration: simulated
   std::string backend, control = "all";
   unsigned threads = 1;
+  std::string preset = "compliant";
+  AgentTypeTable types;        ///< as they were driven
   std::string ended = "done";  ///< "done", "interrupted" or why SUMO failed
   AgentCounts agents;
   RunTiming timing;

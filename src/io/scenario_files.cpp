@@ -46,6 +46,8 @@ std::string toml_text(const ScenarioFiles& scenario, const AgentTypeTable& types
        << "agents = " << scenario.agents << "  # alive at once\n"
        << "duration = " << plain(scenario.duration) << "  # [s], for which demand was written\n"
        << "step = 0.05  # [s]\n\n"
+       << "[behavior]\n"
+       << "preset = \"compliant\"  # keeps every rule; or \"observed\"\n\n"
        << "# Any field of a type may be overridden; what is built in, of some:\n";
   for (const AgentType& type : types)
     text << "# [types." << type.name << "]\n"

@@ -7,7 +7,7 @@
 namespace sumogamma {
 
 double following_acceleration(const AgentType& type, double speed, double free_speed, double gap,
-                              double leader_speed) {
+                              double leader_speed, double headway_factor) {
   const double a = type.max_acceleration, b = type.comfortable_deceleration;
   const double ratio = speed / std::max(free_speed, 0.1);
   double acceleration = a * (1.0 - ratio * ratio * ratio * ratio);
@@ -16,7 +16,8 @@ double following_acceleration(const AgentType& type, double speed, double free_s
   if (std::isfinite(gap)) {
     if (gap <= 0.05) return -type.max_deceleration;
     const double approach = speed * (speed - leader_speed) / (2.0 * std::sqrt(a * b));
-    const double wanted = type.min_gap + std::max(0.0, speed * type.headway + approach);
+    const double wanted =
+        type.min_gap + std::max(0.0, speed * headway_factor * type.headway + approach);
     const double pressure = wanted / gap;
     acceleration = std::min(acceleration, a * (1.0 - pressure * pressure));
   }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "model/following.h"
+#include "model/rule_breaking.h"
 
 namespace sumogamma {
 
@@ -105,6 +106,7 @@ struct Judge {
   const ApproachTable& approaches;
   const Traveller& traveller;
   const PathLink& link;
+  bool at_red = false;  ///< the traveller goes over this link at red, where the way is free
 
   Verdict of(ConflictZone zone, const Approach& foe) const {
     if (foe.row == traveller.row) return Verdict::Free;
@@ -118,7 +120,12 @@ struct Judge {
     const AgentType& own_type = type_of(model.types, scene.type[traveller.row]);
     const bool foe_inside = foe.front > std::max(zone.foe_begin, 0.0) + 0.3;
     const Connection& foe_link = model.road.connection(zone.foe);
-    if (!foe_inside && foe.front < 0.0 && is_red(road.signal(foe_link))) return Verdict::Free;
+    // who waits at red doesn't come, but somebody who goes at red, too, is waited for by another
+    const bool foe_at_red = !foe_inside && foe.front < 0.0 && is_red(road.signal(foe_link));
+    if (foe_at_red && !(at_red && goes_at_red(model, scene, foe.row, zone.foe)))
+      return Verdict::Free;
+    if (!foe_inside && ignores(zone, foe)) return Verdict::Free;
+    if (is_ignored_by(foe)) zone.yields = true;
 
     const double foe_top =
         std::min(foe_path->profile_at(scene.path_along[foe.row]), foe_type.max_speed);
@@ -171,8 +178,26 @@ struct Judge {
   }
 
  private:
+  bool on_foot(std::size_t row) const {
+    return type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic;
+  }
+  /// Somebody who hasn't stepped on an unsignalled crossing, where the traveller doesn't let people
+  /// go first.
+  bool ignores(const ConflictZone& zone, const Approach& foe) const {
+    return zone.foe_is_crossing && foe.front < 0.0 && on_foot(foe.row) &&
+           road.signal(model.road.connection(zone.foe)) == 'O' &&
+           !lets_people_go(model, scene, traveller.row, zone.foe);
+  }
+  /// A driver who will not stop for the traveller, who still waits at an unsignalled crossing and
+  /// sees it.
+  bool is_ignored_by(const Approach& foe) const {
+    return on_foot(traveller.row) && traveller.front < link.stop_line && !foe.stands &&
+           road.signal(model.road.connection(link.connection)) == 'O' &&
+           !lets_people_go(model, scene, foe.row, link.connection);
+  }
   bool past_line(const ConflictZone& zone) const {
-    return traveller.front > waiting_place(link, zone).along + 0.3;
+    // who goes at red waits before the junction, not on it
+    return traveller.front > (at_red ? link.stop_line : waiting_place(link, zone).along) + 0.3;
   }
   static Verdict blocks_if(bool blocks) { return blocks ? Verdict::Blocks : Verdict::Free; }
   Verdict waiting_verdict(const Approach& foe) const {
@@ -180,6 +205,36 @@ struct Judge {
                                                                       : Verdict::Blocks;
   }
 };
+
+enum class SignalDuty {
+  None,
+  Stop,
+  GoAtRed,  ///< a red light is a stop sign to this traveller, and everybody else comes first
+};
+
+/// Red stops always, amber where braking at ease still does it, for a front that would come to rest
+/// at `halt` [m]. Once past the line, clear the junction.
+SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& traveller,
+                       const PathLink& link, char signal, double halt) {
+  const AgentType& type = type_of(model.types, scene.type[traveller.row]);
+  const bool on_foot = type.kinematics == Kinematics::Holonomic;
+  const double to_line = link.stop_line - traveller.front;
+  const double reserve = on_foot ? 0.02 : 0.2;  // [m]
+  const double needed = deceleration_to_stop(traveller.speed, halt - traveller.front - reserve);
+  if (is_amber(signal) && to_line > -1.0) {
+    // who would not be over the line before red brakes harder than at ease
+    const bool late = to_line > kAmber * traveller.speed;
+    const double most = late ? 0.65 * type.max_deceleration : type.comfortable_deceleration;
+    return needed < most ? SignalDuty::Stop : SignalDuty::None;
+  }
+  if (!is_red(signal)) return SignalDuty::None;
+  const bool can_stop = to_line > -1.0 && (needed < type.max_deceleration || traveller.speed < 1.0);
+  const bool has_halted = scene.halted_for[traveller.row] == link.connection;
+  if ((can_stop || has_halted || on_foot) &&
+      goes_at_red(model, scene, traveller.row, link.connection))
+    return SignalDuty::GoAtRed;
+  return can_stop ? SignalDuty::Stop : SignalDuty::None;
+}
 
 /// Do two links lead from lanes of one road into one lane?
 bool runs_together(const Model& model, ConnectionId a, ConnectionId b) {
@@ -206,32 +261,27 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
   const double halt = stops_short ? link.halt : link.stop_line;
   const double stop_at = halt - kStopMargin;
   LinkDecision decision;
-
-  // signals: red always; amber where braking at ease still does it. Once past the line, clear the
-  // junction.
-  if (to_line > -1.0) {
-    const double reserve = own_path.walking ? 0.02 : 0.2;  // [m]
-    const double needed = deceleration_to_stop(traveller.speed, halt - traveller.front - reserve);
-    // who would not be over the line before red brakes harder than at ease
-    const bool late = to_line > kAmber * traveller.speed;
-    const bool amber_stop = is_amber(signal) && needed < (late ? 0.65 * type.max_deceleration
-                                                               : type.comfortable_deceleration);
-    const bool red_stop =
-        is_red(signal) && (needed < type.max_deceleration || traveller.speed < 1.0);
-    if (amber_stop || red_stop) return {true, stop_at, LimitReason::Signal, -1};
-  }
+  const SignalDuty duty = signal_duty(model, scene, traveller, link, signal, halt);
+  if (duty == SignalDuty::Stop) return {true, stop_at, LimitReason::Signal, -1};
+  const bool at_red = duty == SignalDuty::GoAtRed;
   const bool stop_sign = (connection.state == 's' || connection.state == 'w') && signal == 'O';
-  if (stop_sign && to_line > -0.2 && scene.halted_for[traveller.row] != link.connection)
-    decision = {true, stop_at, LimitReason::Yield, -1};
+  const bool halts_first = stop_sign || (at_red && !own_path.walking);
+  if (halts_first && to_line > -0.2 && scene.halted_for[traveller.row] != link.connection)
+    decision = {true, stop_at, at_red ? LimitReason::Signal : LimitReason::Yield, -1};
 
   const bool free_green = signal == 'G';
-  const Judge judge{model, road, scene, approaches, traveller, link};
+  const Judge judge{model, road, scene, approaches, traveller, link, at_red};
   for (const ConflictZone& zone_of_table : model.conflicts[index_of(link.connection)]) {
     ConflictZone zone = zone_of_table;
     const Piece ours_to_cover = as_travelled(own_path, link.stop_line, zone.begin, zone.end);
     zone.begin = ours_to_cover.begin;
     zone.end = ours_to_cover.end;
     if (free_green) zone.yields = false;
+    // at red everybody else comes first
+    if (at_red) {
+      zone.yields = true;
+      zone.unruled = false;
+    }
     const double to_zone = link.stop_line + zone.begin - traveller.front;
     if (runs_together(model, link.connection, zone.foe)) continue;
     if (to_zone < 0.3) continue;  // already in it: go on, avoidance does the rest
@@ -244,8 +294,9 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
       // wait at the line; inside the junction where there is a place for that, or where the own
       // body is past the line already
       const WaitingPlace place = waiting_place(link, zone);
-      const double line = place.inside && traveller.front < place.along + 0.3 ? place.along
-                          : to_line > -0.2                                    ? stop_at
+      const double line = place.inside && !at_red && traveller.front < place.along + 0.3
+                              ? place.along
+                          : to_line > -0.2 ? stop_at
                                            : link.stop_line + zone.begin - kStopMargin;
       if (deceleration_to_stop(traveller.speed, line - traveller.front) >
               0.8 * type.max_deceleration &&

@@ -19,6 +19,7 @@ struct Course {
   double along, offset;
   double half_length;
   double speed;  ///< on foot along the path, on wheels along the heading [m/s]
+  double headway_factor;
 };
 
 /// The frozen scene and what is known of its roads.
@@ -198,11 +199,13 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
   DrivingAhead ahead;
   const Leader leader = find_leader(model, road, scene, grid, course.row, reach, ahead);
   if (leader.id >= 0)
-    limit(following_acceleration(type, course.speed, free_speed, leader.gap, leader.speed),
+    limit(following_acceleration(type, course.speed, free_speed, leader.gap, leader.speed,
+                                 course.headway_factor),
           LimitReason::Leader, leader.id, binding, context);
   if (ahead.merging.id >= 0) {
-    const double courtesy = following_acceleration(type, course.speed, free_speed,
-                                                   ahead.merging.rear - front, ahead.merging.speed);
+    const double courtesy =
+        following_acceleration(type, course.speed, free_speed, ahead.merging.rear - front,
+                               ahead.merging.speed, course.headway_factor);
     // who waits for a gap gets one where that is easy, who is on its way gets it anyhow
     if (courtesy > -kCourtesy || ahead.on_its_way)
       limit(std::max(courtesy, -kCourtesy), LimitReason::Leader, ahead.merging.id, binding,
@@ -215,9 +218,10 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
     const ZipperLeader teeth = find_zipper_leader(model, scene, approaches, traveller, link);
     if (teeth.id >= 0) {
       // closer than it will follow afterwards: the gap opens while lanes run together
-      const double gap = std::max(teeth.gap, 0.3) + 0.6 * type.headway * course.speed;
-      const double zipped =
-          following_acceleration(type, course.speed, free_speed, gap, teeth.speed);
+      const double gap =
+          std::max(teeth.gap, 0.3) + 0.6 * course.headway_factor * type.headway * course.speed;
+      const double zipped = following_acceleration(type, course.speed, free_speed, gap, teeth.speed,
+                                                   course.headway_factor);
       limit(std::max(zipped, -type.comfortable_deceleration), LimitReason::Leader, teeth.id,
             binding, context);
     }
@@ -305,7 +309,8 @@ void update_road_contexts(const Model& model, const RoadState& road, const Spati
             along,
             cross(tangent, scene.position[row] - path->line.point_at(along)),
             half_extent(scene, row, tangent),
-            path->walking ? std::max(0.0, scene.velocity[row].dot(tangent)) : scene.speed[row]};
+            path->walking ? std::max(0.0, scene.velocity[row].dot(tangent)) : scene.speed[row],
+            scene.manners[row].headway_factor};
         context.active = true;
         context.speed_limit = std::min(path->profile_at(along), scene.preferred_speed[row]);
         set_geometry(model, scene, course, context);

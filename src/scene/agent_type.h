@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/compliance.h"
+
 namespace sumogamma {
 
 enum class AgentTypeId : std::uint8_t {};
@@ -39,8 +41,9 @@ struct AgentType {
   double headway = 0;                              ///< desired time gap to a leader [s]
   double min_gap = 0;                              ///< standstill gap to a leader [m]
   double critical_gap =
-      1.0;  ///< left before and after whoever has the right of way in a place where
-            ///< ways cross [s]: HCM's critical headway less the time of crossing
+      1.0;                  ///< left before and after whoever has the right of way in a place where
+                            ///< ways cross [s]: HCM's critical headway less the time of crossing
+  Compliance compliance{};  ///< how far it keeps the rules, and how its agents differ
 };
 
 /// Rows in a fixed order; index with AgentTypeId.

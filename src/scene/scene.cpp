@@ -23,6 +23,7 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.acceleration);
   visit(scene.preferred_speed);
   visit(scene.behavior);
+  visit(scene.manners);
   visit(scene.control);
   visit(scene.path);
   visit(scene.path_along);
@@ -60,6 +61,7 @@ void append_agent(Scene& scene, const AgentState& agent) {
   scene.acceleration[row] = Vec2::Zero();
   scene.preferred_speed[row] = agent.preferred_speed;
   scene.behavior[row] = agent.behavior;
+  scene.manners[row] = agent.manners;
   scene.control[row] = agent.control;
   scene.path[row] = agent.path;
   scene.path_offset[row] = agent.path_offset;

@@ -50,6 +50,7 @@ struct Scene {
   std::vector<Vec2> acceleration;       ///< observed, for KeepAcceleration [m/s^2]
   std::vector<double> preferred_speed;  ///< [m/s]
   std::vector<BehaviorState> behavior;
+  std::vector<Manners> manners;  ///< drawn when the agent came
   std::vector<Control> control;
   std::vector<PathId> path;        ///< kNoPath off any network
   std::vector<double> path_along;  ///< of the centre along the path [m]
@@ -85,6 +86,7 @@ struct AgentState {
   double speed = 0;
   double preferred_speed = 0;
   BehaviorState behavior;
+  Manners manners;
   Control control = Control::Gamma;
   PathId path = kNoPath;
   double path_offset = 0;

@@ -37,6 +37,7 @@ RuleMonitor::RuleMonitor(double step, const RoadNetwork& network, const LaneLoca
 void RuleMonitor::add(const Scene& scene, const AgentTypeTable& types, const RoadState& road) {
   by_type_.resize(types.size());
   new_events_.clear();
+  at_lines_.clear();
   track_.match(scene.id);
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const AgentType& type = type_of(types, scene.type[row]);
@@ -59,6 +60,7 @@ void RuleMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
     state.front = front;
     state.center = scene.position[row];
   }
+  count_red_lights_met();
   before_.signal_states = road.signal_states;
 }
 
@@ -131,7 +133,16 @@ bool RuleMonitor::was_and_is_red(const Connection& connection, const RoadState& 
   return is_red(before_.signal(connection)) && is_red(road.signal(connection));
 }
 
-void RuleMonitor::record_red(const Row& agent, const Vec2& place, ConnectionId connection) {
+bool RuleMonitor::shows_red(const Lane& crossing, const RoadState& road) const {
+  return std::any_of(crossing.incoming.begin(), crossing.incoming.end(), [&](ConnectionId link) {
+    return was_and_is_red(network_.connection(link), road);
+  });
+}
+
+void RuleMonitor::record_red(const Row& agent, State& state, const Vec2& place,
+                             ConnectionId connection) {
+  const EdgeId edge = network_.lane(network_.connection(connection).from).edge;
+  if (state.red_met != edge) ++agent.counts.red_lights_met;
   ++agent.counts.red_light_crossings;
   offences_.push_back({Offence::RedLight, agent.scene.id[agent.row], agent.scene.type[agent.row],
                        place, agent.scene.time, 0});
@@ -148,28 +159,57 @@ void RuleMonitor::judge_stop_line(const Row& agent, State& state, const Vec2& fr
     const Vec2& end = lane.centerline.points().back();
     const Vec2 forward = lane.centerline.direction_at(lane.centerline.length());
     const Vec2 now = to_body(front - end, forward), was = to_body(state.front - end, forward);
-    if (was.x() > 0 || now.x() <= 0 || std::abs(now.y()) > 0.5 * lane.width) continue;
+    if (was.x() > 0 || now.x() <= -kMeets || std::abs(now.y()) > 0.5 * lane.width) continue;
     // someone who crosses the lane's end sideways or on its way back doesn't take the lane's links
     if (direction_of(agent.scene.heading[agent.row]).dot(forward) < 0.5) continue;
-    std::size_t links = 0;
-    state.was_red.clear();
-    for (const ConnectionId id : lane.outgoing) {
-      const Connection& connection = network_.connection(id);
-      if (connection.signal == kNoSignal || !for_vehicles(network_.lane(connection.to))) continue;
-      ++links;
-      if (was_and_is_red(connection, road)) state.was_red.push_back(id);
-    }
+    const std::size_t links = find_red_links(lane, road, red_links_);
     if (links == 0) continue;
-    ++agent.counts.signal_crossings;
-    if (state.was_red.empty()) return;
-    if (state.was_red.size() == links) {
-      record_red(agent, front, state.was_red.front());
-      return;
+    if (now.x() <= 0) {
+      const bool meets = red_links_.size() == links && agent.scene.speed[agent.row] < kSlow;
+      at_lines_.push_back({hit.lane, agent.row, now.x(), now.y(), 0.5 * agent.type.width,
+                           meets ? &agent.counts : nullptr});
+      continue;
     }
+    state.was_red = red_links_;
+    ++agent.counts.signal_crossings;
+    if (!state.was_red.empty() && state.was_red.size() == links)
+      record_red(agent, state, front, state.was_red.front());
+    state.red_met = kNoEdge;
+    if (state.was_red.empty() || state.was_red.size() == links) return;
     state.passed = hit.lane;
     state.passed_at = agent.scene.time;
     state.passed_place = front;
     return;
+  }
+}
+
+std::size_t RuleMonitor::find_red_links(const Lane& lane, const RoadState& road,
+                                        std::vector<ConnectionId>& red) const {
+  std::size_t links = 0;
+  red.clear();
+  for (const ConnectionId id : lane.outgoing) {
+    const Connection& connection = network_.connection(id);
+    if (connection.signal == kNoSignal || !for_vehicles(network_.lane(connection.to))) continue;
+    ++links;
+    if (was_and_is_red(connection, road)) red.push_back(id);
+  }
+  return links;
+}
+
+/// Those who stand before a red light and have nobody in front of them.
+void RuleMonitor::count_red_lights_met() {
+  for (const AtLine& own : at_lines_) {
+    if (!own.meets) continue;
+    State& state = track_[own.row];
+    const EdgeId edge = network_.lane(own.lane).edge;
+    if (state.red_met == edge) continue;
+    const bool held = std::any_of(at_lines_.begin(), at_lines_.end(), [&](const AtLine& other) {
+      return other.lane == own.lane && other.row != own.row && other.along > own.along &&
+             std::abs(other.offset - own.offset) < other.half_width + own.half_width;
+    });
+    if (held) continue;
+    ++own.meets->red_lights_met;
+    state.red_met = edge;
   }
 }
 
@@ -188,7 +228,7 @@ void RuleMonitor::judge_turn(const Row& agent, State& state) {
           std::find_if(state.was_red.begin(), state.was_red.end(), [&](ConnectionId other) {
             return network_.lane(network_.connection(other).to).edge == lane.edge;
           }) != state.was_red.end();
-      if (red) record_red(agent, state.passed_place, id);
+      if (red) record_red(agent, state, state.passed_place, id);
       state.passed = kNoLane;
       return;
     }
@@ -199,13 +239,19 @@ void RuleMonitor::judge_crossing(const Row& agent, State& state, const RoadState
   if (network_.signals.empty()) return;
   const Vec2& center = agent.scene.position[agent.row];
   find_lanes(agent, center, hits_);
-  LaneId on = kNoLane;
+  const bool stands = agent.scene.velocity[agent.row].norm() < kStands;
+  LaneId on = kNoLane, at_end_of = kNoLane;
   for (const LaneHit& hit : hits_) {
     const Lane& lane = network_.lane(hit.lane);
     if (lane.kind != LaneKind::Crossing) continue;
     // once on it, one is on it to its very ends
     const double margin = hit.lane == state.on_crossing ? 0.0 : kEntered;
-    if (hit.along < margin || hit.along > lane.centerline.length() - margin) continue;
+    if (hit.along < margin || hit.along > lane.centerline.length() - margin) {
+      // who waits there steps on when it starts
+      if (state.at_end_of != hit.lane || stands) state.stepped_on_red = shows_red(lane, road);
+      at_end_of = hit.lane;
+      continue;
+    }
     on = hit.lane;
     if (on == state.on_crossing) break;
   }
@@ -216,10 +262,41 @@ void RuleMonitor::judge_crossing(const Row& agent, State& state, const RoadState
                      [&](ConnectionId id) { return network_.connection(id).signal != kNoSignal; });
     if (link != lane.incoming.end() && state.known) {
       ++agent.counts.signal_crossings;
-      if (was_and_is_red(network_.connection(*link), road)) record_red(agent, center, *link);
+      const auto& waited_for = state.red_crossings;
+      const bool stepped_on_red = state.at_end_of != on || state.stepped_on_red;
+      if (stepped_on_red && was_and_is_red(network_.connection(*link), road))
+        record_red(agent, state, center, *link);
+      else if (state.waited >= kWaits &&
+               std::find(waited_for.begin(), waited_for.end(), on) != waited_for.end())
+        ++agent.counts.red_lights_met;
     }
+    state.waited = 0;
+    state.red_crossings.clear();
   }
+  state.at_end_of = at_end_of;
   state.on_crossing = on;
+  if (on == kNoLane && stands) note_waiting(state, road);
+}
+
+void RuleMonitor::note_waiting(State& state, const RoadState& road) {
+  // judge_crossing has just found the lanes of the centre
+  bool red = false;
+  for (const LaneHit& hit : hits_) {
+    const Lane& area = network_.lane(hit.lane);
+    if (area.kind != LaneKind::WalkingArea) continue;
+    auto look = [&](LaneId id) {
+      const Lane& crossing = network_.lane(id);
+      if (crossing.kind != LaneKind::Crossing) return;
+      if (!shows_red(crossing, road)) return;
+      red = true;
+      auto& known = state.red_crossings;
+      if (std::find(known.begin(), known.end(), id) == known.end()) known.push_back(id);
+    };
+    // a crossing is entered at either end
+    for (const ConnectionId link : area.outgoing) look(network_.connection(link).to);
+    for (const ConnectionId link : area.incoming) look(network_.connection(link).from);
+  }
+  if (red) state.waited += step_;
 }
 
 RuleResult RuleMonitor::result(const AgentTypeTable& types) const {
@@ -229,6 +306,7 @@ RuleResult RuleMonitor::result(const AgentTypeTable& types) const {
     result.by_type[types[type].name] = counts;
     result.all.red_light_crossings += counts.red_light_crossings;
     result.all.signal_crossings += counts.signal_crossings;
+    result.all.red_lights_met += counts.red_lights_met;
     result.all.wrong_way_s += counts.wrong_way_s;
     result.all.off_road_s += counts.off_road_s;
     result.all.sidewalk_by_vehicle_s += counts.sidewalk_by_vehicle_s;

@@ -19,9 +19,11 @@ struct RuleCounts {
   std::uint64_t red_light_crossings =
       0;  ///< stop lines or crossings entered while their link showed red
   std::uint64_t signal_crossings =
-      0;                   ///< all signalled stop lines or crossings entered, whatever they showed
-  double wrong_way_s = 0;  ///< against every lane of the place
-  double off_road_s = 0;   ///< on no lane and no junction
+      0;  ///< all signalled stop lines or crossings entered, whatever they showed
+  std::uint64_t red_lights_met =
+      0;  ///< encounters of an agent that could go with a red light: the base of a rate of running
+  double wrong_way_s = 0;            ///< against every lane of the place
+  double off_road_s = 0;             ///< on no lane and no junction
   double sidewalk_by_vehicle_s = 0;  ///< motor vehicles on ground for people on foot
 };
 
@@ -59,11 +61,20 @@ struct RedLightEvent {
 /// it then takes showed red before and after that step (so a light that changes within the step is
 /// nobody's fault). Where the lane's links don't show the same, judgement waits until the vehicle
 /// is on an edge that one of them leads to. Red light, pedestrians: the centre gets kEntered deep
-/// into a signalled crossing under the same condition. Wrong way: faster than kMoving, on a normal
-/// lane, off junctions, more than 120 degrees from every lane of the place that vehicles may use.
-/// Lanes more than a storey above or below one's own don't count (bridges).
+/// into a signalled crossing that showed red already when it was stepped on. Wrong way: faster than
+/// kMoving, on a normal lane, off junctions, more than 120 degrees from every lane of the place
+/// that vehicles may use. Lanes more than a storey above or below one's own don't count (bridges).
+///
+/// A red light is met by a vehicle slower than kSlow whose front is within kMeets before the end of
+/// a lane all of whose links show red, with nobody between it and that end; by somebody on foot who
+/// enters a crossing after a second of standing beside it while it showed red; and by all who run
+/// it. Once for an agent and a red lane's end or crossing that it gets past.
 class RuleMonitor {
  public:
+  static constexpr double kMeets = 12.0;   ///< [m]
+  static constexpr double kSlow = 1.0;     ///< [m/s]
+  static constexpr double kWaits = 1.0;    ///< [s]
+  static constexpr double kStands = 0.2;   ///< [m/s]
   static constexpr double kMoving = 0.5;   ///< [m/s]
   static constexpr double kEntered = 0.5;  ///< [m]
   static constexpr double kStorey = 2.5;   ///< [m]
@@ -88,7 +99,12 @@ class RuleMonitor {
     bool known = false;
     Vec2 front = Vec2::Zero(), center = Vec2::Zero();
     LaneId on_crossing = kNoLane;  ///< pedestrians: the signalled crossing they are on
-    LaneId passed = kNoLane;       ///< vehicles: the lane with mixed lights whose end they passed
+    EdgeId red_met = kNoEdge;      ///< vehicles: the edge at whose end they met a red light
+    LaneId at_end_of = kNoLane;    ///< pedestrians: the crossing on whose first half metre they are
+    bool stepped_on_red = false;   ///< that it showed red when they came there
+    double waited = 0;             ///< pedestrians: stood beside `red_crossings` [s]
+    std::vector<LaneId> red_crossings;  ///< that showed red meanwhile
+    LaneId passed = kNoLane;  ///< vehicles: the lane with mixed lights whose end they passed
     double passed_at = 0;
     Vec2 passed_place = Vec2::Zero();
     std::vector<ConnectionId> was_red;                 ///< links of `passed` that showed red then
@@ -106,8 +122,13 @@ class RuleMonitor {
   void judge_turn(const Row& agent, State& state);
   void judge_crossing(const Row& agent, State& state, const RoadState& road);
   void find_lanes(const Row& agent, const Vec2& point, std::vector<LaneHit>& hits) const;
+  bool shows_red(const Lane& crossing, const RoadState& road) const;
   bool was_and_is_red(const Connection& connection, const RoadState& road) const;
-  void record_red(const Row& agent, const Vec2& place, ConnectionId connection);
+  void record_red(const Row& agent, State& state, const Vec2& place, ConnectionId connection);
+  std::size_t find_red_links(const Lane& lane, const RoadState& road,
+                             std::vector<ConnectionId>& red) const;
+  void count_red_lights_met();
+  void note_waiting(State& state, const RoadState& road);
 
   double step_;
   const RoadNetwork& network_;
@@ -119,6 +140,15 @@ class RuleMonitor {
   std::vector<RedLightEvent> new_events_;
   std::vector<OffenceSpan> offences_;
   std::vector<LaneHit> hits_, front_hits_;
+  std::vector<ConnectionId> red_links_;
+  /// A front near the end of a lane with signals, in that end's coordinates.
+  struct AtLine {
+    LaneId lane = kNoLane;
+    std::size_t row = 0;
+    double along = 0, offset = 0, half_width = 0;  ///< along: <= 0 before the end [m]
+    RuleCounts* meets = nullptr;  ///< where it is counted; null: it moves, or no red
+  };
+  std::vector<AtLine> at_lines_;
 };
 
 }  // namespace sumogamma

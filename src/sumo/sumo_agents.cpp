@@ -111,11 +111,28 @@ std::vector<std::shared_ptr<const Path>> paths_besides(const Model& model,
   return paths;
 }
 
+void choose_speed_factor(const AgentType& type, std::uint64_t seed, SumoAgentDetails& details) {
+  if (type.compliance.speed_factor <= 0.0) return;
+  // FNV-1a of SUMO's id: ours is given at insertion alone, after the path was made
+  std::uint64_t id = 0xcbf29ce484222325ULL;
+  for (const char letter : details.id)
+    id = (id ^ static_cast<unsigned char>(letter)) * 0x100000001b3ULL;
+  const double factor = draw_speed_factor(type.compliance, seed, id);
+  // SUMO's maximum speed of who rides at a pace of its own holds its factor already
+  if (details.vehicle_class == "bicycle" && details.speed_factor > 0.0)
+    details.max_speed *= factor / details.speed_factor;
+  details.speed_factor = factor;
+}
+
 BehaviorState draw_behavior(const AgentType& type, std::uint64_t seed, AgentId id) {
   BehaviorState behavior;
   behavior.intention.kind = IntentionKind::Path;
-  behavior.responsibility = random_uniform(seed, id.value, 0, Draw::Responsibility, 0.5, 0.6);
-  const double attention = random_uniform(seed, id.value, 0, Draw::Attention, 0.9, 1.3);
+  behavior.responsibility =
+      random_uniform(seed, id.value, 0, Draw::Responsibility, type.compliance.responsibility_least,
+                     type.compliance.responsibility_most);
+  const double attention =
+      random_uniform(seed, id.value, 0, Draw::Attention, type.compliance.attention_least,
+                     type.compliance.attention_most);
   behavior.attention = {attention * type.attention_front, attention * type.attention_rear};
   return behavior;
 }

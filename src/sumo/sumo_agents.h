@@ -24,6 +24,10 @@ std::vector<std::shared_ptr<const Path>> paths_besides(const Model& model,
                                                        const SumoAgentDetails& details,
                                                        AgentTypeId type_id, const Path& path);
 
+/// Puts a factor drawn from the type in place of the one that SUMO drew from the vType, where the
+/// type has one of its own (Compliance::speed_factor): a pure function of seed and SUMO's id.
+void choose_speed_factor(const AgentType& type, std::uint64_t seed, SumoAgentDetails& details);
+
 /// Behaviour drawn for one agent (responsibility, attention; intention is its path): a pure
 /// function of seed and id.
 BehaviorState draw_behavior(const AgentType& type, std::uint64_t seed, AgentId id);

@@ -96,6 +96,8 @@ void SumoWorld::take_departed(Scene&) {
     }
     Pending pending{std::move(details), *type, nullptr, {}, false};
     bool driven = options_.control.any() && wants_control(pending.details, *type);
+    if (driven || options_.control.has_region)
+      choose_speed_factor(type_of(model_.types, *type), options_.seed, pending.details);
     if (options_.control.any()) {
       std::string why = "a person who does not walk";
       if (!pending.details.route.empty())
@@ -178,6 +180,9 @@ void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
         const std::string one[] = {known.sumo_id};
         auto details = backend_.details({}, one);
         std::string why = "it is gone";
+        if (!details.empty())
+          choose_speed_factor(type_of(model_.types, scene.type[row]), options_.seed,
+                              details.front());
         auto next_path =
             details.empty() ? nullptr : path_of(model_, details.front(), scene.type[row], why);
         if (next_path) {
@@ -244,6 +249,7 @@ AgentState SumoWorld::newcomer(const Pending& pending, const Path& path, AgentId
                      type.max_speed)
           : type.preferred_speed;
   agent.behavior = draw_behavior(type, options_.seed, id);
+  agent.manners = draw_manners(type.compliance, options_.seed, id.value);
   agent.path = static_cast<PathId>(id.value);
   return agent;
 }
@@ -349,6 +355,8 @@ void SumoWorld::take_over(AgentId id, Scene& scene, std::size_t row) {
   if (known.speed_held) backend_.set_speed(known.sumo_id, -1.0);
   known.external = known.speed_held = false;
   scene.control[row] = Control::Gamma;
+  scene.manners[row] =
+      draw_manners(type_of(model_.types, scene.type[row]).compliance, options_.seed, id.value);
   scene.steering[row] = 0.0;
   external_ids_.erase(known.sumo_id);
 }

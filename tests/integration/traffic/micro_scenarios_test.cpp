@@ -1,5 +1,7 @@
 // One test a small scenario: what traffic does there, as tools/measure_traffic.py computes it from
 // the trajectories. Bands: docs/traffic.md, "Micro-scenarios".
+#include <fstream>
+
 #include "traffic_run.h"
 
 namespace sumogamma {
@@ -160,6 +162,53 @@ TEST_P(MicroScenarios, APlatoonIsStableUpTo33MetresASecond) {
     EXPECT_GE(road["least_gap"], 1.0) << road;
     for (const json& braking : road["hardest_braking"]) EXPECT_LE(braking, 4.5) << road;
   }
+}
+
+/// results.json of a run of sumo_scenarios/red_lights with a preset.
+json red_lights(const std::string& preset, const std::string& seed) {
+  const TemporaryFolder folder;
+  ProcessRequest request;
+  request.arguments = {SUMOGAMMA_PROGRAM,
+                       "run",
+                       SUMOGAMMA_SOURCE_DIR "/sumo_scenarios/red_lights/red_lights.sumocfg",
+                       "-o",
+                       folder.file("out"),
+                       "--preset",
+                       preset,
+                       "--seed",
+                       seed,
+                       "--quiet"};
+  request.time_limit = 300.0;
+  const ProcessResult result = run_process(request);
+  EXPECT_EQ(result.exit_code, 0) << describe_end(result, 300) << "\n" << result.errors;
+  json results = json::parse(std::ifstream(folder.file("out/results.json")), nullptr, false);
+  EXPECT_FALSE(results.is_discarded());
+  EXPECT_EQ(results["agents"]["arrived"], 1268);
+  EXPECT_EQ(results["flow"]["stuck_agents"], 0);
+  // people brush each other; nobody on wheels touches anybody
+  for (const auto& [pair, count] : results["collisions"]["by_types"].items())
+    EXPECT_EQ(pair, "pedestrian-pedestrian") << count;
+  return results;
+}
+
+/// Red lights run over those met by who could go.
+double red_share(const json& results, const char* type) {
+  const json& counts = results["rules"]["by_types"][type];
+  EXPECT_GE(counts["red_lights_met"], 40) << type << " meets too few to tell";
+  return counts["red_light_crossings"].get<double>() / counts["red_lights_met"].get<double>();
+}
+
+TEST_P(MicroScenarios, ThePresetSaysHowManyGoAtRed) {
+  const json compliant = red_lights("compliant", GetParam());
+  // who comes late at amber may be over the line a moment after
+  for (const char* type : {"motorcycle", "bicycle", "car", "pedestrian"})
+    EXPECT_LE(red_share(compliant, type), 0.05) << type;
+  const json observed = red_lights("observed", GetParam());
+  EXPECT_EQ(observed["behavior"]["by_type"]["motorcycle"]["red_light_running"], 0.345);
+  EXPECT_NEAR(red_share(observed, "motorcycle"), 0.345, 0.15);
+  EXPECT_NEAR(red_share(observed, "bicycle"), 0.26, 0.13);
+  EXPECT_LE(red_share(observed, "car"), 0.05);
+  EXPECT_NEAR(red_share(observed, "pedestrian"), 0.15, 0.12);
 }
 
 }  // namespace

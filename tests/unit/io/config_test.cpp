@@ -113,6 +113,40 @@ TEST_F(Config, WrongValuesAreRefused) {
   EXPECT_NE(complaint("run = 3").find("unknown key 'run'"), std::string::npos);
 }
 
+TEST_F(Config, KeysOfTypesWinOverThePresetWhereverItStands) {
+  const std::string key = "[types.motorcycle]\nred_light_running = 0.1\n";
+  const std::string preset = "[behavior]\npreset = \"observed\"\n";
+  for (const std::string& content : {key + preset, preset + key}) {
+    const ScenarioConfig config = read(content);
+    EXPECT_EQ(config.preset, BehaviorPreset::Observed);
+    EXPECT_DOUBLE_EQ(type(config, "motorcycle").compliance.red_light_running, 0.1);
+    EXPECT_DOUBLE_EQ(type(config, "bicycle").compliance.red_light_running, 0.26);
+  }
+  EXPECT_DOUBLE_EQ(type(read(key), "bicycle").compliance.red_light_running, 0.0);
+  // in a shell: the last preset counts, and it leaves what the file says of a type
+  const ScenarioConfig config =
+      read(key, {"types.car.critical_gap=2", "behavior.preset=compliant",
+                 "behavior.preset=observed", "types.car.headway_deviation=0"});
+  EXPECT_DOUBLE_EQ(type(config, "motorcycle").compliance.red_light_running, 0.1);
+  EXPECT_DOUBLE_EQ(type(config, "car").critical_gap, 2.0);
+  EXPECT_DOUBLE_EQ(type(config, "car").compliance.headway_deviation, 0.0);
+  EXPECT_DOUBLE_EQ(type(config, "car").compliance.red_light_running, 0.007);
+  EXPECT_EQ(read("").preset, BehaviorPreset::Compliant);
+}
+
+TEST_F(Config, AnUnknownPresetNamesTheKnownOnes) {
+  const std::string what = complaint("[run]\nagents = 10\n[behavior]\npreset = \"wild\"\n");
+  EXPECT_NE(what.find(file_.string() + ":4"), std::string::npos) << what;
+  EXPECT_NE(what.find("'behavior.preset' must be one of \"compliant\", \"observed\""),
+            std::string::npos)
+      << what;
+  EXPECT_NE(complaint("", {"behavior.preset=wild"}).find("--set behavior.preset=wild"),
+            std::string::npos);
+  EXPECT_NE(complaint("[types.car]\nyielding_rate = 1.2").find("from 0 to 1"), std::string::npos);
+  EXPECT_NE(complaint("[types.car]\nred_light_running = -0.1").find("from 0 to 1"),
+            std::string::npos);
+}
+
 TEST_F(Config, BrokenTomlNamesItsLine) {
   EXPECT_NE(complaint("[run]\nagents = = 3\n").find(":2: not TOML"), std::string::npos);
   EXPECT_THROW(read_config(file_.string() + ".absent"), Error);

@@ -36,6 +36,7 @@ TEST_F(Results, EveryKeyIsThereInAnEmptyRun) {
       {"agents",
        {"inserted", "arrived", "controlled_now", "controlled_peak", "controlled_mean", "by_type",
         "removed"}},
+      {"behavior", {"preset", "by_type"}},
       {"timing", {"wall_s", "real_time_factor", "cpu_s", "share", "model_cpu_us_per_agent_step"}},
       {"collisions",
        {"unique_pairs", "unique_pairs_per_agent_hour", "overlap_share_of_agent_steps", "deep_pairs",
@@ -44,7 +45,8 @@ TEST_F(Results, EveryKeyIsThereInAnEmptyRun) {
        {"mean_speed", "distance_km", "stuck_agents", "longest_standstill_s",
         "waiting_time_mean_s"}},
       {"rules",
-       {"red_light_crossings", "wrong_way_s", "off_road_s", "sidewalk_by_vehicle_s", "by_types"}},
+       {"red_light_crossings", "red_lights_met", "wrong_way_s", "off_road_s",
+        "sidewalk_by_vehicle_s", "by_types"}},
       {"smoothness", {"accel_p95", "jerk_p95", "yaw_rate_p95", "lateral_slip_p95", "reversals"}},
       {"coupling",
        {"position_error_max_m", "position_error_p99_m", "lane_mismatches", "teleports",
@@ -54,6 +56,20 @@ TEST_F(Results, EveryKeyIsThereInAnEmptyRun) {
       EXPECT_TRUE(json.at(section).contains(key)) << section << "." << key;
   for (const char* key : {"observe", "context", "model", "track", "advance_sumo", "record"})
     EXPECT_TRUE(json.at("timing").at("share").contains(key)) << key;
+}
+
+TEST_F(Results, SaysHowThoseBehavedWhoCame) {
+  RunResults results;
+  results.preset = "observed";
+  results.types = default_agent_types();
+  results.types[static_cast<std::size_t>(find_agent_type(results.types, "bicycle"))]
+      .compliance.red_light_running = 0.26;
+  results.agents.by_type["bicycle"] = {3, 2};
+  const nlohmann::json behavior = nlohmann::json::parse(results_json(results)).at("behavior");
+  EXPECT_EQ(behavior.at("preset"), "observed");
+  EXPECT_EQ(behavior.at("by_type").size(), 1u);
+  EXPECT_EQ(behavior.at("by_type").at("bicycle").at("red_light_running"), 0.26);
+  EXPECT_EQ(behavior.at("by_type").at("bicycle").at("critical_gap"), 1.0);
 }
 
 TEST_F(Results, HashKeepsAll64Bits) {

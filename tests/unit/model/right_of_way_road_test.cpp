@@ -182,6 +182,78 @@ TEST_F(PriorityTest, AStopSignIsHaltedAt) {
   EXPECT_NE(here.context(own).reason, LimitReason::Yield);
 }
 
+// --- going at red: the crossroads with signals, where the south-north road shows red
+
+class RedLightRunning : public ::testing::Test {
+ protected:
+  RedLightRunning() {
+    for (const Connection& connection : here_.model.road.connections) {
+      if (connection.signal == kNoSignal) continue;
+      std::string& shown = here_.road.signal_states[index_of(connection.signal)];
+      const auto link = static_cast<std::size_t>(connection.signal_link);
+      if (shown.size() <= link) shown.resize(link + 1, 'r');
+      const std::string& edge =
+          here_.model.road.edge(here_.model.road.lane(connection.from).edge).name;
+      shown[link] = edge == "SC" || edge == "NC" ? 'r' : 'G';
+    }
+    own_ = here_.add("motorcycle", {"SC", "CN"}, 0, 0);
+    here_.scene.manners[own_].key = 1;
+    here_.move(own_, here_.path(own_).links.front().halt - 1.1 - 0.7);
+    here_.scene.standing_time[own_] = 1.0;
+  }
+  static const RoadNetwork& net() {
+    static const RoadNetwork network = read_plain_net(crossroads("traffic_light"));
+    return network;
+  }
+  void set_rate(double rate) {
+    for (AgentType& type : here_.model.types) type.compliance.red_light_running = rate;
+  }
+  RoadScene here_{net()};
+  std::size_t own_ = 0;
+};
+
+TEST_F(RedLightRunning, WhoKeepsTheRuleStaysThoughTheWayIsFree) {
+  here_.update();
+  EXPECT_EQ(here_.context(own_).reason, LimitReason::Signal);
+  EXPECT_LT(here_.context(own_).allowed_speed, 0.1);
+}
+
+TEST_F(RedLightRunning, WhoDoesNotGoesWhereTheWayIsFree) {
+  set_rate(1.0);
+  here_.update();
+  EXPECT_EQ(here_.context(own_).reason, LimitReason::None);
+  EXPECT_GT(here_.context(own_).allowed_speed, 0.1);
+}
+
+TEST_F(RedLightRunning, ItHaltsFirst) {
+  set_rate(1.0);
+  here_.move(own_, here_.path(own_).links.front().halt - 15);
+  here_.set_speed(own_, 8);
+  here_.scene.standing_time[own_] = 0.0;
+  here_.update();
+  EXPECT_EQ(here_.context(own_).reason, LimitReason::Signal);
+  EXPECT_LT(here_.context(own_).allowed_speed, 8.0);
+}
+
+TEST_F(RedLightRunning, ItWaitsForWhoHasGreen) {
+  set_rate(1.0);
+  const std::size_t foe = here_.add("car", {"WC", "CE"}, 165, 12);
+  here_.update();
+  EXPECT_EQ(here_.context(own_).reason, LimitReason::Yield);
+  EXPECT_EQ(here_.context(own_).foe, here_.scene.id[foe].value);
+  EXPECT_LT(here_.context(own_).allowed_speed, 0.1);
+  EXPECT_GT(here_.context(foe).allowed_speed, 12.0);
+}
+
+TEST_F(RedLightRunning, ItWaitsForWhoGoesAtRedToo) {
+  set_rate(1.0);
+  const std::size_t foe = here_.add("car", {"NC", "CE"}, 0, 4);
+  here_.scene.manners[foe].key = 2;
+  here_.move(foe, here_.path(foe).links.front().halt - 6);
+  here_.update();
+  EXPECT_EQ(here_.context(own_).foe, here_.scene.id[foe].value);
+}
+
 // --- crossings: drivers yield on the crossroads with sidewalks
 
 class CrossingTest : public ::testing::Test {
@@ -192,6 +264,13 @@ class CrossingTest : public ::testing::Test {
       return read_plain_net(plain);
     }();
     return network;
+  }
+  /// Makes a crossing one on which people go first.
+  void give_priority(ConnectionId crossing) {
+    for (auto& zones : here_.model.conflicts)
+      for (ConflictZone& zone : zones)
+        if (zone.foe == crossing) zone.yields = true;
+    for (ConflictZone& zone : here_.model.conflicts[index_of(crossing)]) zone.yields = false;
   }
   RoadScene here_{net()};
 };
@@ -212,6 +291,31 @@ TEST_F(CrossingTest, DriversWaitForSomebodyOnTheirSideOfTheRoad) {
   here_.move(walker, walk.stop_line + 3);
   here_.update();
   EXPECT_EQ(here_.context(driver).reason, LimitReason::None);
+}
+
+TEST_F(CrossingTest, ADriverWhoDoesNotYieldIsLetPastAndStopsForWhoIsOnTheCrossing) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 1.3, 195, 5);
+  ASSERT_EQ(here_.path(walker).links.size(), 1u);
+  const double kerb = here_.path(walker).links.at(0).stop_line;
+  const std::size_t driver = here_.add("car", {"WC", "CE"}, 0, 6, 0, -1, "WC_1");
+  here_.move(driver, here_.path(driver).links.at(0).stop_line - 2.25 - 9);
+  here_.move(walker, kerb - 1.2);
+  give_priority(here_.path(walker).links.at(0).connection);
+  here_.update();
+  EXPECT_EQ(here_.context(driver).foe, here_.scene.id[walker].value);
+  EXPECT_EQ(here_.context(walker).reason, LimitReason::None);
+  // it doesn't yield: whoever waits sees it and lets it past
+  for (AgentType& type : here_.model.types) type.compliance.yielding_rate = 0.0;
+  here_.scene.manners[driver].key = 1;
+  here_.update();
+  EXPECT_EQ(here_.context(driver).reason, LimitReason::None);
+  EXPECT_EQ(here_.context(walker).foe, here_.scene.id[driver].value);
+  EXPECT_LT(here_.context(walker).allowed_speed, 1.0);
+  // whoever is on the crossing is waited for by everybody
+  here_.move(walker, kerb + 1.0);
+  here_.update();
+  EXPECT_EQ(here_.context(driver).foe, here_.scene.id[walker].value);
+  EXPECT_LT(here_.context(driver).allowed_speed, 6.0);
 }
 
 TEST_F(CrossingTest, WalkersDoNotStepInFrontOfWhoCanNotStop) {

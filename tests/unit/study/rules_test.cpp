@@ -101,6 +101,51 @@ TEST_F(Rules, CrossingTheBridgeIsNotRunningTheRed) {
   EXPECT_EQ(counts().off_road_s, 0);
 }
 
+TEST_F(Rules, ARedLightIsMetByWhoCouldGo) {
+  road_.signal_states = {"rr"};
+  add("car", {90, 0}, {0.1, 0});
+  add("car", {84, 0}, {0.1, 0});        // behind it: front within reach, but held
+  add("bicycle", {88, 1.4}, {0.1, 0});  // beside it: nobody in front
+  add("car", {84, -3.2}, {0.1, 0});     // on the other side of the road
+  run(3);
+  const RuleResult result = monitor_.result(types_);
+  EXPECT_EQ(result.all.red_lights_met, 2u);
+  EXPECT_EQ(result.by_type.at("car").red_lights_met, 1u);
+  EXPECT_EQ(result.all.red_light_crossings, 0u);
+  // the first one goes at red: met once, and the next one is at the line then
+  scene_.speed[0] = 5;
+  scene_.velocity[0] = Vec2(5, 0);
+  run(3);
+  EXPECT_EQ(monitor_.result(types_).by_type.at("car").red_lights_met, 2u);
+  EXPECT_EQ(counts().red_light_crossings, 1u);
+}
+
+TEST_F(Rules, WhoGoesThroughAtSpeedHasMetTheRedLight) {
+  road_.signal_states = {"rr"};
+  add("car", {70, 0}, {10, 0});
+  run(5);
+  EXPECT_EQ(counts().red_light_crossings, 1u);
+  EXPECT_EQ(counts().red_lights_met, 1u);
+}
+
+TEST_F(Rules, AGreenLightIsNoRedLightMet) {
+  add("car", {90, 0}, {0.5, 0});
+  run(5);
+  EXPECT_EQ(counts().red_lights_met, 0u);
+}
+
+TEST_F(Rules, SomebodyOnFootHasMetARedLightWhoWaitedForIt) {
+  road_.signal_states = {"Gr"};
+  add("pedestrian", {101, 2.6}, {0, -1e-3});
+  run(2);
+  EXPECT_EQ(counts().red_lights_met, 0u);  // it may stand there for another reason
+  road_.signal_states = {"rG"};
+  scene_.velocity[0] = Vec2(0, -1.3);
+  run(3);
+  EXPECT_EQ(counts().red_lights_met, 1u);
+  EXPECT_EQ(counts().red_light_crossings, 0u);
+}
+
 TEST_F(Rules, PedestrianOnRedAndOnGreen) {
   add("pedestrian", {101, 3.5}, {0, -1.3});
   run(8);
@@ -111,6 +156,16 @@ TEST_F(Rules, PedestrianOnRedAndOnGreen) {
   run(8);
   EXPECT_EQ(counts().red_light_crossings, 1u);
   EXPECT_EQ(counts().signal_crossings, 2u);
+}
+
+TEST_F(Rules, WhoSteppedOnAtGreenHasNotCrossedAtRed) {
+  road_.signal_states = {"rG"};
+  add("pedestrian", {101, 2.6}, {0, -1.3});
+  run(0.6);  // 0.2 m deep
+  road_.signal_states = {"rr"};
+  run(4);
+  EXPECT_EQ(counts().signal_crossings, 1u);
+  EXPECT_EQ(counts().red_light_crossings, 0u);
 }
 
 TEST_F(Rules, PedestrianGrazingTheCornerOfACrossing) {

@@ -126,6 +126,33 @@ TEST(DrawBehavior, IsAPureFunctionOfSeedAndId) {
   EXPECT_NE(draw_behavior(car, 7, {1}).responsibility, draw_behavior(car, 8, {1}).responsibility);
 }
 
+TEST(ChooseSpeedFactor, SumosStaysUnlessTheTypeHasOne) {
+  AgentTypeTable types = default_agent_types();
+  AgentType car = type_of(types, find_agent_type(types, "car"));
+  SumoAgentDetails details;
+  details.id = "car.7";
+  details.speed_factor = 1.1;
+  details.max_speed = 30;
+  choose_speed_factor(car, 1, details);
+  EXPECT_EQ(details.speed_factor, 1.1);
+  car.compliance.speed_factor = 0.8;
+  choose_speed_factor(car, 1, details);
+  EXPECT_EQ(details.speed_factor, 0.8);  // not 0.88
+  EXPECT_EQ(details.max_speed, 30);
+  details.vehicle_class = "bicycle";  // at a pace of its own, which held SUMO's factor
+  details.speed_factor = 1.2;
+  details.max_speed = 4.8;
+  choose_speed_factor(car, 1, details);
+  EXPECT_NEAR(details.max_speed, 3.2, 1e-12);
+  car.compliance.speed_factor_deviation = 0.1;
+  choose_speed_factor(car, 1, details);
+  const double first = details.speed_factor;
+  choose_speed_factor(car, 1, details);
+  EXPECT_EQ(details.speed_factor, first);
+  choose_speed_factor(car, 2, details);
+  EXPECT_NE(details.speed_factor, first);
+}
+
 TEST(DrawPathOffset, TheSlowKeepToTheKerb) {
   Model model = small_model();
   for (const bool left_hand : {false, true}) {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "model/model.h"
+
+namespace sumogamma {
+
+/// Does this agent go over a link that shows red, once it has halted and where the way is free?
+/// Drawn once for an agent and an approach (or crossing, on foot), whichever of its lanes it takes.
+bool goes_at_red(const Model& model, const Scene& scene, std::size_t row, ConnectionId link);
+
+/// Does this agent let people go first who wait at an unsignalled crossing? Drawn once for an agent
+/// and a crossing. True for everybody on foot.
+bool lets_people_go(const Model& model, const Scene& scene, std::size_t row, ConnectionId crossing);
+
+}  // namespace sumogamma

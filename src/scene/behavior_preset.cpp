@@ -1,0 +1,59 @@
+#include "scene/behavior_preset.h"
+
+#include <algorithm>
+
+namespace sumogamma {
+
+namespace {
+
+/// What `observed` says of a type beyond `compliant`. Measured: red lights at the Tianjin junction
+/// SinD 8_2_1 (cars 2 of 268, motorcycles 59 of 171, bicycles 34 of 131, tricycles 6 of 33);
+/// walking speed and time between people and vehicles in the DUT recordings. The rest is assumed.
+struct Observed {
+  const char* type;
+  double red_light_running, yielding_rate, jaywalking_rate, headway_deviation, critical_gap;
+};
+constexpr Observed kObserved[] = {
+    {"pedestrian", 0.0, 1.0, 0.15, 0.0, 1.9},         // gap: DUT shared space, 5th percentile
+    {"bicycle", 0.26, 0.5, 0.0, 0.2, 1.0},            // red: SinD
+    {"motorcycle", 0.345, 0.5, 0.0, 0.2, 1.0},        // red: SinD
+    {"car", 0.007, 0.7, 0.0, 0.2, 1.0},               // red: SinD
+    {"van", 0.007, 0.7, 0.0, 0.2, 1.0},               // as cars
+    {"bus", 0.007, 0.7, 0.0, 0.2, 1.0},               // as cars
+    {"truck", 0.007, 0.7, 0.0, 0.2, 1.0},             // as cars
+    {"electric_tricycle", 0.18, 0.5, 0.0, 0.2, 1.0},  // red: SinD's tricycles
+    {"gyro_scooter", 0.26, 0.5, 0.0, 0.2, 1.0},       // as bicycles
+};
+
+}  // namespace
+
+std::string_view name_of(BehaviorPreset preset) {
+  return preset == BehaviorPreset::Observed ? "observed" : "compliant";
+}
+
+void apply_preset(BehaviorPreset preset, AgentTypeTable& types) {
+  const AgentTypeTable compliant = default_agent_types();
+  for (AgentType& type : types) {
+    const auto own = std::find_if(compliant.begin(), compliant.end(),
+                                  [&](const AgentType& row) { return row.name == type.name; });
+    if (own == compliant.end()) continue;
+    type.compliance = own->compliance;
+    type.critical_gap = own->critical_gap;
+    if (preset == BehaviorPreset::Compliant) continue;
+    for (const Observed& row : kObserved) {
+      if (type.name != row.type) continue;
+      type.compliance.red_light_running = row.red_light_running;
+      type.compliance.yielding_rate = row.yielding_rate;
+      type.compliance.jaywalking_rate = row.jaywalking_rate;
+      type.compliance.headway_deviation = row.headway_deviation;
+      type.critical_gap = row.critical_gap;
+    }
+    if (type.name == "pedestrian") {
+      // 774 people on the DUT crosswalk: 1.22 +- 0.29 m/s, over the type's 1.3 m/s
+      type.compliance.speed_factor = 0.94;
+      type.compliance.speed_factor_deviation = 0.22;
+    }
+  }
+}
+
+}  // namespace sumogamma

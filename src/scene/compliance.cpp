@@ -1,0 +1,48 @@
+#include "scene/compliance.h"
+
+#include <algorithm>
+
+#include "base/random.h"
+
+namespace sumogamma {
+
+namespace {
+
+/// Normal about `mean`, cut off at twice the deviation and below `least`.
+double draw_normal(double mean, double deviation, double least, std::uint64_t seed,
+                   std::uint64_t id, Draw purpose) {
+  const double draw = std::clamp(random_normal(seed, id, 0, purpose), -2.0, 2.0);
+  return std::max(mean + deviation * draw, least);
+}
+
+}  // namespace
+
+Manners draw_manners(const Compliance& compliance, std::uint64_t seed, std::uint32_t id) {
+  Manners manners;
+  manners.key = std::max<std::uint64_t>(random_bits(seed, id, 0, Draw::Compliance), 1);
+  manners.headway_factor =
+      draw_normal(1.0, compliance.headway_deviation, 0.3, seed, id, Draw::Headway);
+  return manners;
+}
+
+double draw_speed_factor(const Compliance& compliance, std::uint64_t seed, std::uint64_t id) {
+  return draw_normal(compliance.speed_factor, compliance.speed_factor_deviation, 0.2, seed, id,
+                     Draw::DesiredSpeed);
+}
+
+bool runs_red_light(const Compliance& compliance, const Manners& manners, std::uint64_t place) {
+  return manners.key != 0 &&
+         random_uniform(manners.key, place, 0, Draw::Compliance) < compliance.red_light_running;
+}
+
+bool jaywalks(const Compliance& compliance, const Manners& manners, std::uint64_t place) {
+  return manners.key != 0 &&
+         random_uniform(manners.key, place, 0, Draw::Jaywalking) < compliance.jaywalking_rate;
+}
+
+bool yields_to_people(const Compliance& compliance, const Manners& manners, std::uint64_t place) {
+  return manners.key == 0 ||
+         random_uniform(manners.key, place, 0, Draw::Yielding) < compliance.yielding_rate;
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+
+namespace sumogamma {
+
+/// How far the road users of a type keep the rules, and how they differ from each other. The
+/// defaults are the preset `compliant`. docs/scenario.md tells where each number comes from.
+struct Compliance {
+  double red_light_running = 0;  ///< share of drivers that, meeting a red light, halt and then go
+                                 ///< where the way is free
+  double yielding_rate = 1;      ///< share of drivers that let people go first who wait at an
+                                 ///< unsignalled crossing
+  double jaywalking_rate = 0;    ///< share of people on foot that, meeting a red light, cross where
+                                 ///< the way is free
+  double speed_factor = 0;  ///< mean of the desired speed over the limit (on foot and on bicycles:
+                            ///< over the usual speed); 0: what SUMO drew from its vType
+  double speed_factor_deviation = 0;
+  double headway_deviation = 0;  ///< of the factor on the type's headway, whose mean is 1
+  double responsibility_least = 0.5, responsibility_most = 0.6;  ///< gamma of Eq. 5, uniform
+  double attention_least = 0.9, attention_most = 1.3;  ///< factor on the reach of Att, uniform
+};
+
+/// What was drawn for one agent when it came. The default keeps every rule.
+struct Manners {
+  std::uint64_t key = 0;      ///< of its draws an encounter, 0: keeps every rule
+  double headway_factor = 1;  ///< on its type's headway
+};
+
+/// A pure function of seed and id.
+Manners draw_manners(const Compliance& compliance, std::uint64_t seed, std::uint32_t id);
+
+/// Factor on the desired speed of an agent whose type has one of its own (speed_factor > 0):
+/// normal, cut off at twice the deviation, at least 0.2. A pure function of seed and id.
+double draw_speed_factor(const Compliance& compliance, std::uint64_t seed, std::uint64_t id);
+
+/// Draws an encounter: true for the share `rate` of all (agent, place) pairs, and always the same
+/// for one pair.
+bool runs_red_light(const Compliance& compliance, const Manners& manners, std::uint64_t place);
+bool jaywalks(const Compliance& compliance, const Manners& manners, std::uint64_t place);
+bool yields_to_people(const Compliance& compliance, const Manners& manners, std::uint64_t place);
+
+}  // namespace sumogamma
