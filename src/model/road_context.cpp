@@ -53,8 +53,13 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
       -std::max(target.room_right - half_width - 0.1, 0.0),
       std::max(target.room_left - half_width - 0.1, 0.0));
   if (course.path.walking) {
-    context.sub_goal = line.point_at(ahead) + beyond * direction + offset * left_of(direction);
-    const Vec2 chord = line.point_at(ahead) + beyond * direction - line.point_at(course.along);
+    // inside a sharp corner the place beside the path would be where a slow walker is already: it
+    // would stay there for ever
+    const double turn = direction.dot(line.direction_at(course.along));
+    const double kept = std::clamp(2.0 * turn, 0.0, 1.0);
+    const Vec2 middle = line.point_at(ahead) + beyond * direction;
+    context.sub_goal = middle + kept * offset * left_of(direction);
+    const Vec2 chord = middle - line.point_at(course.along);
     context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : direction;
   } else {
     // the sub-goal lies ahead in the path's own coordinates: aimed at straight, it would cut every

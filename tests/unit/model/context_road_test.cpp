@@ -106,6 +106,33 @@ TEST_F(ContextTest, ThePlaceThatAnAgentLikesBesideItsPathIsKeptOnTheRoad) {
   EXPECT_NEAR(here_.context(own).sub_goal.y(), -(1.6 - 0.325 - 0.1), 1e-9);
 }
 
+// (0,0) --------> (10,0)
+//                   |   somebody who likes to walk a metre to the right would aim at where it is
+//                   v   already, inside the corner
+//                 (10,-10)
+TEST_F(ContextTest, SlowWalkersGetRoundASharpCorner) {
+  Path path;
+  path.walking = true;
+  path.line = Polyline({Vec2(0, 0), Vec2(10, 0), Vec2(10, -10)});
+  PathStretch stretch;
+  stretch.lane = here_.model.road.lane_by_name.at("in_0");
+  stretch.to = 20;
+  stretch.speed_limit = stretch.room_left = stretch.room_right = 5;
+  path.stretches = {stretch};
+  path.speed_profile.assign(12, 0.7);
+  const std::size_t own = here_.add(find_agent_type(here_.model.types, "pedestrian"),
+                                    std::make_shared<const Path>(std::move(path)), 5, 0.7);
+  here_.scene.path_offset[own] = -1.0;
+  for (int tick = 0; tick < 400 && here_.scene.path_along[own] < 15; ++tick) {
+    here_.update();
+    const Vec2 way = here_.context(own).sub_goal - here_.scene.position[own];
+    here_.scene.velocity[own] = 0.7 * way.normalized();
+    here_.scene.position[own] += 0.05 * here_.scene.velocity[own];
+  }
+  EXPECT_GE(here_.scene.path_along[own], 15.0);
+  EXPECT_NEAR(here_.scene.position[own].x(), 9.0, 0.2);  // and it keeps to its side after it
+}
+
 TEST_F(ContextTest, APlannedHaltIsApproachedAndHeld) {
   const std::size_t own = here_.add("bus", {"in", "out"}, 40, 8);
   Path path = here_.path(own);
