@@ -18,12 +18,10 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
   approaches_.clear();
   waiting_.resize(scene.size());
   constexpr double kPatience = 3.0;  // [s]
-  constexpr double kMayStart = 0.5;  // [m/s]
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const RoadContext& context = scene.context[row];
     waiting_[row] = {context.reason, context.foe, scene.halted_for[row], scene.halted_at[row],
-                     context.active && context.allowed_speed > kMayStart &&
-                         scene.standing_time[row] > kPatience};
+                     scene.blocked_time[row] > kPatience};
   }
 
   for (std::size_t row = 0; row < scene.size(); ++row) {

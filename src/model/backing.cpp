@@ -85,7 +85,7 @@ void update_backing(double dt, Scene& scene, std::size_t row) {
       gives_way = moved_on ? 0.0 : kGivesWay;
     }
   } else if (gives_way <= 0.0 && is_wedged(scene, row) &&
-             scene.standing_time[row] > patience(scene, row)) {
+             scene.blocked_time[row] > patience(scene, row)) {
     left = kTries;
   }
 }

@@ -160,6 +160,7 @@ struct Judge {
     if (foe_inside && foe.stands && own_type.kinematics == Kinematics::Holonomic &&
         waits_behind(model, scene, approaches, foe, traveller.row))
       return Verdict::Held;
+    if (foe_inside && in_deadlock(foe)) return Verdict::Held;
     if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
     if (waits_behind(model, scene, approaches, foe, traveller.row)) return Verdict::Held;
     // no rule for this pair, or past the line already: who gets there first goes first, the other
@@ -198,6 +199,14 @@ struct Judge {
   bool past_line(const ConflictZone& zone) const {
     // who goes at red waits before the junction, not on it
     return traveller.front > (at_red ? link.stop_line : waiting_place(link, zone).along) + 0.3;
+  }
+  /// Have both stood for long, this agent for longer? Conflict zones are wider than bodies: of
+  /// those who wait for each other in a ring, one tries.
+  bool in_deadlock(const Approach& foe) const {
+    constexpr double kLong = 8.0;  // [s]
+    const double own = scene.standing_time[traveller.row], other = scene.standing_time[foe.row];
+    return std::min(own, other) > kLong &&
+           (own > other || (own == other && scene.id[traveller.row] < scene.id[foe.row]));
   }
   static Verdict blocks_if(bool blocks) { return blocks ? Verdict::Blocks : Verdict::Free; }
   Verdict waiting_verdict(const Approach& foe) const {

@@ -100,9 +100,11 @@ void update_wedge(double dt, Scene& scene, std::size_t row) {
   constexpr double kPatience = 5.0, kLasts = 10.0;  // [s]
   constexpr double kMayStart = 0.5;                 // [m/s]
   const RoadContext& context = scene.context[row];
-  const bool stuck =
-      context.active && context.allowed_speed > kMayStart && scene.standing_time[row] > kPatience;
-  scene.wedge_left[row] = stuck ? kLasts : std::max(0.0, scene.wedge_left[row] - dt);
+  const bool blocked =
+      context.active && context.allowed_speed > kMayStart && scene.standing_time[row] > 0.0;
+  scene.blocked_time[row] = blocked ? scene.blocked_time[row] + dt : 0.0;
+  scene.wedge_left[row] =
+      scene.blocked_time[row] > kPatience ? kLasts : std::max(0.0, scene.wedge_left[row] - dt);
 }
 
 bool StoppingGuard::in_lane() const {

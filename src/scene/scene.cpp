@@ -32,6 +32,7 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.lateral_aim);
   visit(scene.merge_to);
   visit(scene.gate);
+  visit(scene.blocked_time);
   visit(scene.wedge_left);
   visit(scene.backing_left);
   visit(scene.gives_way_left);

@@ -60,6 +60,7 @@ struct Scene {
   std::vector<double> lateral_aim;     ///< on the way from one to the other [m]
   std::vector<LaneId> merge_to;        ///< lane into which it has to change soon, kNoLane: none
   std::vector<double> gate;  ///< along its path, where it waits for a gap there; infinite: free
+  std::vector<double> blocked_time;  ///< [s] for which it has stood although no rule holds it
   std::vector<double> wedge_left;  ///< [s] for which it still drives as one that was stuck between
                                    ///< bodies
   std::vector<double> backing_left;      ///< [s] for which it still backs out
