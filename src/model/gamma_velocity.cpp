@@ -58,15 +58,21 @@ void ease_violation(double fastest, Workspace& work) {
 }
 
 /// Hard planes that a body which creeps out of the way must keep. A vehicle that is wedged may use
-/// what lies beside its lane to get out.
+/// what lies beside its lane to get out, some metres of it.
 std::span<const HalfPlane> planes_for_creeping(const Scene& scene, std::size_t row,
                                                Workspace& work) {
+  constexpr double kFarthest = 2.0;  // beyond the boundary [m]
   const ConstraintSet& constraints = work.constraints;
   const std::span hard(constraints.planes.data(), constraints.hard_count);
   if (!is_wedged(scene, row)) return hard;
+  const RoadContext& context = scene.context[row];
   work.firm.clear();
-  for (std::size_t k = 0; k < hard.size(); ++k)
-    if (constraints.sources[k].kind != ConstraintKind::LaneBoundary) work.firm.push_back(hard[k]);
+  for (std::size_t k = 0; k < hard.size(); ++k) {
+    const bool on_left = hard[k].normal.dot(left_of(context.tangent)) < 0.0;
+    const double room = on_left ? context.room_left : context.room_right;
+    if (constraints.sources[k].kind != ConstraintKind::LaneBoundary || room < -kFarthest)
+      work.firm.push_back(hard[k]);
+  }
   return work.firm;
 }
 

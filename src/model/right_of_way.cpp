@@ -156,11 +156,12 @@ struct Judge {
     }
     if (waits_for_us && !zone.yields && !foe_inside) return Verdict::Held;
     if (waits_for_us) return waiting_verdict(foe);
-    // on foot one walks round what stands on the crossing
-    if (foe_inside && foe.stands && own_type.kinematics == Kinematics::Holonomic &&
-        waits_behind(model, scene, approaches, foe, traveller.row))
+    // on foot one walks round what stands on the crossing, on wheels past what stands beside the
+    // way
+    if (foe_inside && foe.stands && waits_behind(model, scene, approaches, foe, traveller.row) &&
+        (own_type.kinematics == Kinematics::Holonomic || stands_beside(zone, foe)))
       return Verdict::Held;
-    if (foe_inside && in_deadlock(foe)) return Verdict::Held;
+    if (foe_inside && in_deadlock(zone, foe)) return Verdict::Held;
     if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
     if (waits_behind(model, scene, approaches, foe, traveller.row)) return Verdict::Held;
     // no rule for this pair, or past the line already: who gets there first goes first, the other
@@ -200,13 +201,32 @@ struct Judge {
     // who goes at red waits before the junction, not on it
     return traveller.front > (at_red ? link.stop_line : waiting_place(link, zone).along) + 0.3;
   }
-  /// Have both stood for long, this agent for longer? Conflict zones are wider than bodies: of
-  /// those who wait for each other in a ring, one tries.
-  bool in_deadlock(const Approach& foe) const {
+  /// Have both stood on the junction for long? Conflict zones are wider than bodies: of those who
+  /// wait for each other in a ring, whoever isn't waited for by rule alone tries.
+  bool in_deadlock(const ConflictZone& zone, const Approach& foe) const {
     constexpr double kLong = 8.0;  // [s]
     const double own = scene.standing_time[traveller.row], other = scene.standing_time[foe.row];
-    return std::min(own, other) > kLong &&
-           (own > other || (own == other && scene.id[traveller.row] < scene.id[foe.row]));
+    if (!past_line(zone) || std::min(own, other) < kLong) return false;
+    const LimitReason reason = approaches.waiting(foe.row).reason;
+    const bool yields = reason == LimitReason::Yield || reason == LimitReason::Crossing;
+    return !yields || own > other || (own == other && scene.id[traveller.row] < scene.id[foe.row]);
+  }
+  /// Does a foe's body leave the traveller's way free? Conflict zones are wider than bodies.
+  bool stands_beside(const ConflictZone& zone, const Approach& foe) const {
+    constexpr double kSide = 0.25, kStep = 0.5;  // [m]
+    const Polyline& way = road.path(scene.path[traveller.row])->line;
+    const Vec2 forward = direction_of(scene.heading[foe.row]);
+    const Vec2 half(half_extent(scene, foe.row, forward),
+                    half_extent(scene, foe.row, left_of(forward)));
+    const double own_half =
+        half_extent(scene, traveller.row, left_of(direction_of(scene.heading[traveller.row])));
+    for (double along = zone.begin; along <= zone.end; along += kStep) {
+      const Vec2 place =
+          to_body(Vec2(way.point_at(link.stop_line + along) - scene.position[foe.row]), forward);
+      const Vec2 away = (place.cwiseAbs() - half).cwiseMax(0.0);
+      if (away.norm() < own_half + kSide) return false;
+    }
+    return true;
   }
   static Verdict blocks_if(bool blocks) { return blocks ? Verdict::Blocks : Verdict::Free; }
   Verdict waiting_verdict(const Approach& foe) const {

@@ -174,15 +174,18 @@ void note_halt(const Course& course, Scene& scene) {
 }
 
 /// Keep clear of junctions that follow each other closely: who would have to wait before the next
-/// one with its rear still on this one waits here already. After a minute it goes all the same.
+/// one with its rear still on this one waits here already, for some time.
 LinkDecision decide_beyond(const View& view, const Course& course, const Traveller& traveller,
                            const PathLink& link) {
-  constexpr double kPatience = 60.0;  // [s]
+  constexpr double kPatience = 20.0;  // [s]
+  constexpr double kFarthest = 20.0;  // [m]
   if (view.scene.standing_time[course.row] > kPatience) return {};
   const PathLink* last = &link;
   for (const PathLink& next : course.path.links) {
     if (next.stop_line <= link.stop_line) continue;
-    if (next.halt - kStopMargin - traveller.length > last->end) break;
+    if (next.halt - kStopMargin - traveller.length > last->end ||
+        next.stop_line > link.stop_line + kFarthest)
+      break;
     const LinkDecision decision =
         decide_link(view.model, view.road, view.scene, view.approaches, traveller, next);
     if (decision.must_stop) return decision;

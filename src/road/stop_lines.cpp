@@ -58,8 +58,8 @@ std::vector<Polyline> driven_ways(const RoadNetwork& network, const Junction& ju
 /// Where on a walk, at `along` or so far before it as it takes, nobody drives.
 double off_the_road(const Path& path, double along, const std::vector<Polyline>& ways) {
   constexpr double kWalkerRoom = 1.55;  // between the middles of a vehicle and a walker [m]
-  constexpr double kMost = 10.0;       // [m]
-  constexpr double kWalkerStep = 0.4;  // [m]
+  constexpr double kMost = 10.0;        // [m]
+  constexpr double kWalkerStep = 0.4;   // [m]
   for (double back = 0.0; back <= std::min(kMost, along); back += kWalkerStep) {
     const Vec2 place = path.line.point_at(along - back);
     const bool driven = std::any_of(ways.begin(), ways.end(), [&](const Polyline& way) {
