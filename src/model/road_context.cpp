@@ -182,6 +182,9 @@ LinkDecision decide_beyond(const View& view, const Course& course, const Travell
   if (view.scene.standing_time[course.row] > kPatience) return {};
   const PathLink* last = &link;
   for (const PathLink& next : course.path.links) {
+    // who waits with its rear on a junction already goes as far as it can
+    if (next.stop_line < link.stop_line && next.end > link.halt - kStopMargin - traveller.length)
+      return {};
     if (next.stop_line <= link.stop_line) continue;
     if (next.halt - kStopMargin - traveller.length > last->end ||
         next.stop_line > link.stop_line + kFarthest)
