@@ -141,7 +141,7 @@ struct Judge {
     // isn't coming, and past the line it is no use to wait for it
     const Waiting& waiting = approaches.waiting(foe.row);
     if (foe.stands && waiting.reason == LimitReason::GivesWay) return Verdict::Held;
-    if (foe.stands && waiting.blocked && (!foe_inside || past_line(zone))) return Verdict::Held;
+    if (foe.stands && waiting.blocked && (!foe_inside || on_junction(zone))) return Verdict::Held;
     const bool waits_for_us =
         foe.stands && approaches.waiting(foe.row).foe == scene.id[traveller.row].value;
     // all-way stop: who has halted goes in the order in which they came
@@ -201,12 +201,17 @@ struct Judge {
     // who goes at red waits before the junction, not on it
     return traveller.front > (at_red ? link.stop_line : waiting_place(link, zone).along) + 0.3;
   }
+  /// Past the line, or on the junction before this one?
+  bool on_junction(const ConflictZone& zone) const {
+    const LaneId lane = scene.lane[traveller.row].lane;
+    return past_line(zone) || (lane != kNoLane && model.road.lane(lane).kind == LaneKind::Internal);
+  }
   /// Have both stood on the junction for long? Conflict zones are wider than bodies: of those who
   /// wait for each other in a ring, whoever isn't waited for by rule alone tries.
   bool in_deadlock(const ConflictZone& zone, const Approach& foe) const {
     constexpr double kLong = 8.0;  // [s]
     const double own = scene.standing_time[traveller.row], other = scene.standing_time[foe.row];
-    if (!past_line(zone) || std::min(own, other) < kLong) return false;
+    if (!on_junction(zone) || std::min(own, other) < kLong) return false;
     const LimitReason reason = approaches.waiting(foe.row).reason;
     const bool yields = reason == LimitReason::Yield || reason == LimitReason::Crossing;
     return !yields || own > other || (own == other && scene.id[traveller.row] < scene.id[foe.row]);
