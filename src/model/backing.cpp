@@ -11,18 +11,17 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kPace = 0.45;           // walking backwards [m/s]
-constexpr double kThrottle = 1.0;        // [m/s^2]
-constexpr double kBrake = 2.0;           // [m/s^2]
-constexpr double kLeast = 8.0;           // wedged for so long before anybody backs out [s]
-constexpr double kStagger = 8.0;         // and up to so much longer, so that not all do at once [s]
-constexpr double kPatienceBehind = 5.0;  // of who stands behind one that backs out [s]
-constexpr double kTries = 8.0;           // [s]
-constexpr double kGivesWay = 8.0;        // [s]
-constexpr double kClear = 0.25;          // kept to everybody behind [m]
-constexpr double kRoomToBegin = 0.5;     // [m]
-constexpr double kTarget = 3.0;          // behind the rear axle, aimed at on the path [m]
-constexpr double kStill = 0.01;          // [m/s]
+constexpr double kPace = 0.45;        // walking backwards [m/s]
+constexpr double kThrottle = 1.0;     // [m/s^2]
+constexpr double kBrake = 2.0;        // [m/s^2]
+constexpr double kLeast = 8.0;        // wedged for so long before anybody backs out [s]
+constexpr double kStagger = 8.0;      // and up to so much longer, so that not all do at once [s]
+constexpr double kTries = 8.0;        // [s]
+constexpr double kGivesWay = 8.0;     // [s]
+constexpr double kClear = 0.25;       // kept to everybody behind [m]
+constexpr double kRoomToBegin = 0.5;  // [m]
+constexpr double kTarget = 3.0;       // behind the rear axle, aimed at on the path [m]
+constexpr double kStill = 0.01;       // [m/s]
 
 double backward_speed(const Scene& scene, std::size_t row) {
   return std::max(0.0, -scene.velocity[row].dot(direction_of(scene.heading[row])));
@@ -68,13 +67,14 @@ bool keeps_clear(const Scene& scene, const TickGeometry& geometry, std::size_t r
   return clear;
 }
 
-/// Is this row right behind one that would back out if there were room?
+/// Is this row right behind one that has tried to back out for some time, for want of room?
 bool makes_room(const Scene& scene, std::size_t row) {
+  constexpr double kTried = 3.0;  // [s]
   const RoadContext& context = scene.context[row];
-  if (context.reason != LimitReason::Leader || scene.standing_time[row] < kPatienceBehind)
-    return false;
+  if (context.reason != LimitReason::Leader || scene.standing_time[row] < kTries) return false;
   const std::size_t leader = find_row(scene, AgentId{static_cast<std::uint32_t>(context.foe)});
-  return leader < scene.size() && scene.backing_left[leader] > 0.0;
+  return leader < scene.size() && scene.blocked_time[leader] > kLeast &&
+         scene.backing_left[leader] > 0.0 && scene.backing_left[leader] < kTries - kTried;
 }
 
 }  // namespace
@@ -92,8 +92,10 @@ void update_backing(double dt, Scene& scene, std::size_t row) {
     left = moved_on ? 0.0 : left - dt;
     if (left <= 0.0) {
       left = 0.0;
+      // who made room for somebody follows it again
       const bool rolled = scene.standing_time[row] < kTries;
-      gives_way = rolled && !moved_on ? kGivesWay : 0.0;
+      const bool for_itself = scene.context[row].reason != LimitReason::Leader;
+      gives_way = rolled && for_itself && !moved_on ? kGivesWay : 0.0;
     }
   } else if (gives_way <= 0.0 && is_wedged(scene, row) &&
              scene.blocked_time[row] > patience(scene, row)) {
