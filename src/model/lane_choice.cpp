@@ -64,6 +64,18 @@ bool is_contested(const Scene& scene, const Surroundings& around, std::size_t ro
   });
 }
 
+/// Is somebody who goes the same way in the way beside an agent that changes lanes, its middle
+/// ahead? Then that one goes first; who is behind lets the agent in.
+bool is_beside(const Surroundings& around) {
+  constexpr double kSide = 0.3;  // [m]
+  const double front = around.along + around.half_length;
+  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+    return user.aligned && user.rear < front && user.rear + user.front > 2.0 * around.along &&
+           std::abs(user.offset) < user.half_width + around.half_width + kSide &&
+           std::abs(user.offset - around.offset) > user.half_width + around.half_width - kSide;
+  });
+}
+
 /// How far aside the middle of a neighbouring lane of the same edge lies [m, positive left].
 double shift_to(const Model& model, const Lane& from, const Lane& to) {
   const double inner = model.road.left_hand ? -1.0 : 1.0;
@@ -123,6 +135,7 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   const PathStretch& here = path.stretch_at(around.along);
   if (here.changing) {
     intent.merge_to = here.lane;
+    if (is_beside(around)) intent.gate = around.along;
     intent.abort =
         scene.standing_time[row] > kPatience && scene.context[row].reason == LimitReason::None;
     return;

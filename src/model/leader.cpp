@@ -64,9 +64,8 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
       const Path* theirs = road.path(scene.path[other]);
       const bool on_its_way =
           theirs != nullptr && theirs->stretch_at(scene.path_along[other]).changing;
-      // who is on its way already needs the room beside it, too
-      const double front = along + own_half_length;
-      if (on_its_way ? place.along > front : rear > front + 1.0)
+      // who is on its way already and has its middle ahead needs the room beside it, too
+      if (on_its_way ? place.along > along : rear > along + own_half_length + 1.0)
         note_merging(
             {rear, 2.0 * place.along - rear, std::max(0.0, scene.velocity[other].dot(direction)),
              static_cast<std::int64_t>(scene.id[other].value)},

@@ -154,6 +154,8 @@ StoppingGuard::Foe StoppingGuard::look_closely(std::uint32_t other) const {
   Braking theirs = braking_now(their, type_of(model_->types, their.type));
   // nobody makes others brake; whoever goes the same way may
   if (!their.yields && their.velocity.dot(own.velocity) <= 0) theirs.deceleration = 1e-3;
+  foe.behind = in_lane() && theirs.direction.dot(own.forward) > 0.7 &&
+               (their.position - own.position).dot(own.forward) < -own.half.x();
   const double stop = own.speed / type_of(model_->types, own.type).max_deceleration;
   foe.duration = std::max(stop + step, their.yields ? theirs.duration() : 0.0);
   foe.free_way = model_->options.guard_margin + their.throttle_way;
@@ -193,6 +195,8 @@ bool StoppingGuard::clear_at(Foe& foe, std::size_t instant, const Pose& pose) co
   const double gap = gap_between(pose, foe.poses[instant], foe.row);
   if (gap >= foe.free_way) return true;
   const Room& room = room_at(foe, instant);
+  // braking helps nobody against who can't stop behind
+  if (foe.behind && room.gap < 0.0) return true;
   // no closer than by braking now is as good as braking
   if (gap >= room.gap - kSame) return true;
   // deeper by a hair is what it takes to roll out of each other side by side

@@ -78,7 +78,9 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
     if (std::abs(scene.height[row] - ground) > kStorey) continue;
     const Box other = box_of(scene, row);
     if (overlap(wanted, other)) return std::nullopt;
-    if (on_foot || std::abs(relative.y()) > half_width + other.half_width + 0.3) continue;
+    // who is ahead and not quite in this lane may be on its way into it
+    const double aside = relative.x() > 0.0 ? 0.7 : 0.3;
+    if (on_foot || std::abs(relative.y()) > half_width + other.half_width + aside) continue;
     const double ahead = scene.velocity[row].dot(direction);
     const double free = std::abs(relative.x()) - half_length - scene.footprint[row].radius - gap;
     if (relative.x() > 0.0) {
