@@ -155,7 +155,7 @@ StoppingGuard::Foe StoppingGuard::look_closely(std::uint32_t other) const {
   // nobody makes others brake; whoever goes the same way may
   if (!their.yields && their.velocity.dot(own.velocity) <= 0) theirs.deceleration = 1e-3;
   foe.behind = in_lane() && theirs.direction.dot(own.forward) > 0.7 &&
-               (their.position - own.position).dot(own.forward) < -own.half.x();
+               (their.position - own.position).dot(own.forward) < -own.half.x() - their.half.x();
   const double stop = own.speed / type_of(model_->types, own.type).max_deceleration;
   foe.duration = std::max(stop + step, their.yields ? theirs.duration() : 0.0);
   foe.free_way = model_->options.guard_margin + their.throttle_way;
@@ -192,11 +192,11 @@ bool StoppingGuard::clear_at(Foe& foe, std::size_t instant, const Pose& pose) co
   const AgentGeometry &own = geometry_->agent[row_], &their = geometry_->agent[foe.row];
   const double discs = own.radius + their.radius + foe.free_way;
   if ((pose.position - foe.poses[instant].position).squaredNorm() > discs * discs) return true;
+  // braking for who comes from behind helps nobody
+  if (foe.behind) return true;
   const double gap = gap_between(pose, foe.poses[instant], foe.row);
   if (gap >= foe.free_way) return true;
   const Room& room = room_at(foe, instant);
-  // braking helps nobody against who can't stop behind
-  if (foe.behind && room.gap < 0.0) return true;
   // no closer than by braking now is as good as braking
   if (gap >= room.gap - kSame) return true;
   // deeper by a hair is what it takes to roll out of each other side by side
