@@ -129,6 +129,8 @@ void append_geometric_constraints(const Model& model, const Scene& scene,
   for (const Attended& neighbour : attended) {
     const std::size_t other = neighbour.row;
     const AgentGeometry& their = geometry.agent[other];
+    // differs from the paper: on a road who follows keeps apart from who is ahead (see following)
+    if (scene.context[row].active && comes_from_behind(own, their)) continue;
     const std::int64_t foe = scene.id[other].value;
     const double horizon =
         road_horizon(scene.context[row], own, their, foe,

@@ -23,6 +23,8 @@ constexpr double kShuffle = 0.28;  // [m/s]
 constexpr double kSame = 1e-6;
 // bodies that overlap on a road may do so deeper by this a look [m]
 constexpr double kHair = 2e-3;
+// but no deeper than this [m]
+constexpr double kDeepest = 0.05;
 
 using Braking = StoppingGuard::Braking;
 
@@ -154,8 +156,7 @@ StoppingGuard::Foe StoppingGuard::look_closely(std::uint32_t other) const {
   Braking theirs = braking_now(their, type_of(model_->types, their.type));
   // nobody makes others brake; whoever goes the same way may
   if (!their.yields && their.velocity.dot(own.velocity) <= 0) theirs.deceleration = 1e-3;
-  foe.behind = in_lane() && theirs.direction.dot(own.forward) > 0.7 &&
-               (their.position - own.position).dot(own.forward) < -own.half.x() - their.half.x();
+  foe.behind = in_lane() && comes_from_behind(own, their);
   const double stop = own.speed / type_of(model_->types, own.type).max_deceleration;
   foe.duration = std::max(stop + step, their.yields ? theirs.duration() : 0.0);
   foe.free_way = model_->options.guard_margin + their.throttle_way;
@@ -200,7 +201,7 @@ bool StoppingGuard::clear_at(Foe& foe, std::size_t instant, const Pose& pose) co
   // no closer than by braking now is as good as braking
   if (gap >= room.gap - kSame) return true;
   // deeper by a hair is what it takes to roll out of each other side by side
-  if (foe.overlaps) return gap >= room.gap - kHair;
+  if (foe.overlaps) return gap >= room.gap - kHair && gap > -kDeepest;
   // closer than the margin already: half of what is left may be used, so that bodies side by side
   // can turn apart
   if (gap < std::min(model_->options.guard_margin, 0.5 * room.gap)) return false;

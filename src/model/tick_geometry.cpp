@@ -103,6 +103,11 @@ void prepare_tick(const Model& model, const Scene& scene, Workers& workers,
   }
 }
 
+bool comes_from_behind(const AgentGeometry& own, const AgentGeometry& their) {
+  return own.on_wheels && their.on_wheels && their.forward.dot(own.forward) > 0.7 &&
+         (their.position - own.position).dot(own.forward) < -own.half.x() - their.half.x();
+}
+
 OrientedBox swept_box(const AgentGeometry& agent, const Vec2& position, const Vec2& forward,
                       const Vec2& direction, double way, double curvature, double axle) {
   // the box of all poses on the way: forward by the way, aside by the arc and by what the turned

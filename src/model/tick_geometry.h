@@ -57,6 +57,10 @@ struct TickGeometry {
 /// seen before.
 void prepare_tick(const Model& model, const Scene& scene, Workers& workers, TickGeometry& geometry);
 
+/// Is `their` body all behind the own one, and goes the same way? On a road it is its business to
+/// keep apart then. On wheels only.
+bool comes_from_behind(const AgentGeometry& own, const AgentGeometry& their);
+
 /// The row's outline about its position in world axes, with the margins that avoidance keeps.
 ConvexPolygon guarded_polygon(const Model& model, const Scene& scene, const TickGeometry& geometry,
                               std::size_t row);
