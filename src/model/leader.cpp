@@ -8,6 +8,8 @@ namespace sumogamma {
 
 namespace {
 
+constexpr double kAbreast = 0.5;  // between the middles [m]
+
 /// Somebody on foot who stands: at a kerb, as far as anyone can tell.
 bool waits_at_kerb(const Model& model, const Scene& scene, std::size_t row) {
   return scene.standing_time[row] > 1.5 &&
@@ -44,9 +46,12 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     if (other == row || std::abs(scene.height[other] - scene.height[row]) > kStorey) return;
     // cheap rejection: well behind
     if ((scene.position[other] - position).dot(tangent) < -reach * 0.3 - 10.0) return;
-    const PolylinePosition place = path->line.project(scene.position[other], along, along + reach);
+    const PolylinePosition place =
+        path->line.project(scene.position[other], along - 2.0 * kAbreast, along + reach);
     if (place.distance > own_half_width + scene.footprint[other].radius + margin) return;
-    if (place.along <= along + 1e-6) return;
+    // of two abreast who lean towards each other just one is ahead
+    const double ahead_by = place.along - along;
+    if (ahead_by < (scene.id[other] < scene.id[row] ? -kAbreast : kAbreast)) return;
     const Vec2 direction = path->line.direction_at(place.along);
     const double half_width = half_extent(scene, other, left_of(direction));
     // the body drifts to where it means to be beside its path: near ahead its own offset counts
@@ -65,7 +70,7 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
       const bool on_its_way =
           theirs != nullptr && theirs->stretch_at(scene.path_along[other]).changing;
       // who is on its way already and has its middle ahead needs the room beside it, too
-      if (on_its_way ? place.along > along : rear > along + own_half_length + 1.0)
+      if (on_its_way || rear > along + own_half_length + 1.0)
         note_merging(
             {rear, 2.0 * place.along - rear, std::max(0.0, scene.velocity[other].dot(direction)),
              static_cast<std::int64_t>(scene.id[other].value)},

@@ -197,6 +197,17 @@ LinkDecision decide_beyond(const View& view, const Course& course, const Travell
   return {};
 }
 
+/// The throttle goes down at ease where the vehicle drives: a cap on the jerk that following and
+/// avoidance leave, however they take turns. Brakes and the start are not eased.
+double eased(const Scene& scene, const Course& course, double acceleration, double dt) {
+  constexpr double kJerk = 3.0;    // [m/s^3]
+  constexpr double kBraked = 0.0;  // the throttle is taken up from here at the least [m/s^2]
+  constexpr double kDrives = 8.0;  // [m/s]
+  if (course.speed < kDrives) return acceleration;
+  const double now = scene.acceleration[course.row].dot(direction_of(scene.heading[course.row]));
+  return std::min(acceleration, std::max(now, kBraked) + kJerk * dt);
+}
+
 void set_allowed_speed(const View& view, const Course& course, double dt, RoadContext& context) {
   const auto& [model, road, scene, grid, approaches] = view;
   const AgentType& type = course.type;
@@ -262,7 +273,7 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
           binding, context);
   }
   limit(stop_acceleration(scene, course, free_speed), LimitReason::Stop, -1, binding, context);
-  context.allowed_speed = std::max(0.0, course.speed + binding * dt);
+  context.allowed_speed = std::max(0.0, course.speed + eased(scene, course, binding, dt) * dt);
   if (scene.gives_way_left[course.row] > 0.0) {
     context.allowed_speed = 0.0;
     context.reason = LimitReason::GivesWay;
