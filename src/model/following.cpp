@@ -24,6 +24,29 @@ double following_acceleration(const AgentType& type, double speed, double free_s
   return std::clamp(acceleration, -type.max_deceleration, a);
 }
 
+double braking_behind(double speed, const Followed& followed) {
+  const double gap = std::max(followed.gap, 0.05), their = followed.speed;
+  const double theirs = std::max(-followed.acceleration, 0.0);
+  const double closing = std::max(speed - their, 0.0);
+  // does the other stand before the two are equally fast?
+  if (theirs > 0.0 && their * (speed - their) <= 2.0 * gap * theirs)
+    return speed * speed * theirs / (their * their + 2.0 * gap * theirs);
+  return theirs + closing * closing / (2.0 * gap);
+}
+
+double behind_acceleration(const AgentType& type, double speed, double free_speed,
+                           const Followed& followed, double headway_factor) {
+  constexpr double kCoolness = 0.99;
+  const double plain =
+      following_acceleration(type, speed, free_speed, followed.gap, followed.speed, headway_factor);
+  if (followed.gap <= 0.05 || !std::isfinite(followed.gap)) return plain;
+  const double steady = -braking_behind(speed, followed), b = type.comfortable_deceleration;
+  if (plain >= steady) return plain;
+  const double cool = steady + b * std::tanh((plain - steady) / b);
+  return std::clamp((1.0 - kCoolness) * plain + kCoolness * cool, -type.max_deceleration,
+                    type.max_acceleration);
+}
+
 double deceleration_to_stop(double speed, double distance) {
   if (speed <= 0.0) return 0.0;
   return distance > 0.0 ? speed * speed / (2.0 * distance)

@@ -12,6 +12,25 @@ namespace sumogamma {
 double following_acceleration(const AgentType& type, double speed, double free_speed, double gap,
                               double leader_speed, double headway_factor = 1.0);
 
+/// Somebody who is followed.
+struct Followed {
+  double gap = 0;           ///< to its rear [m]
+  double speed = 0;         ///< [m/s]
+  double acceleration = 0;  ///< [m/s^2]
+};
+
+/// Braking that keeps a body at `speed` off somebody who brakes on as now, >= 0 [m/s^2]: the
+/// constant-acceleration heuristic (Kesting, Treiber, Helbing 2010, Eq. 11). Nobody counts on
+/// another to speed up.
+double braking_behind(double speed, const Followed& followed);
+
+/// Acceleration behind somebody who drives [m/s^2]: following_acceleration where that brakes no
+/// harder than braking_behind, and else no harder than this by the comfortable deceleration (the
+/// ACC model of the same paper, Eqs. 12-13, coolness 0.99). The plain model brakes like for a wall
+/// when somebody cuts in, however fast that one drives; this lets the gap open at ease.
+double behind_acceleration(const AgentType& type, double speed, double free_speed,
+                           const Followed& followed, double headway_factor = 1.0);
+
 /// Deceleration needed to stop within `distance` [m/s^2]; infinite where there is none left.
 double deceleration_to_stop(double speed, double distance);
 

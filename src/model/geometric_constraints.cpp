@@ -22,6 +22,9 @@ double pair_horizon(const ModelOptions& options, const AgentType& own, const Age
   return std::min(own.horizon, their.horizon);
 }
 
+constexpr double kAbreast = 0.85;  ///< cosine of the angle between two who drive the same way
+constexpr double kLeader = 0.7;    ///< horizon towards who is followed [s]
+
 /// Horizon of a pair on the road [s].
 /// differs from the paper: who follows a lane bends with it, so that straight lines over the whole
 /// horizon see collisions with oncoming traffic in every curve; leaders, signals and right of way
@@ -29,7 +32,7 @@ double pair_horizon(const ModelOptions& options, const AgentType& own, const Age
 /// far ahead on a full sidewalk meet face to face and stop, all of them.
 double road_horizon(const RoadContext& context, const AgentGeometry& own,
                     const AgentGeometry& other, std::int64_t foe, double horizon) {
-  constexpr double kLanes = 1.5, kLeader = 0.7, kSidewalk = 1.2;
+  constexpr double kLanes = kBendTime, kSidewalk = 1.2;
   if (!context.active || own.on_wheels != other.on_wheels) return horizon;
   if (!own.on_wheels) return std::min(horizon, kSidewalk);
   const bool leader = context.reason == LimitReason::Leader && context.foe == foe;
@@ -61,7 +64,30 @@ struct Pair {
 
   const AgentGeometry& own() const { return geometry.agent[row]; }
   const AgentGeometry& their() const { return geometry.agent[other]; }
-  Vec2 relative() const { return own().velocity - their().velocity; }
+  /// Free way between the two at the least [m].
+  double gap() const {
+    return (their().position - own().position).norm() - own().radius - their().radius;
+  }
+  /// Mean velocity over the horizon of somebody who moves at `velocity` now.
+  /// differs from the paper: a straight line at a steady speed sees collisions with whoever bends
+  /// with its lane in every curve, and with whoever is about to halt before it gets there.
+  Vec2 on_course(std::size_t who, const Vec2& velocity) const {
+    constexpr double kClose = 1.0;  // where the next moment counts [m]
+    constexpr double kFast = 6.0;   // bodies that crawl keep out of each other's way as they are
+    const RoadContext& context = scene.context[who];
+    if (!context.active || horizon <= kLeader) return velocity;
+    if (own().on_wheels && their().on_wheels) {
+      const bool abreast = own().forward.dot(their().forward) > kAbreast;
+      const bool fast = std::max(own().speed, their().speed) > kFast;
+      return fast && !abreast && gap() > kClose ? from_body(velocity, context.bend) : velocity;
+    }
+    const double way = velocity.norm() * horizon;
+    const bool halts =
+        own().on_wheels != their().on_wheels && way > context.to_halt && gap() > context.to_halt;
+    return halts ? Vec2(velocity * (context.to_halt / way)) : velocity;
+  }
+  Vec2 their_velocity() const { return on_course(other, their().velocity); }
+  Vec2 relative() const { return on_course(row, own().velocity) - their_velocity(); }
   /// How soon the two are to be apart [s].
   double separation_time() const {
     const ModelOptions& options = model.options;
@@ -85,7 +111,7 @@ Escape escape_from(const NearSide& near, const Pair& pair) {
 std::optional<Escape> escape_of(const Pair& pair) {
   if (pair.own().is_box && pair.their().is_box) {
     const BoxDifference difference(pair.their().guarded_box(), pair.own().guarded_box());
-    const Vec2 preferred = pair.preferred - pair.their().velocity;
+    const Vec2 preferred = pair.on_course(pair.row, pair.preferred) - pair.their_velocity();
     if (difference.stays_apart(pair.relative(), pair.horizon, kSideStep) &&
         difference.stays_apart(preferred, pair.horizon, kSideStep))
       return std::nullopt;

@@ -24,30 +24,31 @@ double look_ahead(const Scene& scene, std::size_t row) {
   return std::min(30.0 + 3.0 * scene.speed[row], 100.0);
 }
 
-/// Braking that it takes not to run into somebody `gap` ahead who is slower by `closing` [m/s^2].
-double braking_for(double closing, double gap) {
-  constexpr double kLeft = 0.4;  // [m]
-  return closing > 0.0 ? closing * closing / (2.0 * std::max(gap - kLeft, 0.05)) : 0.0;
-}
-
 /// Would moving over by `shift` force nobody to brake harder than `braking` [m/s^2], oneself
 /// included, and leave everybody a third of a second?
 bool is_safe(const Scene& scene, const Surroundings& around, std::size_t row, double shift,
              double braking) {
   constexpr double kLeast = 0.5, kLeastTime = 0.35;  // [m], [s]
+  constexpr double kClose = 0.3, kCloseTime = 0.15;  // [m], [s]
+  constexpr double kCourtesy = 2.0, kLeft = 0.4;     // [m/s^2], [m]
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
   for (const RoadUser& user : around.users) {
     if (std::abs(user.offset - shift) > user.half_width + around.half_width + 0.3) continue;
     if (user.rear < front && user.front > rear) return false;
     const bool ahead = user.rear >= front;
     const double gap = ahead ? user.rear - front : rear - user.front;
+    const Vec2 tangent = around.tangent;
+    auto acceleration = [&](std::size_t who) { return scene.acceleration[who].dot(tangent); };
     const double behind_speed = std::max(ahead ? around.speed : user.speed, 0.0);
-    const double closing = ahead ? around.speed - user.speed : user.speed - around.speed;
+    const Followed followed{gap - kLeft, ahead ? user.speed : around.speed,
+                            acceleration(ahead ? user.row : row)};
+    const double needed = braking_behind(behind_speed, followed);
+    // who lets us in keeps no headway for it, but brakes no harder than is courteous
     const bool lets_us_in =
         !ahead && scene.context[user.row].foe == static_cast<std::int64_t>(scene.id[row].value);
-    if (lets_us_in && gap > 0.0) continue;
-    if (gap < kLeast + kLeastTime * behind_speed || braking_for(closing, gap) > braking)
-      return false;
+    const double least =
+        lets_us_in ? kClose + kCloseTime * behind_speed : kLeast + kLeastTime * behind_speed;
+    if (gap < least || needed > (lets_us_in ? kCourtesy : braking)) return false;
   }
   return true;
 }
@@ -111,7 +112,8 @@ LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
     const double shift = shift_to(model, lane, other);
     const double there =
         hoped_speed(around, shift, std::min(free_speed, other.speed_limit * 1.2), 0.3);
-    if (there <= most || !is_safe(scene, around, row, shift, kSafeBraking)) continue;
+    if (there <= most || there < kSlowest || !is_safe(scene, around, row, shift, kSafeBraking))
+      continue;
     most = there;
     best = id;
   }

@@ -16,6 +16,9 @@ bool waits_at_kerb(const Model& model, const Scene& scene, std::size_t row) {
          type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic;
 }
 
+constexpr double kCrawl = 1.0;     // [m/s]
+constexpr double kPatience = 6.0;  // with somebody on foot who stands in the way [s]
+
 /// Remembers the nearest of those ahead who wait for a gap in this lane or are on their way into
 /// it.
 void note_merging(const DrivingAhead::Vehicle& vehicle, bool on_its_way, DrivingAhead& ahead) {
@@ -86,9 +89,13 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     const bool on_foot =
         type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic;
     if (!aligned && (!on_foot || gap > 2.0 * speed + 3.0)) return;
+    // somebody on foot who waits in the way for long waits for this very vehicle as well as not:
+    // who crawls goes round as close as avoidance lets it, and has the other step back
+    if (on_foot && speed < kCrawl && scene.standing_time[other] > kPatience) return;
     if (!on_foot) ahead.add({rear, 2.0 * place.along - rear, other_speed, scene.id[other].value});
     if (gap < leader.gap || (gap == leader.gap && scene.id[other].value < leader.id))
-      leader = {gap, other_speed, rear, scene.id[other].value};
+      leader = {gap, other_speed, scene.acceleration[other].dot(direction), rear,
+                scene.id[other].value};
   });
   return leader;
 }

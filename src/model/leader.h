@@ -14,6 +14,7 @@ struct Leader {
   double gap = std::numeric_limits<double>::infinity();  ///< free metres between own front and it,
                                                          ///< along the path
   double speed = 0;                                      ///< of it along the path there, >= 0 [m/s]
+  double acceleration = 0;                               ///< of it along the path [m/s^2]
   double along = 0;                                      ///< of its rear on the path [m]
   std::int64_t id = -1;                                  ///< -1: free road
 };

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "model/following.h"
+#include "model/merging.h"
 #include "model/rule_breaking.h"
 
 namespace sumogamma {
@@ -15,6 +16,11 @@ constexpr double kFillsLane = 1.2;   ///< nobody overtakes what is wider than th
 constexpr double kPatience = 4.0;    ///< waited for somebody who waits for a third one [s]
 constexpr double kAmber = 2.5;       ///< reckoned with from an amber on [s]
 constexpr double kTimeMargin = 1.0;  ///< left by who needn't yield to the other in a zone [s]
+// who has waited for long to give way leaves this share of its critical gap
+constexpr double kLeastShare = 0.4;
+// and asks this braking of who has the right of way in the lane that it joins, or at first [m/s^2]
+constexpr double kAskedMost = 3.5, kAsked = 1.5;
+constexpr double kLongWait = 60.0;  // [s]
 
 /// When a body is inside a conflict zone [s from now].
 struct Occupation {
@@ -134,9 +140,13 @@ struct Judge {
     const Approach own{link.connection, 0,    traveller.front - link.stop_line, traveller.length,
                        traveller.speed, false};
     const Occupation ours = occupation(own_type, own, zone.begin, zone.end, traveller.top_speed);
-    const double margin = zone.yields ? own_type.critical_gap : kTimeMargin;
+    const double margin = zone.yields
+                              ? own_type.critical_gap * (1.0 - impatience() * (1.0 - kLeastShare))
+                              : kTimeMargin;
     const bool overlap = ours.begin < theirs.end + margin && theirs.begin < ours.end + margin;
-    if (!overlap) return Verdict::Free;
+    if (!overlap)
+      return blocks_if(zone.yields && !foe_inside && !foe.stands && ours.begin < theirs.begin &&
+                       cuts_in(zone, foe, foe_top));
     // who has backed out of a deadlock lets everybody past, wherever it stands; whom bodies hold
     // isn't coming, and past the line it is no use to wait for it
     const Waiting& waiting = approaches.waiting(foe.row);
@@ -153,6 +163,12 @@ struct Judge {
       return blocks_if(
           theirs_then.halted_at < own_time ||
           (theirs_then.halted_at == own_time && scene.id[foe.row] < scene.id[traveller.row]));
+    }
+    if (on_equal_footing(foe_link)) {
+      if (has_begun(foe.front, foe.speed) && may_wait(-to_line(), traveller.speed, own_type))
+        return Verdict::Blocks;
+      if (has_begun(-to_line(), traveller.speed) && may_wait(foe.front, foe.speed, foe_type))
+        return Verdict::Free;
     }
     if (waits_for_us && !zone.yields && !foe_inside) return Verdict::Held;
     if (waits_for_us) return waiting_verdict(foe);
@@ -232,6 +248,43 @@ struct Judge {
       if (away.norm() < own_half + kSide) return false;
     }
     return true;
+  }
+  double to_line() const { return link.stop_line - traveller.front; }
+  /// From 0 to 1 while the traveller waits.
+  double impatience() const {
+    return std::min(scene.standing_time[traveller.row] / kLongWait, 1.0);
+  }
+  /// Would who comes along the lane that the link leads into have to brake hard for the traveller?
+  bool cuts_in(const ConflictZone& zone, const Approach& foe, double foe_top) const {
+    const Connection& foe_link = model.road.connection(zone.foe);
+    const bool halts_first = foe_link.state == 's' || foe_link.state == 'w';
+    if (past_line(zone) || halts_first || foe_link.to != model.road.connection(link.connection).to)
+      return false;
+    const Entrant entrant{type_of(model.types, scene.type[traveller.row]),
+                          *road.path(scene.path[traveller.row]),
+                          traveller.front,
+                          traveller.length,
+                          traveller.speed,
+                          scene.preferred_speed[traveller.row],
+                          link.stop_line + zone.begin,
+                          link.stop_line + zone.end};
+    const Oncomer oncomer{type_of(model.types, scene.type[foe.row]), zone.foe_end - foe.front,
+                          foe.speed, std::min(foe_top, scene.preferred_speed[foe.row])};
+    return braking_asked(entrant, oncomer) > kAsked + impatience() * (kAskedMost - kAsked);
+  }
+  /// Have both to give way to others here, with no signal between them? Then who has begun to cross
+  /// finishes, whoever of the two would go first at the line: nobody is caught on the junction.
+  bool on_equal_footing(const Connection& foe_link) const {
+    const Connection& own = model.road.connection(link.connection);
+    auto minor = [&](const Connection& c) {
+      return (c.state == 'm' || c.state == 's' || c.state == '=') && road.signal(c) == 'O' &&
+             model.road.lane(c.to).kind != LaneKind::Crossing;
+    };
+    return minor(own) && minor(foe_link);
+  }
+  static bool has_begun(double past, double speed) { return past > 0.3 && speed > 0.5; }
+  static bool may_wait(double past, double speed, const AgentType& type) {
+    return past < 0.0 && deceleration_to_stop(speed, -past) < type.comfortable_deceleration;
   }
   static Verdict blocks_if(bool blocks) { return blocks ? Verdict::Blocks : Verdict::Free; }
   Verdict waiting_verdict(const Approach& foe) const {

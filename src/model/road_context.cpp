@@ -37,6 +37,17 @@ double look_ahead(const Course& course) {
   return 0.6 * course.half_length + 1.8 + 0.5 * course.speed;
 }
 
+/// See RoadContext::bend. Not amid a lane change, which may be given up.
+Vec2 bend_of(const Course& course) {
+  const double end = course.along + std::max(kBendTime * course.speed, 0.5);
+  const Polyline& line = course.path.line;
+  if (end > line.length() || course.path.stretch_at(course.along).changing ||
+      course.path.stretch_at(end).changing)
+    return {1, 0};
+  const Vec2 chord = line.point_at(end) - line.point_at(course.along);
+  return to_body(chord / (end - course.along), line.direction_at(course.along));
+}
+
 constexpr double kDrift = 0.15;  // out of one's lane [m/s]
 
 void set_geometry(const Model& model, const Scene& scene, const Course& course,
@@ -71,6 +82,7 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
     const double window = 1.0 + 0.5 * course.speed;
     const Vec2 chord = line.point_at(preview + window) - line.point_at(preview - window);
     context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : direction;
+    context.bend = bend_of(course);
     context.sub_goal = scene.position[course.row] + look_ahead(course) * context.tangent +
                        (offset - course.offset) * left_of(context.tangent);
   }
@@ -221,9 +233,10 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
   DrivingAhead ahead;
   const Leader leader = find_leader(model, road, scene, grid, course.row, reach, ahead);
   if (leader.id >= 0)
-    limit(following_acceleration(type, course.speed, free_speed, leader.gap, leader.speed,
-                                 course.headway_factor),
-          LimitReason::Leader, leader.id, binding, context);
+    limit(
+        behind_acceleration(type, course.speed, free_speed,
+                            {leader.gap, leader.speed, leader.acceleration}, course.headway_factor),
+        LimitReason::Leader, leader.id, binding, context);
   if (ahead.merging.id >= 0) {
     const double courtesy =
         following_acceleration(type, course.speed, free_speed, ahead.merging.rear - front,
@@ -263,6 +276,7 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
     }
     if (!decision.must_stop) continue;
     const double gap = decision.stop_at - front + type.min_gap;
+    context.to_halt = std::max(decision.stop_at - front, 0.0);
     limit(following_acceleration(type, course.speed, free_speed, gap, 0.0), decision.reason,
           decision.foe, binding, context);
     break;
@@ -303,6 +317,7 @@ void set_walker_limit(const View& view, const Course& course, RoadContext& conte
       context.sub_goal = course.path.line.point_at(course.along - beyond);
       context.allowed_speed = std::min(beyond / 0.7, 1.0);
     } else {
+      context.to_halt = std::max(decision.stop_at - front, 0.0);
       context.allowed_speed = std::max(0.0, (decision.stop_at - front) / 0.7);
     }
     context.reason = decision.reason;

@@ -13,6 +13,7 @@ void look_around(const Model& model, const RoadState& road, const Scene& scene,
   const double along = scene.path_along[row];
   const Vec2 tangent = path.line.direction_at(along);
   around.along = along;
+  around.tangent = tangent;
   around.offset = cross(tangent, scene.position[row] - path.line.point_at(along));
   around.half_length = half_extent(scene, row, tangent);
   around.half_width = half_extent(scene, row, left_of(direction_of(scene.heading[row])));

@@ -23,6 +23,7 @@ struct RoadUser {
 /// An agent on wheels and whoever is on the road around it.
 struct Surroundings {
   double along = 0, offset = 0;  ///< the agent's centre [m]
+  Vec2 tangent = Vec2(1, 0);     ///< unit direction of its path there
   double half_length = 0, half_width = 0;
   double speed = 0;
   std::vector<RoadUser> users;  ///< in order of row

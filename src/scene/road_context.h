@@ -24,6 +24,9 @@ enum class LimitReason : std::uint8_t {
   GivesWay  ///< after backing out of a deadlock
 };
 
+/// Over which RoadContext::bend is taken: as far as avoidance between vehicles on a road looks [s].
+inline constexpr double kBendTime = 1.5;
+
 /// What the road says about one agent at one instant, computed from the frozen scene before anyone
 /// moves and turned into half-planes by append_contextual_constraints (III-C). Everything along
 /// `tangent`, the path's direction here.
@@ -31,13 +34,18 @@ struct RoadContext {
   bool active = false;           ///< false: off any road, no contextual constraint
   Vec2 tangent = Vec2(1, 0);     ///< unit direction of the path at the agent
   Vec2 sub_goal = Vec2::Zero();  ///< look-ahead point on the path [m] (III-D)
-  double speed_limit = 0;        ///< road, bend and type [m/s]; the preferred speed
+  Vec2 bend = Vec2(1, 0);  ///< the mean velocity on its path over the next kBendTime is the present
+                           ///< one turned and shortened by this (a product of complex numbers)
+  double speed_limit = 0;  ///< road, bend and type [m/s]; the preferred speed
   double room_left = std::numeric_limits<double>::infinity();   ///< footprint's side to the left
                                                                 ///< boundary [m], < 0 beyond it
   double room_right = std::numeric_limits<double>::infinity();  ///< likewise to the right [m]
   double allowed_speed =
       std::numeric_limits<double>::infinity();  ///< most speed along `tangent` that leader, signals
                                                 ///< and rules leave [m/s]
+  double to_halt =
+      std::numeric_limits<double>::infinity();  ///< way to where the front comes to rest before a
+                                                ///< link, as things are [m]
   LimitReason reason = LimitReason::None;
   std::int64_t foe = -1;  ///< id of the agent that binds, -1 where none does
 };

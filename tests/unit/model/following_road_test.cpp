@@ -92,6 +92,45 @@ TEST(FollowingAcceleration, APlatoonDampsTheBrakingOfItsLeader) {
   for (int i = 0; i < kCars; ++i) EXPECT_GT(speed[i], 9.0) << "car " << i;
 }
 
+TEST(BrakingBehind, KeepsTwoApart) {
+  EXPECT_DOUBLE_EQ(braking_behind(10, {20, 10, 0}), 0.0);
+  EXPECT_DOUBLE_EQ(braking_behind(10, {20, 12, 0}), 0.0);
+  EXPECT_DOUBLE_EQ(braking_behind(10, {4.5, 7, 0}), 1.0);
+  EXPECT_DOUBLE_EQ(braking_behind(10, {4.5, 7, 2.0}), 1.0);  // nobody counts on others to speed up
+  EXPECT_DOUBLE_EQ(braking_behind(12, {8, 10, -1}), 1.25);
+  // the other stands after 10 m: 15 m are left for 10 m/s
+  EXPECT_DOUBLE_EQ(braking_behind(10, {5, 10, -5}), 100.0 / 30.0);
+}
+
+TEST(BehindAcceleration, IsThePlainModelWhereThatIsNoHarder) {
+  for (const double gap : {12.0, 20.0, 60.0, kFree})
+    EXPECT_DOUBLE_EQ(behind_acceleration(car(), 8, 13.9, {gap, 10, 0}),
+                     following_acceleration(car(), 8, 13.9, gap, 10));
+}
+
+TEST(BehindAcceleration, LetsTheGapOpenAtEaseBehindWhoCutsIn) {
+  EXPECT_LT(following_acceleration(car(), 10, 13.9, 4.5, 9.5), -7.0);
+  const double calm = behind_acceleration(car(), 10, 13.9, {4.5, 9.5, 0});
+  EXPECT_GT(calm, -1.1 * car().comfortable_deceleration);
+  EXPECT_LT(calm, -0.5);
+}
+
+TEST(BehindAcceleration, StopsInTimeBehindWhoBrakesAsHardAsItCan) {
+  constexpr double kStep = 0.05;
+  double lead = 14, lead_place = 0, speed = 14, place = -4.5 - 12;
+  for (int k = 0; k < 400; ++k) {
+    const double braking = lead > 0 ? -7.0 : 0.0;
+    const double a =
+        behind_acceleration(car(), speed, 13.9, {lead_place - 4.5 - place, lead, braking});
+    speed = std::max(0.0, speed + a * kStep);
+    place += speed * kStep;
+    lead = std::max(0.0, lead + braking * kStep);
+    lead_place += lead * kStep;
+    ASSERT_GT(lead_place - 4.5 - place, 0.3) << k * kStep;
+  }
+  EXPECT_LT(speed, 0.3);
+}
+
 TEST(DecelerationToStop, IsTheConstantOne) {
   EXPECT_DOUBLE_EQ(deceleration_to_stop(10, 25), 2.0);
   EXPECT_DOUBLE_EQ(deceleration_to_stop(0, 0), 0.0);

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "model/gamma_velocity.h"
+#include "model/merging.h"
 #include "model/right_of_way.h"
 #include "support/road_scene.h"
 #include "support/small_net.h"
@@ -105,6 +107,44 @@ TEST_F(PriorityTest, TheTypeSaysHowLargeAGapHasToBe) {
   car.critical_gap = 8.0;
   here_.update();
   EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
+}
+
+TEST_F(PriorityTest, WhoTurnsInWaitsForWhoWouldHaveToBrakeHard) {
+  const std::size_t minor = here_.add("car", {"SC", "CE"}, 0, 0, 0, -1, "SC_0");
+  here_.move(minor, here_.path(minor).links.front().stop_line - 2.25 - 0.6);
+  const std::size_t major = here_.add("car", {"WC", "CE"}, 0, 13, 0, -1, "WC_0");
+  const double line = here_.path(major).links.front().stop_line;
+  // it would be out of the place where the ways meet a second before, but slow for seconds more
+  here_.move(major, line - 58);
+  here_.update();
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
+  EXPECT_EQ(here_.context(minor).foe, here_.scene.id[major].value);
+  // who has waited for a minute asks for more
+  here_.scene.standing_time[minor] = 60;
+  here_.update();
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::None);
+  here_.scene.standing_time[minor] = 0;
+  here_.move(major, line - 110);
+  here_.update();
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::None);
+}
+
+TEST_F(PriorityTest, OfTwoFromMinorRoadsWhoHasBegunToCrossFinishes) {
+  const std::size_t turning = here_.add("car", {"SC", "CW"}, 0, 4);
+  here_.move(turning, here_.path(turning).links.front().stop_line + 4.0 - 2.25);
+  const std::size_t straight = here_.add("car", {"NC", "CS"}, 0, 0);
+  here_.move(straight, here_.path(straight).links.front().stop_line - 2.25 - 0.6);
+  here_.update();
+  EXPECT_EQ(here_.context(straight).reason, LimitReason::Yield);
+  EXPECT_EQ(here_.context(straight).foe, here_.scene.id[turning].value);
+  EXPECT_EQ(here_.context(turning).reason, LimitReason::None);
+  // at their lines the one that goes straight on has the right of way
+  here_.move(turning, here_.path(turning).links.front().stop_line - 0.6 - 2.25);
+  here_.set_speed(turning, 0);
+  for (const std::size_t row : {turning, straight}) here_.scene.context[row] = {};
+  here_.update();
+  EXPECT_NE(here_.context(straight).reason, LimitReason::Yield);
+  EXPECT_EQ(here_.context(turning).reason, LimitReason::Yield);
 }
 
 TEST_F(PriorityTest, SomebodyWhoHasPassedHoldsNobody) {
@@ -318,6 +358,41 @@ TEST_F(CrossingTest, ADriverWhoDoesNotYieldIsLetPastAndStopsForWhoIsOnTheCrossin
   EXPECT_LT(here_.context(driver).allowed_speed, 6.0);
 }
 
+TEST_F(CrossingTest, WhoHaltsForSomebodyBrakesNoHarderForAvoidance) {
+  const std::size_t driver = here_.add("car", {"WC", "CE"}, 0, 11, 0, -1, "WC_1");
+  const double line = here_.path(driver).links.at(0).stop_line;
+  here_.move(driver, line - 2.25 - 17);
+  const std::size_t walker = here_.add("pedestrian", {"CW", "WC"}, 0, 1.3, 5, 195);
+  here_.set_speed(walker, 0.5);
+  here_.move(walker, here_.path(walker).links.at(0).stop_line + 10);
+  here_.update();
+  ASSERT_EQ(here_.context(driver).foe, here_.scene.id[walker].value);
+  EXPECT_NEAR(here_.context(driver).to_halt, 17 - kStopMargin, 0.1);
+  auto chosen = [&](std::size_t row) {
+    Workspace work;
+    return gamma_velocity(here_.model, here_.scene, here_.geometry, row, here_.scene.behavior[row],
+                          work);
+  };
+  EXPECT_NEAR(chosen(driver).norm(), here_.context(driver).allowed_speed, 0.01);
+  // not counted on, its halt would be too late
+  here_.scene.context[driver].to_halt = 1e9;
+  EXPECT_LT(chosen(driver).norm(), here_.context(driver).allowed_speed - 0.3);
+}
+
+TEST_F(PriorityTest, WhoTurnsIntoTheOtherLaneHoldsNobodyUp) {
+  // it heads for the eastbound car's lane now, but its way bends before
+  const std::size_t turning = here_.add("car", {"NC", "CW"}, 0, 4);
+  const double line = here_.path(turning).links.front().stop_line;
+  here_.move(turning, line + 2.5);
+  const std::size_t oncoming = here_.add("car", {"WC", "CE"}, 0, 13, 0, -1, "WC_1");
+  here_.move(oncoming, here_.path(oncoming).links.front().stop_line - 10);
+  here_.update();
+  Workspace work;
+  const Vec2 chosen = gamma_velocity(here_.model, here_.scene, here_.geometry, oncoming,
+                                     here_.scene.behavior[oncoming], work);
+  EXPECT_GT(chosen.norm(), 12.8);
+}
+
 TEST_F(CrossingTest, WalkersDoNotStepInFrontOfWhoCanNotStop) {
   const std::size_t walker = here_.add("pedestrian", {"CW", "WC"}, 0, 1.3, 5, 195);
   here_.move(walker, here_.path(walker).links.at(0).stop_line - 1.2);
@@ -334,6 +409,21 @@ TEST_F(CrossingTest, AnEmptyCrossingHoldsNobody) {
   here_.move(driver, here_.path(driver).links.at(0).stop_line - 14);
   here_.update();
   EXPECT_EQ(here_.context(driver).reason, LimitReason::None);
+}
+
+TEST(BrakingAsked, IsTheHarderTheCloserSomebodyIsCutInOn) {
+  RoadScene here(testing::small_net());
+  const std::size_t own = here.add("car", {"in", "out"}, 90, 0);
+  const AgentType& type = type_of(here.model.types, here.scene.type[own]);
+  auto asked = [&](double to_merged, double speed) {
+    return braking_asked({type, here.path(own), 92, 4.5, 0, 13, 95, 100},
+                         {type, to_merged, speed, speed});
+  };
+  EXPECT_EQ(asked(200, 12), 0.0);
+  EXPECT_GT(asked(45, 12), 1.0);
+  EXPECT_LT(asked(60, 12), asked(45, 12));
+  EXPECT_TRUE(std::isinf(asked(10, 12)));
+  EXPECT_LT(asked(30, 3), 1.0);  // slow traffic lets in at ease
 }
 
 TEST(ApproachTable, ListsWhoIsOnOrNearALinkForemostFirst) {
