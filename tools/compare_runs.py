@@ -4,25 +4,46 @@
     tools/compare_runs.py OUT        OUT: what tools/measure.sh wrote
 
 One row a map and number of agents: sums over the seeds, or means where a mean is asked for. GAMMA's figure stands first, plain SUMO's
-(--control none) second.
+(--control none) second. Travel time is the ratio over those who
+arrived in both runs of a seed.
 """
+import csv
 import json
 import pathlib
 import sys
 from collections import defaultdict
 
 
+def travel_times(run):
+    """Seconds under way by agent, of those who arrived."""
+    with open(run / "trips.csv", newline="", encoding="utf-8") as file:
+        return {row["agent"]: float(row["travel_time_s"]) for row in csv.DictReader(file)}
+
+
+def travel_ratio(both):
+    """Travel time of those who arrived in both of a pair of runs, over plain SUMO's."""
+    gamma = plain = 0.0
+    for seed in set(both["all"]) & set(both["none"]):
+        ours, theirs = travel_times(both["all"][seed]), travel_times(both["none"][seed])
+        common = set(ours) & set(theirs)
+        gamma += sum(ours[agent] for agent in common)
+        plain += sum(theirs[agent] for agent in common)
+    return gamma / plain if plain > 0 else float("nan")
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     runs = defaultdict(lambda: {"all": [], "none": []})
+    folders = defaultdict(lambda: {"all": {}, "none": {}})
     for file in sorted(pathlib.Path(sys.argv[1]).glob("*/results.json")):
         try:
             name, agents, seed, control = file.parent.name.rsplit("-", 3)
             runs[name, int(agents)][control].append(json.loads(file.read_text()))
+            folders[name, int(agents)][control][seed] = file.parent
         except (ValueError, KeyError):
             print(f"{file}: not a run of tools/measure.sh, left out", file=sys.stderr)
-    columns = ["map", "agents", "seeds", "arrived", "colliding pairs (deep)", "pairs per agent-hour", "stuck", "red lights", "wrong way s",
+    columns = ["map", "agents", "seeds", "arrived", "travel time", "colliding pairs (deep)", "pairs per agent-hour", "stuck", "red lights", "wrong way s",
                "sidewalk s", "mean speed m/s", "accel p95", "jerk p95", "real-time factor"]
     print("| " + " | ".join(columns) + " |")
     print("|---" + "|---:" * (len(columns) - 1) + "|")
@@ -46,7 +67,7 @@ def main():
                  for c in ("all", "none")]
         print("| " + " | ".join([
             name, str(agents), f"{len(both['all'])} / {len(both['none'])}",
-            f"{gamma} / {plain} ({100 * gamma / max(plain, 1):.0f} %)", " / ".join(pairs),
+            f"{gamma} / {plain} ({100 * gamma / max(plain, 1):.0f} %)", f"{travel_ratio(folders[name, agents]):.2f}", " / ".join(pairs),
             pair(lambda r: r["collisions"]["unique_pairs_per_agent_hour"], 2, True),
             pair(lambda r: r["flow"]["stuck_agents"]), pair(lambda r: r["rules"]["red_light_crossings"]),
             pair(lambda r: r["rules"]["wrong_way_s"]), pair(lambda r: r["rules"]["sidewalk_by_vehicle_s"]),

@@ -220,6 +220,7 @@ class Observers {
     const AgentName name = name_of();
     write_file(output_ / "stuck.csv",
                stuck_csv(flow_.stuck(), sim_.model.types, sim_.model.road, name));
+    write_file(output_ / "trips.csv", trips_csv(world_.life_cycle().trips, sim_.model.types, name));
     write_file(output_ / "offences.csv", offences_csv(rules_.offences(), sim_.model.types, name));
     if (replay_) {
       replay_->close();
@@ -262,12 +263,19 @@ void fill_timing(const PhaseTimes& times, double wall, double simulated, RunTimi
       times.agent_steps > 0 ? 1e6 * times.model_cpu / static_cast<double>(times.agent_steps) : 0.0;
 }
 
-void fill_agents(const LifeCycle& life, AgentCounts& agents) {
+void fill_agents(const LifeCycle& life, const AgentTypeTable& types, AgentCounts& agents) {
   for (const auto& [type, count] : life.by_type) {
-    agents.by_type[type] = {static_cast<std::uint64_t>(count.inserted),
-                            static_cast<std::uint64_t>(count.arrived)};
-    agents.inserted += static_cast<std::uint64_t>(count.inserted);
-    agents.arrived += static_cast<std::uint64_t>(count.arrived);
+    AgentCounts::ByType& counts = agents.by_type[type];
+    counts.inserted = static_cast<std::uint64_t>(count.inserted);
+    counts.arrived = static_cast<std::uint64_t>(count.arrived);
+    agents.inserted += counts.inserted;
+    agents.arrived += counts.arrived;
+  }
+  for (const FinishedTrip& trip : life.trips) {
+    const double time = trip.arrived - trip.departed;
+    AgentCounts::ByType& counts = agents.by_type[type_of(types, trip.type).name];
+    counts.mean_travel_time += time / static_cast<double>(counts.arrived);
+    agents.mean_travel_time += time / static_cast<double>(agents.arrived);
   }
   for (const auto& [reason, count] : life.removed)
     agents.removed[reason] = static_cast<std::uint64_t>(count);
@@ -385,7 +393,7 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   results.types = plan.config.types;
   results.threads = common.threads;
   observers.fill(results);
-  fill_agents(world.life_cycle(), results.agents);
+  fill_agents(world.life_cycle(), sim->model.types, results.agents);
   results.coupling = coupling.result();
   results.teleports = static_cast<std::uint64_t>(world.coupling().teleports);
   results.emergency_stops = static_cast<std::uint64_t>(world.coupling().emergency_stops);

@@ -14,11 +14,14 @@ using Json = nlohmann::ordered_json;
 Json agents_json(const AgentCounts& agents) {
   Json by_type = Json::object();
   for (const auto& [type, counts] : agents.by_type)
-    by_type[type] = {{"inserted", counts.inserted}, {"arrived", counts.arrived}};
+    by_type[type] = {{"inserted", counts.inserted},
+                     {"arrived", counts.arrived},
+                     {"mean_travel_time_s", counts.mean_travel_time}};
   Json removed = Json::object();
   for (const auto& [reason, count] : agents.removed) removed[reason] = count;
   return {{"inserted", agents.inserted},
           {"arrived", agents.arrived},
+          {"mean_travel_time_s", agents.mean_travel_time},
           {"controlled_now", agents.controlled_now},
           {"controlled_peak", agents.controlled_peak},
           {"controlled_mean", agents.controlled_mean},
@@ -261,6 +264,7 @@ void print_results_table(std::FILE* stream, const RunResults& results) {
   for (const auto& [type, counts] : agents.by_type)
     table.text(("  " + type).c_str(),
                std::to_string(counts.inserted) + " / " + std::to_string(counts.arrived));
+  table.number("mean travel time", agents.mean_travel_time, "s", 1);
   table.number("driven by GAMMA, mean", agents.controlled_mean, "", 1);
   table.count("driven by GAMMA, most", agents.controlled_peak);
   std::uint64_t removed = 0;

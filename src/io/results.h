@@ -7,6 +7,7 @@
 #include <string>
 
 #include "prediction/live_predictor.h"
+#include "scene/trip.h"
 #include "study/collisions.h"
 #include "study/coupling_metrics.h"
 #include "study/flow_metrics.h"
@@ -19,7 +20,9 @@ namespace sumogamma {
 struct AgentCounts {
   struct ByType {
     std::uint64_t inserted = 0, arrived = 0;
+    double mean_travel_time = 0;  ///< of the arrived [s]
   };
+  double mean_travel_time = 0;  ///< of all who arrived [s]
   std::uint64_t inserted = 0, arrived = 0;
   std::uint64_t controlled_now = 0, controlled_peak = 0;  ///< driven by GAMMA at the end, at most
   double controlled_mean = 0;                             ///< over the ticks
@@ -79,6 +82,20 @@ void print_results_table(std::FILE* stream, const RunResults& results);
 template <typename NameOf>
 std::string stuck_csv(const std::vector<StuckAgent>& stuck, const AgentTypeTable& types,
                       const RoadNetwork& network, NameOf&& name_of);
+
+/// trips.csv: one line an agent that arrived.
+template <typename NameOf>
+std::string trips_csv(const std::vector<FinishedTrip>& trips, const AgentTypeTable& types,
+                      NameOf&& name_of) {
+  std::string text = "agent,type,departed_s,arrived_s,travel_time_s\n";
+  char line[80];
+  for (const FinishedTrip& trip : trips) {
+    std::snprintf(line, sizeof line, "%.2f,%.2f,%.2f\n", trip.departed, trip.arrived,
+                  trip.arrived - trip.departed);
+    text += std::string(name_of(trip.id)) + ',' + type_of(types, trip.type).name + ',' + line;
+  }
+  return text;
+}
 
 /// offences.csv: one line an offence against a traffic rule.
 template <typename NameOf>

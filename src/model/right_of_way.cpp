@@ -300,9 +300,16 @@ enum class SignalDuty {
 };
 
 /// Red stops always, amber where braking at ease still does it, for a front that would come to rest
+/// What a link's signal shows, and since when [s].
+struct Aspect {
+  char letter = 'O';
+  double since = 0;
+};
+
 /// at `halt` [m]. Once past the line, clear the junction.
 SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& traveller,
-                       const PathLink& link, char signal, double halt) {
+                       const PathLink& link, const Aspect& aspect, double halt) {
+  const char signal = aspect.letter;
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const bool on_foot = type.kinematics == Kinematics::Holonomic;
   const double to_line = link.stop_line - traveller.front;
@@ -310,7 +317,8 @@ SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& 
   const double needed = deceleration_to_stop(traveller.speed, halt - traveller.front - reserve);
   if (is_amber(signal) && to_line > -1.0) {
     // who would not be over the line before red brakes harder than at ease
-    const bool late = to_line > kAmber * traveller.speed;
+    const double left = kAmber - (scene.time - aspect.since);
+    const bool late = to_line > std::max(left, 0.0) * traveller.speed;
     const double most = late ? 0.65 * type.max_deceleration : type.comfortable_deceleration;
     return needed < most ? SignalDuty::Stop : SignalDuty::None;
   }
@@ -348,7 +356,8 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
   const double halt = stops_short ? link.halt : link.stop_line;
   const double stop_at = halt - kStopMargin;
   LinkDecision decision;
-  const SignalDuty duty = signal_duty(model, scene, traveller, link, signal, halt);
+  const SignalDuty duty = signal_duty(model, scene, traveller, link,
+                                      {signal, signal_since(road, connection, scene.time)}, halt);
   if (duty == SignalDuty::Stop) return {true, stop_at, LimitReason::Signal, -1};
   const bool at_red = duty == SignalDuty::GoAtRed;
   const bool stop_sign = (connection.state == 's' || connection.state == 'w') && signal == 'O';

@@ -14,6 +14,7 @@ namespace sumogamma {
 struct RoadState {
   std::vector<std::shared_ptr<const Path>> paths;  ///< by PathId; null once its agent has left
   std::vector<std::string> signal_states;          ///< by SignalId, one letter a link as in SUMO
+  std::vector<double> signal_since;                ///< by SignalId, when it last changed [s]
 
   const Path* path(PathId id) const {
     return id == kNoPath ? nullptr : paths[static_cast<std::size_t>(id)].get();
@@ -28,6 +29,13 @@ struct RoadState {
     return signal_states[index][link];
   }
 };
+
+/// When the signal of a connection last changed [s]; `now` where that isn't known.
+inline double signal_since(const RoadState& road, const Connection& connection, double now) {
+  const bool known =
+      connection.signal != kNoSignal && index_of(connection.signal) < road.signal_since.size();
+  return known ? road.signal_since[index_of(connection.signal)] : now;
+}
 
 inline bool is_red(char signal) { return signal == 'r' || signal == 'u'; }
 inline bool is_amber(char signal) { return signal == 'y' || signal == 'Y'; }

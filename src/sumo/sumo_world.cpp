@@ -69,9 +69,14 @@ bool SumoWorld::wants_control(const SumoAgentDetails& details, AgentTypeId type)
 void SumoWorld::observe(Scene& scene, RoadState& road) {
   scene.time = time_;
   road.signal_states.resize(model_.road.signals.size());
-  for (std::size_t i = 0; i < signal_order_.size() && i < step_.signal_states.size(); ++i)
-    if (signal_order_[i] != kNoSignal)
-      road.signal_states[index_of(signal_order_[i])] = step_.signal_states[i];
+  road.signal_since.resize(model_.road.signals.size(), time_);
+  for (std::size_t i = 0; i < signal_order_.size() && i < step_.signal_states.size(); ++i) {
+    if (signal_order_[i] == kNoSignal) continue;
+    const std::size_t signal = index_of(signal_order_[i]);
+    if (road.signal_states[signal] == step_.signal_states[i]) continue;
+    road.signal_states[signal] = step_.signal_states[i];
+    road.signal_since[signal] = time_;
+  }
   take_arrived(scene, road);
   finish_driven(scene, road);
   take_departed(scene);
@@ -146,7 +151,7 @@ void SumoWorld::take_arrived(Scene& scene, RoadState& road) {
     if (row == scene.size()) return;
     LifeCycle::Count& count = life_cycle_.by_type[type_of(model_.types, scene.type[row]).name];
     ++count.arrived;
-    count.travel_time += time_ - known_[id.value].departed;
+    life_cycle_.trips.push_back({id, scene.type[row], known_[id.value].departed, time_});
     forget(id, scene, road, removed, row);
   };
   for (const std::string& id : step_.arrived_vehicles) arrived(id);
@@ -199,7 +204,7 @@ void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
     }
     LifeCycle::Count& count = life_cycle_.by_type[type_of(model_.types, scene.type[row]).name];
     ++count.arrived;
-    count.travel_time += time_ - known.departed;
+    life_cycle_.trips.push_back({scene.id[row], scene.type[row], known.departed, time_});
     forget(scene.id[row], scene, road, removed, row);
   }
   if (!removed.empty()) remove_agents(scene, removed);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/model.h"
+#include "scene/trip.h"
 #include "simulation/world.h"
 #include "sumo/backend.h"
 
@@ -38,8 +39,8 @@ struct SumoWorldOptions {
 struct LifeCycle {
   struct Count {
     std::int64_t inserted = 0, arrived = 0;
-    double travel_time = 0;  ///< of the arrived, summed [s]
   };
+  std::vector<FinishedTrip> trips;  ///< of those who arrived, in order of arrival
   std::map<std::string, Count> by_type;
   std::map<std::string, std::int64_t> removed;  ///< taken out before the destination, by reason
   std::map<std::string, std::int64_t>

@@ -112,6 +112,7 @@ class RunTest : public ::testing::Test {
     EXPECT_THAT(content(out(output) / "replay.html"), HasSubstr("</html>"));
     EXPECT_GT(fs::file_size(out(output) / "replay.bin"), 0u);
     EXPECT_THAT(content(out(output) / "stuck.csv"), HasSubstr("agent,type"));
+    EXPECT_THAT(content(out(output) / "trips.csv"), HasSubstr("agent,type,departed_s"));
     EXPECT_THAT(content(out(output) / "offences.csv"), HasSubstr("agent,type"));
   }
   /// Exit code 2 and one line that says what is wrong; no output folder.
