@@ -8,7 +8,7 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kAbreast = 0.5;  // between the middles [m]
+constexpr double kAbreast = 1.5;  // between the middles [m]
 
 /// Somebody on foot who stands: at a kerb, as far as anyone can tell.
 bool waits_at_kerb(const Model& model, const Scene& scene, std::size_t row) {
