@@ -65,6 +65,19 @@ TEST_F(LeaderTest, SomebodyBesideTheWayCountsOnlyWhereBodiesWouldMeet) {
   EXPECT_EQ(leader_of(own).id, -1);
 }
 
+TEST_F(LeaderTest, OfTwoAbreastWhoPressTogetherOneIsAhead) {
+  const std::size_t a = here_.add("car", {"in", "out"}, 50, 5);
+  const std::size_t b = here_.add("car", {"in", "out"}, 50.4, 5);
+  here_.move(a, 50, 1.0);
+  here_.move(b, 50.4, -1.0);
+  // both lean towards each other
+  here_.scene.heading[a] -= 0.3;
+  here_.scene.heading[b] += 0.3;
+  const bool a_follows = leader_of(a).id == here_.scene.id[b].value;
+  const bool b_follows = leader_of(b).id == here_.scene.id[a].value;
+  EXPECT_FALSE(a_follows && b_follows);
+}
+
 TEST_F(LeaderTest, PeopleOnFootCountOnceNear) {
   const std::size_t own = here_.add("car", {"in", "out"}, 20, 5);
   const std::size_t walker = here_.add("pedestrian", {"in"}, 30, 1);

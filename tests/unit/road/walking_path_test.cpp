@@ -154,6 +154,23 @@ TEST_P(WalkingPath, TakesTheNearerEndForWhereItArrives) {
   EXPECT_LT(path->line.length(), 130);
 }
 
+TEST_P(WalkingPath, WaitsWhereNobodyDrives) {
+  std::string why;
+  for (const auto& names : {std::vector<std::string>{"SC", "CN"}, {"WC", "CE"}, {"NC", "CW"}}) {
+    const auto path = walk(names, why);
+    ASSERT_TRUE(path) << why;
+    for (const PathLink& link : path->links) {
+      EXPECT_LE(link.halt, link.stop_line);
+      const Vec2 place = path->line.point_at(link.halt);
+      for (const Lane& lane : network().lanes) {
+        if (lane.kind != LaneKind::Internal || (lane.allowed & vehicle_class::kPassenger) == 0)
+          continue;
+        EXPECT_GT(lane.centerline.project(place).distance, 1.5) << lane.name;
+      }
+    }
+  }
+}
+
 TEST_P(WalkingPath, AnEmptyWalkSaysWhy) {
   std::string why;
   EXPECT_FALSE(walk({}, why));

@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include "geometry/rotation.h"
+#include "model/backing.h"
+#include "model/stopping_guard.h"
+#include "support/road_scene.h"
+
+namespace sumogamma {
+namespace {
+
+using testing::crossroads;
+using testing::read_plain_net;
+using testing::RoadScene;
+
+constexpr double kDt = 0.05;
+
+class BackingTest : public ::testing::Test {
+ protected:
+  static const RoadNetwork& net() {
+    static const RoadNetwork network = read_plain_net(crossroads("priority"));
+    return network;
+  }
+
+  /// Lets one row stand where bodies hold it, and back out, for a time [s]. Way rolled back [m].
+  double stand_wedged(std::size_t row, double time) {
+    const Vec2 from = here_.scene.position[row];
+    const Vec2 forward = direction_of(here_.scene.heading[row]);
+    double farthest = 0;
+    for (double t = 0; t < time; t += kDt) {
+      prepare_tick(here_.model, here_.scene, workers_, here_.geometry);
+      here_.scene.context[row].active = true;
+      here_.scene.context[row].allowed_speed = 1.0;
+      const auto body = back_out(here_.model, here_.road, here_.scene, here_.geometry, row, kDt);
+      if (body) {
+        here_.scene.position[row] = body->position;
+        here_.scene.heading[row] = body->heading;
+        here_.scene.velocity[row] = body->velocity;
+        here_.scene.speed[row] = body->speed;
+        here_.scene.steering[row] = body->steering;
+      }
+      here_.scene.standing_time[row] =
+          here_.scene.velocity[row].norm() < 0.3 ? here_.scene.standing_time[row] + kDt : 0.0;
+      update_wedge(kDt, here_.scene, row);
+      update_backing(kDt, here_.scene, row);
+      gave_way_ = gave_way_ || here_.scene.gives_way_left[row] > 0.0;
+      farthest = std::max(farthest, (from - here_.scene.position[row]).dot(forward));
+      fastest_ = std::max(fastest_, here_.scene.velocity[row].norm());
+      here_.scene.time += kDt;
+    }
+    return farthest;
+  }
+
+  RoadScene here_{net()};
+  Workers workers_;
+  double fastest_ = 0;
+  bool gave_way_ = false;
+};
+
+TEST_F(BackingTest, AWedgedCarRollsBackAndThenGivesWay) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
+  EXPECT_EQ(stand_wedged(own, 7.0), 0.0) << "not before its patience is over";
+  EXPECT_GT(stand_wedged(own, 20.0), 1.5);
+  EXPECT_LE(fastest_, 0.5);
+  EXPECT_TRUE(gave_way_);
+}
+
+TEST_F(BackingTest, GivingWayHoldsIt) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
+  here_.scene.gives_way_left[own] = 5.0;
+  here_.update();
+  EXPECT_EQ(here_.context(own).reason, LimitReason::GivesWay);
+  EXPECT_EQ(here_.context(own).allowed_speed, 0.0);
+}
+
+TEST_F(BackingTest, NobodyBacksIntoWhoStandsBehind) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
+  here_.add("car", {"WC", "CE"}, 100 - 4.5 - 0.4, 0);
+  EXPECT_EQ(stand_wedged(own, 40.0), 0.0);
+  EXPECT_FALSE(gave_way_) << "who has not moved does not wait for it";
+}
+
+TEST_F(BackingTest, StopsInTimeBeforeWhoStandsFartherBehind) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
+  here_.add("car", {"WC", "CE"}, 100 - 4.5 - 1.5, 0);
+  const double way = stand_wedged(own, 40.0);
+  EXPECT_GT(way, 0.5);
+  EXPECT_LT(way, 1.5 - 0.2);
+}
+
+TEST(RollBack, TheRearAxleNeverSlides) {
+  const AgentTypeTable types = default_agent_types();
+  for (const char* name : {"bicycle", "car", "bus"}) {
+    const AgentType& type = type_of(types, find_agent_type(types, name));
+    BodyState body;
+    body.heading = 0.7;
+    for (int k = 0; k < 100; ++k) {
+      const BodyState next = roll_back(type, body, 0.4, 0.45, kDt);
+      const Vec2 before = body.position - type.rear_axle_to_center * rotation(body.heading);
+      const Vec2 after = next.position - type.rear_axle_to_center * rotation(next.heading);
+      const double middle = body.heading + 0.5 * wrap_angle(next.heading - body.heading);
+      EXPECT_NEAR(cross(rotation(middle), after - before), 0.0, 1e-9);
+      EXPECT_LT((after - before).dot(rotation(middle)), 0.0);
+      EXPECT_LE(std::abs(next.steering), type.max_steering + 1e-12);
+      body = next;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sumogamma
