@@ -249,40 +249,6 @@ TEST_F(PriorityTest, AStopSignIsHaltedAt) {
 
 // --- going at red: the crossroads with signals, where the south-north road shows red
 
-// --- turning left at a green that oncoming traffic has, too
-
-class LeftTurn : public ::testing::Test {
- protected:
-  LeftTurn() {
-    for (std::string& state : here_.road.signal_states)
-      state = std::string(here_.model.road.signals.front().size, 'g');
-    own_ = here_.add("car", {"SC", "CW"}, 0, 3);
-    const std::size_t oncoming = here_.add("car", {"NC", "CS"}, 0, 12);
-    here_.move(oncoming, here_.path(oncoming).links.front().stop_line - 30);
-  }
-  static const RoadNetwork& net() {
-    static const RoadNetwork network = read_plain_net(crossroads("traffic_light"));
-    return network;
-  }
-  const PathLink& link() const { return here_.path(own_).links.front(); }
-  RoadScene here_{net()};
-  std::size_t own_ = 0;
-};
-
-TEST_F(LeftTurn, WaitsOnTheJunctionWhereTheNetworkHasRoomForIt) {
-  ASSERT_GT(link().inside, link().stop_line + 2.0);
-  ASSERT_LT(link().inside, link().end);
-  // it may come past its line, and no further than to the way of who comes towards it
-  here_.move(own_, link().stop_line - 2.25 - 0.2);
-  here_.update();
-  EXPECT_GT(here_.context(own_).allowed_speed, 1.0);
-  here_.move(own_, link().inside - 2.25 - 0.5);
-  here_.set_speed(own_, 0.0);
-  here_.update();
-  EXPECT_EQ(here_.context(own_).reason, LimitReason::Yield);
-  EXPECT_LT(here_.context(own_).allowed_speed, 0.3);
-}
-
 class RedLightRunning : public ::testing::Test {
  protected:
   RedLightRunning() {

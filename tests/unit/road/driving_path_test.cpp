@@ -127,6 +127,22 @@ TEST_F(Crossroads, TakesTheBestLaneWhereNoneIsGiven) {
             (std::vector<std::string>{"WC_1", "CS_1"}));
 }
 
+TEST(DrivingPath, ALeftTurnMayWaitOnASignalledJunctionAndStraightOnMayNot) {
+  const RoadNetwork network = read_plain_net(crossroads("traffic_light"));
+  auto link_of = [&](const std::vector<std::string>& names) {
+    const std::vector<EdgeId> route = testing::route_of(network, names);
+    PathRequest request;
+    request.route = route;
+    request.vehicle_class = vehicle_class::kPassenger;
+    std::string why;
+    return build_driving_path(network, request, why)->links.front();
+  };
+  const PathLink left = link_of({"SC", "CW"}), straight = link_of({"SC", "CN"});
+  EXPECT_GT(left.inside, left.stop_line + 2.0);
+  EXPECT_LT(left.inside, left.end - 2.0);
+  EXPECT_NEAR(straight.inside, straight.stop_line, 1e-6);
+}
+
 TEST_F(Crossroads, StartsAndArrivesWhereAsked) {
   const std::vector<EdgeId> route = route_of(right(), {"WC", "CE"});
   PathRequest request = request_of(route);
