@@ -56,10 +56,11 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
   const double half_length = agent.footprint.vertices[0].x(),
                half_width = agent.footprint.vertices[1].y();
   // room for the body now, and for what comes from behind and goes ahead
-  const double gap = on_foot ? 0.1 : type.min_gap;
+  // nearer than that to others, people who start in a crowd only make it stand
+  const double gap = on_foot ? 0.4 : type.min_gap;
   const double ease = 2.0 * 0.7 * type.comfortable_deceleration;
   const Box wanted{agent.position, agent.heading, half_length + gap,
-                   half_width + (on_foot ? 0.05 : 0.2)};
+                   half_width + (on_foot ? 0.1 : 0.2)};
   double speed = on_foot ? 0.0 : std::min(path.profile_at(0.0), agent.preferred_speed);
   for (const PathLink& link : path.links) {
     if (ease * link.stop_line > speed * speed + ease * (half_length + 1.0)) break;
@@ -103,6 +104,18 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
       return std::nullopt;
   }
   return speed;
+}
+
+std::vector<double> other_entry_offsets(double liked, double most_right, double most_left,
+                                        double width) {
+  constexpr double kBetween = 0.2;  // [m]
+  std::vector<double> offsets;
+  for (const int step : {1, -1, 2, -2}) {
+    const double offset = liked + step * (width + kBetween);
+    if (offset * liked > 0.0 && offset >= most_right && offset <= most_left)
+      offsets.push_back(offset);
+  }
+  return offsets;
 }
 
 }  // namespace sumogamma

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "model/model.h"
 #include "road/path.h"
@@ -13,5 +14,11 @@ namespace sumogamma {
 /// to brake hard. `ground`: height there [m].
 std::optional<double> entry_speed(const Model& model, const Path& path, const AgentState& agent,
                                   double ground, const Scene& scene);
+
+/// Where else beside the start of its path somebody on foot may start [m, positive left], nearest
+/// first, where somebody is at `liked`: aside in steps of a body and a hand's breadth within
+/// [`most_right`, `most_left`], and on the same side of the path, away from who comes towards it.
+std::vector<double> other_entry_offsets(double liked, double most_right, double most_left,
+                                        double width);
 
 }  // namespace sumogamma

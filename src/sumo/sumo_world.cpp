@@ -211,12 +211,14 @@ void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
 }
 
 void SumoWorld::insert_pending(Scene& scene, RoadState& road) {
-  // in order of departure; one that finds no room holds up only those who start at its place
+  // in order of departure; one that finds no room holds up only those who start at its place,
+  // people no more than those who would stand on the same metre
   std::set<std::pair<LaneId, int>> full;
   for (auto pending = pending_.begin(); pending != pending_.end();) {
     if (options_.max_agents > 0 && scene.size() >= options_.max_agents) break;
     const PathStretch& start = pending->path->stretches.front();
-    const std::pair place(start.lane, static_cast<int>(start.lane_from / 10.0));
+    const double place_length = pending->details.is_person ? 1.0 : 10.0;
+    const std::pair place(start.lane, static_cast<int>(start.lane_from / place_length));
     if (full.contains(place)) {
       ++pending;
     } else if (insert(*pending, scene, road)) {
@@ -278,7 +280,19 @@ bool SumoWorld::insert_on(const Pending& pending, const std::shared_ptr<const Pa
   AgentState agent = newcomer(pending, *path, id);
   const PathStretch& stretch = path->stretches.front();
   const double ground = elevation_at(model_.road.lane(stretch.lane), stretch.lane_from);
-  const std::optional<double> speed = entry_speed(model_, *path, agent, ground, scene);
+  std::optional<double> speed = entry_speed(model_, *path, agent, ground, scene);
+  if (!speed && details.is_person) {
+    const Vec2 left = left_of(path->line.direction_at(0.0)), middle = path->line.point_at(0.0);
+    const double half_width = agent.footprint.vertices[1].y();
+    const double most_right = half_width + 0.1 - stretch.room_right;
+    const double most_left = stretch.room_left - half_width - 0.1;
+    for (const double offset : other_entry_offsets((agent.position - middle).dot(left), most_right,
+                                                   most_left, 2.0 * half_width)) {
+      agent.position = middle + offset * left;
+      speed = entry_speed(model_, *path, agent, ground, scene);
+      if (speed) break;
+    }
+  }
   if (!speed) return false;
   agent.speed = *speed;
 
