@@ -18,7 +18,9 @@ CommandRunner add_run_command(CLI::App& parent) {
   command->add_option("--step", options->step, "step length [s]")->check(CLI::Range(0.01, 0.5));
   command->add_option("--duration", options->duration, "simulated time [s]")
       ->check(CLI::PositiveNumber);
-  command->add_option("--agents", options->agents, "most agents alive at once")
+  command
+      ->add_option("--agents", options->agents,
+                   "most vehicles on the road at once; people on foot come on top, as with SUMO")
       ->check(CLI::Range(1L, 1000000L));
   command
       ->add_option("--control", options->control,

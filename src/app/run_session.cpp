@@ -352,7 +352,7 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
 
   SumoWorldOptions world_options;
   world_options.control = plan.control;
-  world_options.max_agents = plan.control.any() ? plan.agents : 0;
+  world_options.max_vehicles = plan.control.any() ? plan.agents : 0;
   world_options.seed = common.seed;
   world_options.dt = plan.step;
   SumoWorld world(sim->model, *backend, world_options);

@@ -214,14 +214,22 @@ void SumoWorld::insert_pending(Scene& scene, RoadState& road) {
   // in order of departure; one that finds no room holds up only those who start at its place,
   // people no more than those who would stand on the same metre
   std::set<std::pair<LaneId, int>> full;
+  std::size_t vehicles = 0;
+  for (const AgentId id : scene.id) vehicles += known_[id.value].is_person ? 0 : 1;
   for (auto pending = pending_.begin(); pending != pending_.end();) {
-    if (options_.max_agents > 0 && scene.size() >= options_.max_agents) break;
+    // as SUMO's --max-num-vehicles: whoever walks comes on top
+    if (options_.max_vehicles > 0 && !pending->details.is_person &&
+        vehicles >= options_.max_vehicles) {
+      ++pending;
+      continue;
+    }
     const PathStretch& start = pending->path->stretches.front();
     const double place_length = pending->details.is_person ? 1.0 : 10.0;
     const std::pair place(start.lane, static_cast<int>(start.lane_from / place_length));
     if (full.contains(place)) {
       ++pending;
     } else if (insert(*pending, scene, road)) {
+      vehicles += pending->details.is_person ? 0 : 1;
       pending = pending_.erase(pending);
     } else {
       full.insert(place);

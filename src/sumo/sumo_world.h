@@ -29,7 +29,7 @@ struct ControlChoice {
 /// Options of a run in SUMO.
 struct SumoWorldOptions {
   ControlChoice control;
-  std::size_t max_agents = 0;  ///< cap on agents alive at once, 0: none
+  std::size_t max_vehicles = 0;  ///< cap on vehicles on the road at once, 0: none
   std::uint64_t seed = 1;
   double dt = 0.05;          ///< [s]
   std::size_t watched = 32;  ///< ghosts whose pose is read back to measure the coupling
