@@ -52,8 +52,7 @@ bool keeps_clear(const Scene& scene, const TickGeometry& geometry, std::size_t r
   const OrientedBox box{body.position + own.shift * forward, forward, own.half};
   bool clear = true;
   geometry.grid.visit_within(body.position, own.radius + 12.0, [&](std::size_t other, double) {
-    if (other == row || !clear || std::abs(scene.height[other] - scene.height[row]) > kStorey)
-      return;
+    if (other == row || !clear || on_other_storey(scene, row, other)) return;
     const AgentGeometry& their = geometry.agent[other];
     const double kept = kClear + std::min(their.throttle_way, 0.3);
     if (!their.is_box) {

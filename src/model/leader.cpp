@@ -46,7 +46,7 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
   const double margin = std::min(0.1 + 0.03 * speed, type.width < 1.0 ? 0.15 : 0.3);
 
   grid.visit_within(position, reach, [&](std::size_t other, double) {
-    if (other == row || std::abs(scene.height[other] - scene.height[row]) > kStorey) return;
+    if (other == row || on_other_storey(scene, row, other)) return;
     // cheap rejection: well behind
     if ((scene.position[other] - position).dot(tangent) < -reach * 0.3 - 10.0) return;
     const PolylinePosition place =

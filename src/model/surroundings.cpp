@@ -20,7 +20,7 @@ void look_around(const Model& model, const RoadState& road, const Scene& scene,
   around.speed = scene.speed[row];
   around.users.clear();
   grid.visit_within(scene.position[row], reach, [&](std::size_t other, double) {
-    if (other == row || std::abs(scene.height[other] - scene.height[row]) > kStorey) return;
+    if (other == row || on_other_storey(scene, row, other)) return;
     const PolylinePosition place =
         path.line.project(scene.position[other], along - reach, along + reach);
     if (place.distance > aside + scene.footprint[other].radius) return;

@@ -28,6 +28,7 @@ struct AgentGeometry {
   double throttle_way = 0;  ///< what that tick adds to the way [m]
   double speed = 0;         ///< [m/s]
   double height = 0;        ///< of the ground under it [m]
+  LaneId lane = kNoLane;    ///< that it is on
   double curvature = 0;     ///< of the rear axle's way, positive left [1/m]
   AttentionRange attention;
   AgentTypeId type{};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -76,6 +77,13 @@ struct Scene {
 
   std::size_t size() const { return id.size(); }
 };
+
+/// Are two rows above one another, on a bridge and under it? Never on one lane, however steep it
+/// is.
+inline bool on_other_storey(const Scene& scene, std::size_t a, std::size_t b) {
+  const bool same_lane = scene.lane[a].lane == scene.lane[b].lane && scene.lane[a].lane != kNoLane;
+  return !same_lane && std::abs(scene.height[a] - scene.height[b]) > kStorey;
+}
 
 /// One agent as a row to append. Everything that has a natural default has it.
 struct AgentState {

@@ -6,7 +6,7 @@ namespace sumogamma {
 namespace {
 
 /// Two cars head on, 12 m apart, the second on ground of the given height.
-Vec2 velocity_against(double height_of_other) {
+Vec2 velocity_against(double height_of_other, LaneId lane = kNoLane) {
   Workers workers;
   Model model;
   model.types = default_agent_types();
@@ -25,6 +25,7 @@ Vec2 velocity_against(double height_of_other) {
     append_agent(scene, car);
   }
   scene.height[1] = height_of_other;
+  scene.lane[0].lane = scene.lane[1].lane = lane;
   TickGeometry geometry;
   prepare_tick(model, scene, workers, geometry);
   Workspace work;
@@ -34,6 +35,8 @@ Vec2 velocity_against(double height_of_other) {
 TEST(Storeys, AnAgentOnTheSameGroundIsAvoided) { EXPECT_LT(velocity_against(0.0).x(), 7.0); }
 
 TEST(Storeys, AnAgentOnABridgeAboveIsNot) { EXPECT_NEAR(velocity_against(5.0).x(), 8.0, 1e-6); }
+
+TEST(Storeys, OnALaneHoweverSteepItIs) { EXPECT_LT(velocity_against(5.0, LaneId{3}).x(), 7.0); }
 
 }  // namespace
 }  // namespace sumogamma
