@@ -109,8 +109,7 @@ void find_neighbours(const TickGeometry& geometry, std::size_t row, const Attent
     if (other_row == row) continue;
     const AgentGeometry& other = geometry.agent[other_row];
     // above or below on a bridge: never met
-    const bool same_lane = other.lane == own.lane && own.lane != kNoLane;
-    if (!same_lane && std::abs(other.height - own.height) > kStorey) continue;
+    if (on_other_storey(own.lane, own.height, other.lane, other.height)) continue;
     const Vec2 offset = other.position - own.position;
     const double square = offset.squaredNorm();
     const double near = own.next_reach + other.next_reach;

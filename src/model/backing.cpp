@@ -78,10 +78,6 @@ bool makes_room(const Scene& scene, std::size_t row) {
 
 }  // namespace
 
-bool is_backing(const Scene& scene, std::size_t row) {
-  return scene.backing_left[row] > 0.0 || backward_speed(scene, row) > kStill;
-}
-
 void update_backing(double dt, Scene& scene, std::size_t row) {
   double& left = scene.backing_left[row];
   double& gives_way = scene.gives_way_left[row];
@@ -106,13 +102,14 @@ void update_backing(double dt, Scene& scene, std::size_t row) {
 
 std::optional<BodyState> back_out(const Model& model, const RoadState& road, const Scene& scene,
                                   const TickGeometry& geometry, std::size_t row, double dt) {
-  if (!is_backing(scene, row) || scene.speed[row] > kStill) return std::nullopt;
+  const double now = backward_speed(scene, row);
+  const bool backing = scene.backing_left[row] > 0.0 || now > kStill;
+  if (!backing || scene.speed[row] > kStill) return std::nullopt;
   const AgentGeometry& own = geometry.agent[row];
   const Path* path = road.path(scene.path[row]);
   if (path == nullptr || !own.on_wheels || !own.is_box) return std::nullopt;
   const AgentType& type = type_of(model.types, scene.type[row]);
   const double lock = lock_along_path(*path, scene, type, row);
-  const double now = backward_speed(scene, row);
   const BodyState body = body_of(scene, row);
   if (now <= kStill &&
       !keeps_clear(scene, geometry, row, roll_back(type, body, lock, kRoomToBegin / dt, dt)))

@@ -17,9 +17,6 @@ namespace sumogamma {
 /// everybody has moved.
 void update_backing(double dt, Scene& scene, std::size_t row);
 
-/// Is a row on its way back, or about to be?
-bool is_backing(const Scene& scene, std::size_t row);
-
 /// The body after a tick of backing out, as far as it keeps clear of everybody as they would brake
 /// now; nothing where the row isn't backing, or stands and has no room to begin. Forward speed 0.
 std::optional<BodyState> back_out(const Model& model, const RoadState& road, const Scene& scene,

@@ -156,7 +156,6 @@ StoppingGuard::Foe StoppingGuard::look_closely(std::uint32_t other) const {
   Braking theirs = braking_now(their, type_of(model_->types, their.type));
   // nobody makes others brake; whoever goes the same way may
   if (!their.yields && their.velocity.dot(own.velocity) <= 0) theirs.deceleration = 1e-3;
-  foe.behind = in_lane() && comes_from_behind(own, their);
   const double stop = own.speed / type_of(model_->types, own.type).max_deceleration;
   foe.duration = std::max(stop + step, their.yields ? theirs.duration() : 0.0);
   foe.free_way = model_->options.guard_margin + their.throttle_way;
@@ -193,8 +192,6 @@ bool StoppingGuard::clear_at(Foe& foe, std::size_t instant, const Pose& pose) co
   const AgentGeometry &own = geometry_->agent[row_], &their = geometry_->agent[foe.row];
   const double discs = own.radius + their.radius + foe.free_way;
   if ((pose.position - foe.poses[instant].position).squaredNorm() > discs * discs) return true;
-  // braking for who comes from behind helps nobody
-  if (foe.behind) return true;
   const double gap = gap_between(pose, foe.poses[instant], foe.row);
   if (gap >= foe.free_way) return true;
   const Room& room = room_at(foe, instant);
@@ -217,6 +214,8 @@ bool StoppingGuard::admits(const Vec2& velocity) {
                                       way, braking.curvature, braking.axle);
   for (const std::uint32_t other : near_) {
     if (clear_by_far(swept, other)) continue;
+    // braking for who comes from behind helps nobody
+    if (in_lane() && comes_from_behind(own, geometry_->agent[other])) continue;
     Foe& foe = foe_of(other);
     if (foe.overlaps && !in_lane()) continue;
     for (std::size_t k = 0; k < kInstants; ++k)

@@ -74,7 +74,6 @@ class StoppingGuard {
   struct Foe {
     std::uint32_t row = 0;
     bool overlaps = false;  ///< already: left to the push-out of G
-    bool behind = false;    ///< and goes the same way: it is its business to keep apart
     double duration = 0;    ///< until both stand [s]
     double free_way =
         0;  ///< farther apart than this nothing that the foe does within a tick matters [m]

@@ -73,11 +73,15 @@ double off_the_road(const Path& path, double along, const std::vector<Polyline>&
 }  // namespace
 
 void halt_off_the_road(const RoadNetwork& network, Path& path) {
+  // the crossings of one junction follow each other
+  JunctionId last = kNoJunction;
+  std::vector<Polyline> ways;
   for (PathLink& link : path.links) {
     const JunctionId junction = network.connection(link.connection).junction;
     if (junction == kNoJunction) continue;
-    link.halt =
-        off_the_road(path, link.stop_line, driven_ways(network, network.junction(junction)));
+    if (junction != last) ways = driven_ways(network, network.junction(junction));
+    last = junction;
+    link.halt = off_the_road(path, link.stop_line, ways);
   }
 }
 

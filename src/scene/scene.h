@@ -78,11 +78,14 @@ struct Scene {
   std::size_t size() const { return id.size(); }
 };
 
-/// Are two rows above one another, on a bridge and under it? Never on one lane, however steep it
-/// is.
+/// Are two agents above one another, on a bridge and under it? Never on one lane, however steep it
+/// is. Lanes that they are on, and the ground under them [m].
+inline bool on_other_storey(LaneId lane_a, double height_a, LaneId lane_b, double height_b) {
+  const bool same_lane = lane_a == lane_b && lane_a != kNoLane;
+  return !same_lane && std::abs(height_a - height_b) > kStorey;
+}
 inline bool on_other_storey(const Scene& scene, std::size_t a, std::size_t b) {
-  const bool same_lane = scene.lane[a].lane == scene.lane[b].lane && scene.lane[a].lane != kNoLane;
-  return !same_lane && std::abs(scene.height[a] - scene.height[b]) > kStorey;
+  return on_other_storey(scene.lane[a].lane, scene.height[a], scene.lane[b].lane, scene.height[b]);
 }
 
 /// One agent as a row to append. Everything that has a natural default has it.

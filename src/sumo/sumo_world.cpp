@@ -139,6 +139,12 @@ void SumoWorld::forget(AgentId id, Scene& scene, RoadState& road, std::vector<bo
   written_.erase(known_[id.value].sumo_id);
 }
 
+void SumoWorld::record_arrival(const Scene& scene, std::size_t row) {
+  const AgentTypeId type = scene.type[row];
+  ++life_cycle_.by_type[type_of(model_.types, type).name].arrived;
+  life_cycle_.trips.push_back({scene.id[row], type, known_[scene.id[row].value].departed, time_});
+}
+
 void SumoWorld::take_arrived(Scene& scene, RoadState& road) {
   std::vector<bool> removed;
   auto arrived = [&](const std::string& sumo_id) {
@@ -149,9 +155,7 @@ void SumoWorld::take_arrived(Scene& scene, RoadState& road) {
     const std::size_t row = find_row(scene, id);
     external_ids_.erase(external);
     if (row == scene.size()) return;
-    LifeCycle::Count& count = life_cycle_.by_type[type_of(model_.types, scene.type[row]).name];
-    ++count.arrived;
-    life_cycle_.trips.push_back({id, scene.type[row], known_[id.value].departed, time_});
+    record_arrival(scene, row);
     forget(id, scene, road, removed, row);
   };
   for (const std::string& id : step_.arrived_vehicles) arrived(id);
@@ -202,9 +206,7 @@ void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
     } else {
       backend_.remove_vehicle(known.sumo_id);
     }
-    LifeCycle::Count& count = life_cycle_.by_type[type_of(model_.types, scene.type[row]).name];
-    ++count.arrived;
-    life_cycle_.trips.push_back({scene.id[row], scene.type[row], known.departed, time_});
+    record_arrival(scene, row);
     forget(scene.id[row], scene, road, removed, row);
   }
   if (!removed.empty()) remove_agents(scene, removed);

@@ -103,6 +103,7 @@ class SumoWorld : public World {
   /// The agent as it would stand at the start of `path`.
   AgentState newcomer(const Pending& pending, const Path& path, AgentId id) const;
   AgentId register_agent(const SumoAgentDetails& details, bool external, double time);
+  void record_arrival(const Scene& scene, std::size_t row);
   void forget(AgentId id, Scene& scene, RoadState& road, std::vector<bool>& removed,
               std::size_t row);
   void compare_poses();

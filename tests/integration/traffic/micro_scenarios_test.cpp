@@ -167,20 +167,7 @@ TEST_P(MicroScenarios, APlatoonIsStableUpTo33MetresASecond) {
 /// results.json of a run of sumo_scenarios/red_lights with a preset.
 json red_lights(const std::string& preset, const std::string& seed) {
   const TemporaryFolder folder;
-  ProcessRequest request;
-  request.arguments = {SUMOGAMMA_PROGRAM,
-                       "run",
-                       SUMOGAMMA_SOURCE_DIR "/sumo_scenarios/red_lights/red_lights.sumocfg",
-                       "-o",
-                       folder.file("out"),
-                       "--preset",
-                       preset,
-                       "--seed",
-                       seed,
-                       "--quiet"};
-  request.time_limit = 300.0;
-  const ProcessResult result = run_process(request);
-  EXPECT_EQ(result.exit_code, 0) << describe_end(result, 300) << "\n" << result.errors;
+  run_scenario("red_lights", {"--preset", preset, "--seed", seed}, folder);
   json results = json::parse(std::ifstream(folder.file("out/results.json")), nullptr, false);
   EXPECT_FALSE(results.is_discarded());
   EXPECT_EQ(results["agents"]["arrived"], 1268);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "base/subprocess.h"
 #include "support/coupling_scenario.h"
@@ -26,9 +27,9 @@ inline nlohmann::json measured(const std::string& scenario, const std::string& f
   return figures;
 }
 
-/// Runs sumo_scenarios/NAME without a window and returns its figures.
-inline nlohmann::json figures_of(const std::string& scenario, const std::string& seed) {
-  const TemporaryFolder folder;
+/// Runs sumo_scenarios/NAME without a window into the folder's "out", with `options` of `run`.
+inline void run_scenario(const std::string& scenario, const std::vector<std::string>& options,
+                         const TemporaryFolder& folder) {
   ProcessRequest request;
   request.arguments = {
       SUMOGAMMA_PROGRAM,
@@ -36,14 +37,17 @@ inline nlohmann::json figures_of(const std::string& scenario, const std::string&
       SUMOGAMMA_SOURCE_DIR "/sumo_scenarios/" + scenario + "/" + scenario + ".sumocfg",
       "-o",
       folder.file("out"),
-      "--trajectory-period",
-      "0.1",
-      "--seed",
-      seed,
       "--quiet"};
+  request.arguments.insert(request.arguments.end(), options.begin(), options.end());
   request.time_limit = 300.0;
   const ProcessResult result = run_process(request);
   EXPECT_EQ(result.exit_code, 0) << describe_end(result, 300) << "\n" << result.errors;
+}
+
+/// Runs sumo_scenarios/NAME and returns its figures.
+inline nlohmann::json figures_of(const std::string& scenario, const std::string& seed) {
+  const TemporaryFolder folder;
+  run_scenario(scenario, {"--trajectory-period", "0.1", "--seed", seed}, folder);
   return measured(scenario, folder.file("out"));
 }
 
