@@ -40,13 +40,15 @@ double road_horizon(const RoadContext& context, const AgentGeometry& own,
 }
 
 /// The velocity that an agent would have if nobody were in its way [m/s]: onwards at the speed it
-/// likes.
+/// likes, on foot towards its sub-goal, however it has to turn and step aside now.
 Vec2 intended_velocity(const Scene& scene, const AgentGeometry& agent, std::size_t row) {
   if (scene.control[row] == Control::External) return agent.velocity;
   const RoadContext& context = scene.context[row];
   double speed = scene.preferred_speed[row];
   if (context.active) speed = std::min({speed, context.speed_limit, context.allowed_speed});
-  return std::max(speed, 0.0) * agent.forward;
+  const Vec2 onwards = context.sub_goal - agent.position;
+  const bool on_foot = context.active && !agent.on_wheels && onwards.squaredNorm() > 1e-6;
+  return std::max(speed, 0.0) * (on_foot ? Vec2(onwards.normalized()) : agent.forward);
 }
 
 // approach that is always reckoned with, whatever the velocities say now [m/s]

@@ -6,6 +6,7 @@
 #include "model/approaches.h"
 #include "model/following.h"
 #include "model/passing.h"
+#include "model/walking_place.h"
 
 namespace sumogamma {
 
@@ -19,6 +20,8 @@ constexpr double kPatience = 4.0;     ///< with a lane change that somebody stan
 constexpr double kBack = 20.0;        ///< of path kept behind the body [m]
 constexpr double kSlowest = 3.5;      ///< at which lanes are changed without need [m/s]
 constexpr double kShortest = 12.0;    ///< change [m]
+// people on foot look as far ahead for others and for walls, and aside of their way [m]
+constexpr double kSidewalk = 8.0, kWalls = 4.0, kAside = 2.5;
 
 double look_ahead(const Scene& scene, std::size_t row) {
   return std::min(30.0 + 3.0 * scene.speed[row], 100.0);
@@ -173,11 +176,17 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
   workers.for_each_range(scene.size(), [&](std::size_t worker, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       const Path* path = road.path(scene.path[row]);
-      if (path == nullptr || path->walking || scene.control[row] != Control::Gamma) continue;
+      if (path == nullptr || scene.control[row] != Control::Gamma) continue;
       LaneIntent& intent = work.intents[row];
-      intent.fresh = (scene.tick + scene.id[row].value) % period == 0;
+      Surroundings& around = work.around[worker];
+      const bool looks = (scene.tick + scene.id[row].value) % period == 0;
+      intent.fresh = looks && !path->walking;
+      if (looks && path->walking) {
+        look_around(model, road, scene, grid, row, kSidewalk, kAside, around);
+        look_at_walls(model, *path, scene, row, kWalls, kAside, around);
+        scene.passing_offset[row] = walking_place(*path, scene, around, row);
+      }
       if (intent.fresh) {
-        Surroundings& around = work.around[worker];
         look_around(model, road, scene, grid, row, look_ahead(scene, row), 8.0, around);
         scene.passing_offset[row] = passing_offset(model, *path, scene, around, row);
         if (path->trip) {

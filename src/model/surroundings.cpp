@@ -1,6 +1,7 @@
 #include "model/surroundings.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/approaches.h"
 
@@ -35,6 +36,30 @@ void look_around(const Model& model, const RoadState& road, const Scene& scene,
   });
   std::sort(around.users.begin(), around.users.end(),
             [](const RoadUser& a, const RoadUser& b) { return a.row < b.row; });
+}
+
+void look_at_walls(const Model& model, const Path& path, const Scene& scene, std::size_t row,
+                   double reach, double aside, Surroundings& around) {
+  constexpr double kPiece = 0.5;  // [m]
+  around.walls.clear();
+  if (model.obstacles.empty()) return;
+  model.obstacles.find_near(scene.position[row], reach, around.sides);
+  for (const std::uint32_t index : around.sides) {
+    const ObstacleIndex::Side& side = model.obstacles.side(index);
+    const Vec2 whole = side.to - side.from;
+    const int pieces = std::max(1, static_cast<int>(std::ceil(whole.norm() / kPiece)));
+    PolylinePosition last;
+    for (int k = 0; k <= pieces; ++k) {
+      const Vec2 point = side.from + (static_cast<double>(k) / pieces) * whole;
+      const PolylinePosition place =
+          path.line.project(point, around.along - reach, around.along + reach);
+      if (k > 0 && std::min(place.distance, last.distance) < aside)
+        around.walls.push_back(
+            {std::min(place.along, last.along), std::max(place.along, last.along),
+             0.5 * (place.offset + last.offset), 0.5 * std::abs(place.offset - last.offset)});
+      last = place;
+    }
+  }
 }
 
 double hoped_speed(const Surroundings& around, double offset, double free_speed, double margin) {

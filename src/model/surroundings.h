@@ -20,13 +20,15 @@ struct RoadUser {
   std::uint32_t row = 0;
 };
 
-/// An agent on wheels and whoever is on the road around it.
+/// An agent and whoever is on the road around it.
 struct Surroundings {
   double along = 0, offset = 0;  ///< the agent's centre [m]
   Vec2 tangent = Vec2(1, 0);     ///< unit direction of its path there
   double half_length = 0, half_width = 0;
   double speed = 0;
-  std::vector<RoadUser> users;  ///< in order of row
+  std::vector<RoadUser> users;       ///< in order of row
+  std::vector<RoadUser> walls;       ///< pieces of what is solid, as somebody who stands there
+  std::vector<std::uint32_t> sides;  ///< buffer
 };
 
 /// Fills `around` for a row with a path: everybody whose centre lies within `reach` ahead, or
@@ -34,6 +36,11 @@ struct Surroundings {
 void look_around(const Model& model, const RoadState& road, const Scene& scene,
                  const SpatialGrid& grid, std::size_t row, double reach, double aside,
                  Surroundings& around);
+
+/// Fills around.walls, after look_around, with what is solid within `reach` [m] of a row and within
+/// `aside` of its path, in pieces of half a metre.
+void look_at_walls(const Model& model, const Path& path, const Scene& scene, std::size_t row,
+                   double reach, double aside, Surroundings& around);
 
 /// Speed that can be hoped for over the next seconds with the body's centre at `offset` beside the
 /// path: as fast as `free_speed` where nobody is ahead, less the nearer and the slower somebody is,

@@ -11,6 +11,10 @@ namespace sumogamma {
 
 namespace {
 
+/// Two who meet on a path too narrow for them step on the verge: each has so much room at least
+/// [m].
+constexpr double kLeastRoom = 0.75;
+
 /// The lane of an edge on which pedestrians walk: the lowest index that admits them, as in SUMO.
 LaneId walking_lane(const RoadNetwork& network, EdgeId edge) {
   for (const LaneId id : network.edge(edge).lanes)
@@ -138,7 +142,7 @@ class Walk {
     stretch.reversed = to < from;
     stretch.speed_limit = std::max(lane.speed_limit, 1.0);
     stretch.room_left = stretch.room_right =
-        0.5 * lane.width + (lane.kind == LaneKind::Crossing ? 0.5 : 0.0);
+        std::max(0.5 * lane.width + (lane.kind == LaneKind::Crossing ? 0.5 : 0.0), kLeastRoom);
     PathLink link{kNoConnection, stretch.from, 0.0, stretch.from};
     path_.stretches.push_back(stretch);
     append_span(lane.centerline, from, to, points_);

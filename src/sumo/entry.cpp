@@ -7,6 +7,7 @@
 #include "geometry/rotation.h"
 #include "model/approaches.h"
 #include "model/following.h"
+#include "model/obstacle_constraints.h"
 
 namespace sumogamma {
 
@@ -46,6 +47,9 @@ bool needs_care(const Model& model, const PathLink& link) {
                      [](const ConflictZone& zone) { return zone.yields || zone.foe_is_crossing; });
 }
 
+/// Least gap to others with which people start in a crowd [m].
+constexpr double kCrowd = 0.15;
+
 }  // namespace
 
 std::optional<double> entry_speed(const Model& model, const Path& path, const AgentState& agent,
@@ -56,8 +60,7 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
   const double half_length = agent.footprint.vertices[0].x(),
                half_width = agent.footprint.vertices[1].y();
   // room for the body now, and for what comes from behind and goes ahead
-  // nearer than that to others, people who start in a crowd only make it stand
-  const double gap = on_foot ? 0.4 : type.min_gap;
+  const double gap = on_foot ? kCrowd : type.min_gap;
   const double ease = 2.0 * 0.7 * type.comfortable_deceleration;
   const Box wanted{agent.position, agent.heading, half_length + gap,
                    half_width + (on_foot ? 0.1 : 0.2)};
@@ -106,16 +109,27 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
   return speed;
 }
 
-std::vector<double> other_entry_offsets(double liked, double most_right, double most_left,
-                                        double width) {
-  constexpr double kBetween = 0.2;  // [m]
-  std::vector<double> offsets;
-  for (const int step : {1, -1, 2, -2}) {
-    const double offset = liked + step * (width + kBetween);
+std::vector<double> entry_offsets(double liked, double most_right, double most_left) {
+  constexpr double kStep = 0.25;  // [m]
+  std::vector<double> offsets{liked};
+  for (const int step : {1, -1, 2, -2, 3, -3, 4, -4}) {
+    const double offset = liked + kStep * step;
     if (offset * liked > 0.0 && offset >= most_right && offset <= most_left)
       offsets.push_back(offset);
   }
   return offsets;
+}
+
+bool touches_wall(const Model& model, const AgentState& agent) {
+  if (model.obstacles.empty()) return false;
+  const ConvexPolygon outline =
+      place_polygon(agent.footprint.outline(), direction_of(agent.heading));
+  std::vector<std::uint32_t> found;
+  model.obstacles.find_near(agent.position, agent.footprint.radius, found);
+  return std::any_of(found.begin(), found.end(), [&](std::uint32_t index) {
+    const ObstacleIndex::Side& side = model.obstacles.side(index);
+    return clearance(outline, side.from - agent.position, side.to - agent.position).distance <= 0.0;
+  });
 }
 
 }  // namespace sumogamma

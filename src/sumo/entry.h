@@ -15,10 +15,12 @@ namespace sumogamma {
 std::optional<double> entry_speed(const Model& model, const Path& path, const AgentState& agent,
                                   double ground, const Scene& scene);
 
-/// Where else beside the start of its path somebody on foot may start [m, positive left], nearest
-/// first, where somebody is at `liked`: aside in steps of a body and a hand's breadth within
-/// [`most_right`, `most_left`], and on the same side of the path, away from who comes towards it.
-std::vector<double> other_entry_offsets(double liked, double most_right, double most_left,
-                                        double width);
+/// Where beside the start of its path somebody on foot may start [m, positive left]: at `liked` and
+/// then, nearest first, aside of it within [`most_right`, `most_left`] and on the same side of the
+/// path, away from who comes towards it.
+std::vector<double> entry_offsets(double liked, double most_right, double most_left);
+
+/// Does somebody who starts here stand in a wall, or touch one?
+bool touches_wall(const Model& model, const AgentState& agent);
 
 }  // namespace sumogamma

@@ -290,18 +290,27 @@ bool SumoWorld::insert_on(const Pending& pending, const std::shared_ptr<const Pa
   AgentState agent = newcomer(pending, *path, id);
   const PathStretch& stretch = path->stretches.front();
   const double ground = elevation_at(model_.road.lane(stretch.lane), stretch.lane_from);
-  std::optional<double> speed = entry_speed(model_, *path, agent, ground, scene);
-  if (!speed && details.is_person) {
+  std::optional<double> speed;
+  if (details.is_person) {
     const Vec2 left = left_of(path->line.direction_at(0.0)), middle = path->line.point_at(0.0);
     const double half_width = agent.footprint.vertices[1].y();
-    const double most_right = half_width + 0.1 - stretch.room_right;
-    const double most_left = stretch.room_left - half_width - 0.1;
-    for (const double offset : other_entry_offsets((agent.position - middle).dot(left), most_right,
-                                                   most_left, 2.0 * half_width)) {
-      agent.position = middle + offset * left;
+    std::vector<double> places =
+        entry_offsets((agent.position - middle).dot(left), half_width + 0.1 - stretch.room_right,
+                      stretch.room_left - half_width - 0.1);
+    auto put_at = [&](double offset) { agent.position = middle + offset * left; };
+    std::erase_if(places, [&](double offset) {
+      put_at(offset);
+      return touches_wall(model_, agent);
+    });
+    // where walls leave nothing else, amid the way
+    if (places.empty()) places.push_back(0.0);
+    for (const double offset : places) {
+      put_at(offset);
       speed = entry_speed(model_, *path, agent, ground, scene);
       if (speed) break;
     }
+  } else {
+    speed = entry_speed(model_, *path, agent, ground, scene);
   }
   if (!speed) return false;
   agent.speed = *speed;

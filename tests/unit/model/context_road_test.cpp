@@ -122,7 +122,7 @@ TEST_F(ContextTest, SlowWalkersGetRoundASharpCorner) {
   path.speed_profile.assign(12, 0.7);
   const std::size_t own = here_.add(find_agent_type(here_.model.types, "pedestrian"),
                                     std::make_shared<const Path>(std::move(path)), 5, 0.7);
-  here_.scene.path_offset[own] = -1.0;
+  here_.scene.lateral_aim[own] = -1.0;
   for (int tick = 0; tick < 400 && here_.scene.path_along[own] < 15; ++tick) {
     here_.update();
     const Vec2 way = here_.context(own).sub_goal - here_.scene.position[own];

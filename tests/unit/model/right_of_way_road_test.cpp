@@ -383,6 +383,28 @@ TEST_F(CrossingTest, ADriverWhoDoesNotYieldIsLetPastAndStopsForWhoIsOnTheCrossin
   EXPECT_LT(here_.context(driver).allowed_speed, 6.0);
 }
 
+//     |  crossing  |
+//     |_____^______|      the way turns left onto it: who walks to its left is on the crossing
+//   ------> '             before its place on the path is
+TEST_F(CrossingTest, WhoWaitsInsideTheCornerWaitsBesideTheCrossing) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.5, 195, 5);
+  const double kerb = here_.path(walker).links.at(0).stop_line;
+  const std::size_t driver = here_.add("car", {"WC", "CE"}, 0, 6, 0, -1, "WC_1");
+  here_.move(driver, here_.path(driver).links.at(0).stop_line - 2.25 - 9);
+  give_priority(here_.path(walker).links.at(0).connection);
+  for (AgentType& type : here_.model.types) type.compliance.yielding_rate = 0.0;
+  here_.scene.manners[driver].key = 1;
+  auto ahead = [&](double offset) {
+    here_.move(walker, kerb - 1.2, offset);
+    here_.update();
+    EXPECT_EQ(here_.context(walker).foe, here_.scene.id[driver].value);
+    const Vec2 way = here_.context(walker).sub_goal - here_.scene.position[walker];
+    return way.dot(here_.path(walker).line.direction_at(kerb - 1.2));
+  };
+  EXPECT_GT(ahead(0.0), 0.0);
+  EXPECT_LT(ahead(0.8), 0.0);  // steps back
+}
+
 TEST_F(CrossingTest, WhoHaltsForSomebodyBrakesNoHarderForAvoidance) {
   const std::size_t driver = here_.add("car", {"WC", "CE"}, 0, 11, 0, -1, "WC_1");
   const double line = here_.path(driver).links.at(0).stop_line;

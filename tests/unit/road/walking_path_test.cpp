@@ -52,6 +52,22 @@ TEST_P(WalkingPath, StaysOnTheSidewalkOfOneEdge) {
   EXPECT_TRUE(path->links.empty());
 }
 
+TEST_P(WalkingPath, TwoWhoMeetOnANarrowPathHaveTheVerge) {
+  testing::PlainNet plain;
+  plain.nodes = "<node id='W' x='0' y='0'/><node id='E' x='60' y='0'/>";
+  plain.edges = "<edge id='trail' from='W' to='E' numLanes='1' allow='pedestrian' width='0.8'/>";
+  const RoadNetwork network = read_plain_net(plain);
+  PathRequest request;
+  const std::vector<EdgeId> route = route_of(network, {"trail"});
+  request.route = route;
+  request.vehicle_class = vehicle_class::kPedestrian;
+  std::string why;
+  const auto path = build_walking_path(network, request, why);
+  ASSERT_TRUE(path) << why;
+  // two bodies of 0.48 m and their margins
+  EXPECT_GE(path->stretches.front().room_left + path->stretches.front().room_right, 1.2);
+}
+
 TEST_P(WalkingPath, WalksBackwardsToAnArrivalBehindTheStart) {
   std::string why;
   const auto path = walk({"WC"}, why, 120, 20);

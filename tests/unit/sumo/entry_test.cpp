@@ -8,16 +8,31 @@ namespace {
 
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 
 TEST(Entry, PeopleWhosePlaceIsTakenStartFurtherAside) {
-  EXPECT_THAT(other_entry_offsets(-0.3, -1.2, 1.2, 0.5), ElementsAre(DoubleNear(-1.0, 1e-9)));
-  EXPECT_THAT(other_entry_offsets(0.8, -2.4, 2.4, 0.5),
-              ElementsAre(DoubleNear(1.5, 1e-9), DoubleNear(0.1, 1e-9), DoubleNear(2.2, 1e-9)));
+  EXPECT_THAT(entry_offsets(-0.3, -0.9, 0.9),
+              ElementsAre(DoubleNear(-0.3, 1e-9), DoubleNear(-0.05, 1e-9), DoubleNear(-0.55, 1e-9),
+                          DoubleNear(-0.8, 1e-9)));
 }
 
 TEST(Entry, PeopleStartNeitherAmongThoseWhoComeTowardsThemNorOffTheSidewalk) {
-  EXPECT_THAT(other_entry_offsets(-0.5, -1.1, 1.1, 0.5), IsEmpty());
+  for (const double offset : entry_offsets(-0.5, -1.1, 1.1)) {
+    EXPECT_LT(offset, 0.0);
+    EXPECT_GE(offset, -1.1);
+  }
+}
+
+TEST(Entry, NobodyStartsInAWall) {
+  Obstacle wall;
+  wall.outline = {{-1, 1}, {1, 1}, {1, 2}, {-1, 2}};
+  Model model;
+  model.obstacles = ObstacleIndex({wall});
+  AgentState agent;
+  agent.footprint = box_footprint(0.4, 0.48);
+  agent.position = {0, 0.9};
+  EXPECT_TRUE(touches_wall(model, agent));
+  agent.position = {0, 0.7};
+  EXPECT_FALSE(touches_wall(model, agent));
 }
 
 }  // namespace

@@ -1,0 +1,71 @@
+#include "model/walking_place.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sumogamma {
+
+namespace {
+
+constexpr double kStep = 0.25;      ///< between the places that are weighed [m]
+constexpr double kFarthest = 1.5;   ///< from the path where nothing bounds the way [m]
+constexpr double kReach = 1.5;      ///< aside from where the body is [m]
+constexpr double kMargin = 0.06;    ///< kept to the sides [m]
+constexpr double kStepCost = 0.15;  ///< of a place away from the body [m/s a m]
+constexpr double kLikeCost = 0.15;  ///< of a place away from the liked one [m/s a m]
+constexpr double kFree = 0.95;      ///< share of the speed it likes that is as good as all of it
+constexpr double kKeeps = 0.1;      ///< worth changing one's mind for [m/s]
+
+/// Speed that can be hoped for at a place: of those ahead there, the slower and the nearer the
+/// less. Who comes the other way counts for less than nothing, so that streams part.
+double hoped_pace(const Surroundings& around, double place, double free_speed) {
+  constexpr double kOutlook = 4.0;     // [s]
+  constexpr double kBeside = 0.3;      // [m/s]
+  constexpr double kWallMargin = 0.2;  // [m]
+  const double front = around.along + around.half_length;
+  const double rear = around.along - around.half_length;
+  double hoped = free_speed;
+  auto meet = [&](const RoadUser& user, double margin) {
+    if (user.front < rear) return;
+    if (std::abs(user.offset - place) > user.half_width + around.half_width + margin) return;
+    const double gap = user.rear - front;
+    hoped = std::min(hoped, user.speed + (gap > 0.0 ? gap / kOutlook : -kBeside));
+  };
+  for (const RoadUser& user : around.users) meet(user, kMargin);
+  for (const RoadUser& wall : around.walls) meet(wall, kWallMargin);
+  return hoped;
+}
+
+}  // namespace
+
+double walking_place(const Path& path, const Scene& scene, const Surroundings& around,
+                     std::size_t row) {
+  const PathStretch& here = path.stretch_at(around.along);
+  const double half = around.half_width + 0.1;
+  const double most_left = std::max(std::min(here.room_left - half, kFarthest), 0.0);
+  const double most_right = std::min(std::max(half - here.room_right, -kFarthest), 0.0);
+  const double liked = std::clamp(scene.path_offset[row], most_right, most_left);
+  const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
+  if (hoped_pace(around, liked, free_speed) > kFree * free_speed) return liked;
+  auto worth = [&](double place) {
+    return hoped_pace(around, place, free_speed) - kStepCost * std::abs(place - around.offset) -
+           kLikeCost * std::abs(place - liked);
+  };
+  double best = std::clamp(scene.passing_offset[row], most_right, most_left);
+  double most = worth(best) + kKeeps;
+  auto weigh = [&](double place) {
+    if (place < most_right || place > most_left || std::abs(place - around.offset) > kReach) return;
+    const double value = worth(place);
+    if (value <= most) return;
+    best = place;
+    most = value;
+  };
+  weigh(liked);
+  for (double aside = kStep; aside < most_left - most_right; aside += kStep) {
+    weigh(liked + aside);
+    weigh(liked - aside);
+  }
+  return best;
+}
+
+}  // namespace sumogamma

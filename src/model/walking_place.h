@@ -1,0 +1,14 @@
+#pragma once
+
+#include "model/surroundings.h"
+
+namespace sumogamma {
+
+/// Where beside its path somebody on foot should be [m, positive left]: among the places that its
+/// way has room for, the one where the most speed can be hoped for, less a little for every step
+/// aside and away from where it likes to be. So who walks behind somebody slow passes, and who
+/// meets others follows those who walk its own way: opposite streams part into lanes.
+double walking_place(const Path& path, const Scene& scene, const Surroundings& around,
+                     std::size_t row);
+
+}  // namespace sumogamma

@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include "model/walking_place.h"
+#include "support/road_scene.h"
+
+namespace sumogamma {
+namespace {
+
+using testing::PlainNet;
+using testing::read_plain_net;
+using testing::RoadScene;
+
+//   y = 1.5   -------------------------------
+//              row 0 ->             <- others       a sidewalk of 3 m, 60 m long
+//   y = -1.5  -------------------------------
+class WalkingPlaceTest : public ::testing::Test {
+ protected:
+  static RoadNetwork sidewalk() {
+    PlainNet plain;
+    plain.nodes = "<node id='W' x='0' y='0'/><node id='E' x='60' y='0'/>";
+    plain.edges =
+        "<edge id='walk' from='W' to='E' numLanes='1' allow='pedestrian' width='3' "
+        "spreadType='center'/>";
+    return read_plain_net(plain);
+  }
+  /// Somebody at x [m] and `offset` to the left of the eastward path, who walks with `speed`, west
+  /// where it is negative.
+  std::size_t walker(double x, double offset, double speed) {
+    const bool east = speed >= 0;
+    const std::size_t row = here_.add("pedestrian", {"walk"}, east ? x : 60 - x, std::abs(speed),
+                                      east ? 0 : 60, east ? 60 : 0);
+    here_.move(row, east ? x : 60 - x, east ? offset : -offset);
+    return row;
+  }
+  double place_of(std::size_t row) {
+    here_.update();
+    look_around(here_.model, here_.road, here_.scene, here_.geometry.grid, row, 8, 2.5, around_);
+    look_at_walls(here_.model, here_.path(row), here_.scene, row, 4, 2.5, around_);
+    return walking_place(here_.path(row), here_.scene, around_, row);
+  }
+  RoadScene here_{sidewalk()};
+  Surroundings around_;
+};
+
+TEST_F(WalkingPlaceTest, WhoIsAloneWalksWhereItLikesToBe) {
+  const std::size_t own = walker(10, 0, 1.3);
+  here_.scene.path_offset[own] = -0.6;
+  EXPECT_NEAR(place_of(own), -0.6, 1e-9);
+}
+
+TEST_F(WalkingPlaceTest, APlaceThatTheSidewalkDoesNotHaveIsNotAimedAt) {
+  const std::size_t own = walker(10, 0, 1.3);
+  here_.scene.path_offset[own] = -4.0;
+  EXPECT_GT(place_of(own), -1.5 + 0.24);
+}
+
+TEST_F(WalkingPlaceTest, WhoIsBehindSomebodySlowPasses) {
+  const std::size_t own = walker(10, -0.4, 1.3);
+  here_.scene.path_offset[own] = here_.scene.passing_offset[own] = -0.4;
+  walker(12, -0.4, 0.4);
+  EXPECT_GT(std::abs(place_of(own) + 0.4), 0.48);
+}
+
+TEST_F(WalkingPlaceTest, NobodyPassesWhereOthersCome) {
+  const std::size_t own = walker(10, -0.7, 1.3);
+  here_.scene.path_offset[own] = here_.scene.passing_offset[own] = -0.7;
+  walker(12, -0.7, 0.9);
+  for (const double x : {11.0, 12.5, 14.0, 15.5})
+    for (const double offset : {0.1, 0.7}) walker(x, offset, -1.3);
+  EXPECT_LT(place_of(own), -0.5);
+}
+
+TEST_F(WalkingPlaceTest, WhoMeetsAStreamFollowsThoseWhoWalkItsOwnWay) {
+  const std::size_t own = walker(10, 0.5, 1.3);
+  here_.scene.passing_offset[own] = 0.5;
+  here_.scene.path_offset[own] = 0.5;
+  walker(14, 0.5, -1.3);
+  walker(13, 0.9, -1.3);
+  walker(12, -0.6, 1.1);  // its own way
+  EXPECT_LT(place_of(own), 0.0);
+}
+
+TEST_F(WalkingPlaceTest, NobodyAimsAtAWall) {
+  Obstacle wall;
+  wall.outline = {{12, -1.5}, {14, -1.5}, {14, -0.2}, {12, -0.2}};
+  here_.model.road.obstacles = {wall};
+  here_.model.obstacles = ObstacleIndex(here_.model.road.obstacles);
+  const std::size_t own = walker(10, -0.8, 1.3);
+  here_.scene.path_offset[own] = here_.scene.passing_offset[own] = -0.8;
+  EXPECT_GT(place_of(own), -0.2 + 0.24);
+}
+
+TEST_F(WalkingPlaceTest, WhoFollowsKeepsADistanceThatGrowsWithItsSpeed) {
+  const std::size_t own = walker(10, 0, 1.3);
+  const std::size_t ahead = walker(11, 0, 0.8);
+  here_.update();
+  EXPECT_EQ(here_.context(own).reason, LimitReason::Leader);
+  EXPECT_EQ(here_.context(own).foe, here_.scene.id[ahead].value);
+  EXPECT_NEAR(here_.context(own).allowed_speed, (1.0 - 0.4) / 0.5, 1e-6);
+  here_.move(ahead, 10.6);
+  here_.update();
+  EXPECT_NEAR(here_.context(own).allowed_speed, (0.6 - 0.4) / 0.5, 1e-6);
+  // nor does anybody follow who is beside it or comes towards it
+  here_.move(ahead, 10.6, 0.6);
+  here_.update();
+  EXPECT_EQ(here_.context(own).reason, LimitReason::None);
+  here_.move(ahead, 10.6);
+  here_.scene.heading[ahead] = kPi;
+  here_.update();
+  EXPECT_EQ(here_.context(own).reason, LimitReason::None);
+}
+
+}  // namespace
+}  // namespace sumogamma
