@@ -21,7 +21,7 @@ constexpr double kBack = 20.0;        ///< of path kept behind the body [m]
 constexpr double kSlowest = 3.5;      ///< at which lanes are changed without need [m/s]
 constexpr double kShortest = 12.0;    ///< change [m]
 // people on foot look as far ahead for others and for walls, and aside of their way [m]
-constexpr double kSidewalk = 8.0, kWalls = 4.0, kAside = 2.5;
+constexpr double kSidewalk = 8.0, kWalls = 4.0, kAside = 4.5;
 
 double look_ahead(const Scene& scene, std::size_t row) {
   return std::min(30.0 + 3.0 * scene.speed[row], 100.0);

@@ -19,6 +19,14 @@ bool waits_at_kerb(const Model& model, const Scene& scene, std::size_t row) {
 constexpr double kCrawl = 1.0;     // [m/s]
 constexpr double kPatience = 6.0;  // with somebody on foot who stands in the way [s]
 
+/// Has somebody on foot held up a vehicle for long who doesn't get on either?
+bool shuffles_before(const Scene& scene, std::size_t vehicle, std::size_t walker) {
+  constexpr double kShuffles = 0.5;  // [m/s]
+  return scene.standing_time[vehicle] > 2.0 * kPatience &&
+         scene.context[vehicle].reason == LimitReason::Leader &&
+         scene.velocity[walker].norm() < kShuffles;
+}
+
 /// Remembers the nearest of those ahead who wait for a gap in this lane or are on their way into
 /// it.
 void note_merging(const DrivingAhead::Vehicle& vehicle, bool on_its_way, DrivingAhead& ahead) {
@@ -91,7 +99,9 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     if (!aligned && (!on_foot || gap > 2.0 * speed + 3.0)) return;
     // somebody on foot who waits in the way for long waits for this very vehicle as well as not:
     // who crawls goes round as close as avoidance lets it, and has the other step back
-    if (on_foot && speed < kCrawl && scene.standing_time[other] > kPatience) return;
+    if (on_foot && speed < kCrawl &&
+        (scene.standing_time[other] > kPatience || shuffles_before(scene, row, other)))
+      return;
     if (!on_foot) ahead.add({rear, 2.0 * place.along - rear, other_speed, scene.id[other].value});
     if (gap < leader.gap || (gap == leader.gap && scene.id[other].value < leader.id))
       leader = {gap, other_speed, scene.acceleration[other].dot(direction), rear,

@@ -9,12 +9,25 @@ namespace {
 
 constexpr double kStep = 0.25;      ///< between the places that are weighed [m]
 constexpr double kFarthest = 1.5;   ///< from the path where nothing bounds the way [m]
+constexpr double kRound = 4.0;      ///< likewise round a vehicle that stands in it [m]
 constexpr double kReach = 1.5;      ///< aside from where the body is [m]
 constexpr double kMargin = 0.06;    ///< kept to the sides [m]
 constexpr double kStepCost = 0.15;  ///< of a place away from the body [m/s a m]
 constexpr double kLikeCost = 0.15;  ///< of a place away from the liked one [m/s a m]
 constexpr double kFree = 0.95;      ///< share of the speed it likes that is as good as all of it
 constexpr double kKeeps = 0.1;      ///< worth changing one's mind for [m/s]
+
+/// How somebody on the way matters to who is on foot.
+enum class Meeting { Counts, StandsInTheWay, IsLeftToAvoidance };
+
+/// People and who drives along the way count; vehicles that drive across it will have passed.
+Meeting meeting_with(const Scene& scene, const RoadUser& user) {
+  constexpr double kDrives = 0.5;  // [m/s]
+  if (user.on_foot) return Meeting::Counts;
+  const double speed = scene.velocity[user.row].norm();
+  if (speed < kDrives) return Meeting::StandsInTheWay;
+  return std::abs(user.speed) > 0.7 * speed ? Meeting::Counts : Meeting::IsLeftToAvoidance;
+}
 
 /// Speed that can be hoped for at a place: of those ahead there, the slower and the nearer the
 /// less. Who comes the other way counts for less than nothing, so that streams part.
@@ -38,12 +51,20 @@ double hoped_pace(const Surroundings& around, double place, double free_speed) {
 
 }  // namespace
 
-double walking_place(const Path& path, const Scene& scene, const Surroundings& around,
-                     std::size_t row) {
+double walking_place(const Path& path, const Scene& scene, Surroundings& around, std::size_t row) {
+  // those left to avoidance are not weighed
+  std::erase_if(around.users, [&](const RoadUser& user) {
+    return meeting_with(scene, user) == Meeting::IsLeftToAvoidance;
+  });
+  const bool stands =
+      std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+        return user.front > around.along && meeting_with(scene, user) == Meeting::StandsInTheWay;
+      });
+  const double farthest = stands ? kRound : kFarthest, reach = stands ? 2.0 * kRound : kReach;
   const PathStretch& here = path.stretch_at(around.along);
   const double half = around.half_width + 0.1;
-  const double most_left = std::max(std::min(here.room_left - half, kFarthest), 0.0);
-  const double most_right = std::min(std::max(half - here.room_right, -kFarthest), 0.0);
+  const double most_left = std::max(std::min(here.room_left - half, farthest), 0.0);
+  const double most_right = std::min(std::max(half - here.room_right, -farthest), 0.0);
   const double liked = std::clamp(scene.path_offset[row], most_right, most_left);
   const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
   if (hoped_pace(around, liked, free_speed) > kFree * free_speed) return liked;
@@ -54,7 +75,7 @@ double walking_place(const Path& path, const Scene& scene, const Surroundings& a
   double best = std::clamp(scene.passing_offset[row], most_right, most_left);
   double most = worth(best) + kKeeps;
   auto weigh = [&](double place) {
-    if (place < most_right || place > most_left || std::abs(place - around.offset) > kReach) return;
+    if (place < most_right || place > most_left || std::abs(place - around.offset) > reach) return;
     const double value = worth(place);
     if (value <= most) return;
     best = place;

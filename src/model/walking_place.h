@@ -7,8 +7,9 @@ namespace sumogamma {
 /// Where beside its path somebody on foot should be [m, positive left]: among the places that its
 /// way has room for, the one where the most speed can be hoped for, less a little for every step
 /// aside and away from where it likes to be. So who walks behind somebody slow passes, and who
-/// meets others follows those who walk its own way: opposite streams part into lanes.
-double walking_place(const Path& path, const Scene& scene, const Surroundings& around,
-                     std::size_t row);
+/// meets others follows those who walk its own way: opposite streams part into lanes. Where a
+/// vehicle stands in the way and nothing bounds it, the way leads round the vehicle. Takes those
+/// who are left to avoidance out of `around`.
+double walking_place(const Path& path, const Scene& scene, Surroundings& around, std::size_t row);
 
 }  // namespace sumogamma

@@ -74,6 +74,26 @@ void append_within_ring(const std::vector<Vec2>& ring, const Vec2& a, const Vec2
       stretches.push_back({cuts[i], cuts[i + 1]});
 }
 
+/// Where the lanes on foot that meet at a walking area end there: people walk straight from one to
+/// another.
+std::vector<Vec2> ends_at(const RoadNetwork& road, const Lane& area,
+                          const std::vector<Vec2>& outline) {
+  Vec2 middle = Vec2::Zero();
+  for (const Vec2& point : outline) middle += point / static_cast<double>(outline.size());
+  std::vector<LaneId> lanes;
+  for (const ConnectionId id : area.incoming) lanes.push_back(road.connection(id).from);
+  for (const ConnectionId id : area.outgoing) lanes.push_back(road.connection(id).to);
+  std::sort(lanes.begin(), lanes.end());
+  lanes.erase(std::unique(lanes.begin(), lanes.end()), lanes.end());
+  std::vector<Vec2> ends;
+  for (const LaneId id : lanes) {
+    const std::vector<Vec2>& points = road.lane(id).centerline.points();
+    const bool front = (points.front() - middle).norm() < (points.back() - middle).norm();
+    ends.push_back(front ? points.front() : points.back());
+  }
+  return ends;
+}
+
 }  // namespace
 
 template <typename Visit>
@@ -101,7 +121,12 @@ LaneClearing::LaneClearing(const RoadNetwork& road) {
     if (lane.kind == LaneKind::WalkingArea) {
       const std::vector<Vec2>& outline =
           lane.outline.empty() ? lane.centerline.points() : lane.outline;
-      if (outline.size() >= 3) walking_areas_.push_back(outline);
+      if (outline.size() < 3) continue;
+      walking_areas_.push_back(outline);
+      const std::vector<Vec2> ends = ends_at(road, lane, outline);
+      for (std::size_t i = 0; i < ends.size(); ++i)
+        for (std::size_t k = i + 1; k < ends.size(); ++k)
+          add_piece(ends[i], ends[k], kFootClearance);
       continue;
     }
     const std::vector<Vec2>& points = lane.centerline.points();

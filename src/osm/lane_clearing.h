@@ -15,7 +15,8 @@ struct Stretch {
 
 /// The ground that lanes need, for cutting obstacles out of it. Lanes for wheels count with their
 /// whole width; those for feet with 0.6 m to either side of their middle, since guessed sidewalks
-/// are wider than many real ones; walking areas whole. Height is not looked at: a tunnel opens the
+/// are wider than many real ones, as do the ways over walking areas from one lane to another;
+/// walking areas whole. Height is not looked at: a tunnel opens the
 /// house above it rather than being walled up.
 class LaneClearing {
  public:

@@ -50,6 +50,31 @@ TEST(LaneClearing, SidewalksNeedLessThanTheirWidth) {
   EXPECT_FALSE(clearing.stretches_on_lanes(Vec2(-50, 0.5), Vec2(50, 0.5)).empty());
 }
 
+//   sidewalk ------+   +------ crossing    the outlines of the lanes and of the walking area need
+//   not
+//                   \_ /                    cover the straight way from one to the other
+TEST(LaneClearing, TheWaysOverAWalkingAreaCount) {
+  RoadNetwork road = one_lane(vehicle_class::kPedestrian);
+  Lane crossing = road.lanes.front();
+  crossing.kind = LaneKind::Crossing;
+  crossing.centerline = Polyline({Vec2(110, 0), Vec2(120, 0)});
+  Lane area;
+  area.kind = LaneKind::WalkingArea;
+  area.outline = {{100, -1}, {110, -1}, {105, -3}};
+  area.incoming = {ConnectionId{0}};
+  area.outgoing = {ConnectionId{1}};
+  road.lanes.push_back(crossing);
+  road.lanes.push_back(area);
+  Connection in, out;
+  in.from = LaneId{0};
+  in.to = out.from = LaneId{2};
+  out.to = LaneId{1};
+  road.connections = {in, out};
+  const LaneClearing clearing(road);
+  EXPECT_FALSE(clearing.stretches_on_lanes(Vec2(105, -0.5), Vec2(105, 0.5)).empty());
+  EXPECT_TRUE(clearing.stretches_on_lanes(Vec2(105, 0.8), Vec2(105, 2)).empty());
+}
+
 TEST(LaneClearing, KnowsWhatTouchesALane) {
   const LaneClearing clearing(one_lane());
   EXPECT_TRUE(clearing.touches_lane(Vec2(0, 2.2), 0.3));
