@@ -58,10 +58,10 @@ void ease_violation(double fastest, Workspace& work) {
 }
 
 /// Hard planes that a body which creeps out of the way must keep. A vehicle that is wedged may use
-/// what lies beside its lane to get out, some metres of it; people step off the sidewalk, no more.
-std::span<const HalfPlane> planes_for_creeping(const Scene& scene, std::size_t row, bool on_wheels,
+/// what lies beside its lane to get out, some metres of it.
+std::span<const HalfPlane> planes_for_creeping(const Scene& scene, std::size_t row,
                                                Workspace& work) {
-  const double farthest = on_wheels ? 2.0 : 0.3;  // beyond the boundary [m]
+  constexpr double kFarthest = 2.0;  // beyond the boundary [m]
   const ConstraintSet& constraints = work.constraints;
   const std::span hard(constraints.planes.data(), constraints.hard_count);
   if (!is_wedged(scene, row)) return hard;
@@ -70,7 +70,7 @@ std::span<const HalfPlane> planes_for_creeping(const Scene& scene, std::size_t r
   for (std::size_t k = 0; k < hard.size(); ++k) {
     const bool on_left = hard[k].normal.dot(left_of(context.tangent)) < 0.0;
     const double room = on_left ? context.room_left : context.room_right;
-    if (constraints.sources[k].kind != ConstraintKind::LaneBoundary || room < -farthest)
+    if (constraints.sources[k].kind != ConstraintKind::LaneBoundary || room < -kFarthest)
       work.firm.push_back(hard[k]);
   }
   return work.firm;
@@ -104,7 +104,7 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
 
   // differs from the paper: what half-planes can't say about turning and braking bodies
   work.guard.prepare(model, scene, geometry, row, work.neighbours.near);
-  const std::span hard = planes_for_creeping(scene, row, geometry.agent[row].on_wheels, work);
+  const std::span hard = planes_for_creeping(scene, row, work);
   const double wish = work.preferred.norm();
   const Vec2 allowed = wish > fastest ? Vec2(work.preferred * (fastest / wish)) : work.preferred;
   return guarded_velocity(work.guard, model, scene, geometry, row, work.result.point, allowed,

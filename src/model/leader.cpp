@@ -22,8 +22,9 @@ constexpr double kPatience = 6.0;  // with somebody on foot who stands in the wa
 /// Has somebody on foot held up a vehicle for long who doesn't get on either?
 bool shuffles_before(const Scene& scene, std::size_t vehicle, std::size_t walker) {
   constexpr double kShuffles = 0.5;  // [m/s]
-  return scene.standing_time[vehicle] > 2.0 * kPatience &&
-         scene.context[vehicle].reason == LimitReason::Leader &&
+  const LimitReason reason = scene.context[vehicle].reason;
+  const bool no_rule = reason == LimitReason::Leader || reason == LimitReason::None;
+  return no_rule && scene.standing_time[vehicle] > 2.0 * kPatience &&
          scene.velocity[walker].norm() < kShuffles;
 }
 

@@ -14,6 +14,9 @@ namespace {
 /// Two who meet on a path too narrow for them step on the verge: each has so much room at least
 /// [m].
 constexpr double kLeastRoom = 0.75;
+/// Beside crossings, and beside lanes that vehicles use, too [m].
+constexpr double kVerge = 0.5;
+constexpr VehicleClassMask kOnFootOrBicycle = vehicle_class::kPedestrian | vehicle_class::kBicycle;
 
 /// The lane of an edge on which pedestrians walk: the lowest index that admits them, as in SUMO.
 LaneId walking_lane(const RoadNetwork& network, EdgeId edge) {
@@ -141,8 +144,9 @@ class Walk {
     stretch.lane_from = from;
     stretch.reversed = to < from;
     stretch.speed_limit = std::max(lane.speed_limit, 1.0);
-    stretch.room_left = stretch.room_right =
-        std::max(0.5 * lane.width + (lane.kind == LaneKind::Crossing ? 0.5 : 0.0), kLeastRoom);
+    const bool shared = (lane.allowed & ~kOnFootOrBicycle) != 0;
+    const double verge = lane.kind == LaneKind::Crossing || shared ? kVerge : 0.0;
+    stretch.room_left = stretch.room_right = std::max(0.5 * lane.width + verge, kLeastRoom);
     PathLink link{kNoConnection, stretch.from, 0.0, stretch.from};
     path_.stretches.push_back(stretch);
     append_span(lane.centerline, from, to, points_);

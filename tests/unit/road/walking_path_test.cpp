@@ -52,20 +52,31 @@ TEST_P(WalkingPath, StaysOnTheSidewalkOfOneEdge) {
   EXPECT_TRUE(path->links.empty());
 }
 
-TEST_P(WalkingPath, TwoWhoMeetOnANarrowPathHaveTheVerge) {
+/// Room to either side on an edge of its own [m].
+double room_on(const std::string& lane) {
   testing::PlainNet plain;
   plain.nodes = "<node id='W' x='0' y='0'/><node id='E' x='60' y='0'/>";
-  plain.edges = "<edge id='trail' from='W' to='E' numLanes='1' allow='pedestrian' width='0.8'/>";
+  plain.edges = "<edge id='way' from='W' to='E' numLanes='1' " + lane + "/>";
   const RoadNetwork network = read_plain_net(plain);
   PathRequest request;
-  const std::vector<EdgeId> route = route_of(network, {"trail"});
+  const std::vector<EdgeId> route = route_of(network, {"way"});
   request.route = route;
   request.vehicle_class = vehicle_class::kPedestrian;
   std::string why;
   const auto path = build_walking_path(network, request, why);
-  ASSERT_TRUE(path) << why;
-  // two bodies of 0.48 m and their margins
-  EXPECT_GE(path->stretches.front().room_left + path->stretches.front().room_right, 1.2);
+  EXPECT_TRUE(path) << why;
+  const PathStretch& stretch = path->stretches.front();
+  EXPECT_EQ(stretch.room_left, stretch.room_right);
+  return stretch.room_left;
+}
+
+TEST(WalkingRoom, TwoWhoMeetOnANarrowPathHaveTheVerge) {
+  EXPECT_GE(room_on("allow='pedestrian' width='0.8'"), 0.6);  // two bodies and their margins
+  EXPECT_NEAR(room_on("allow='pedestrian' width='2.0'"), 1.0, 1e-9);
+}
+
+TEST(WalkingRoom, WhoMeetsAVehicleOnASharedLaneStepsAside) {
+  EXPECT_GT(room_on("allow='pedestrian delivery' width='3.0'"), 1.5 + 0.4);
 }
 
 TEST_P(WalkingPath, WalksBackwardsToAnArrivalBehindTheStart) {
