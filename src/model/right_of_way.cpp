@@ -313,7 +313,8 @@ SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& 
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const bool on_foot = type.kinematics == Kinematics::Holonomic;
   const double to_line = link.stop_line - traveller.front;
-  const double reserve = on_foot ? 0.02 : 0.2;  // [m]
+  // on foot one halts within a step, though it be with a foot on the crossing
+  const double reserve = on_foot ? -0.45 : 0.2;  // [m]
   const double needed = deceleration_to_stop(traveller.speed, halt - traveller.front - reserve);
   if (is_amber(signal) && to_line > -1.0) {
     // who would not be over the line before red brakes harder than at ease

@@ -426,6 +426,23 @@ TEST_F(CrossingTest, WhoHaltsForSomebodyBrakesNoHarderForAvoidance) {
   EXPECT_LT(chosen(driver).norm(), here_.context(driver).allowed_speed - 0.3);
 }
 
+TEST(WalkersAtRed, WhoIsAtTheKerbHaltsThoughNotAtEaseAndWhoIsOnTheCrossingGoesOn) {
+  RoadScene here{
+      read_plain_net(crossroads("traffic_light", {"--sidewalks.guess", "--crossings.guess"}))};
+  for (std::string& states : here.road.signal_states) states = std::string(100, 'r');
+  const std::size_t walker = here.add("pedestrian", {"WC", "CW"}, 0, 1.4, 195, 5);
+  const double kerb = here.path(walker).links.at(0).stop_line;
+  auto is_held = [&](double front) {
+    here.move(walker, kerb + front - 0.2);
+    here.update();
+    return here.context(walker).reason == LimitReason::Signal;
+  };
+  EXPECT_TRUE(is_held(-1.0));
+  EXPECT_TRUE(is_held(-0.1));
+  EXPECT_TRUE(is_held(0.15));  // a foot on it
+  EXPECT_FALSE(is_held(1.0));
+}
+
 TEST_F(PriorityTest, WhoTurnsIntoTheOtherLaneHoldsNobodyUp) {
   // it heads for the eastbound car's lane now, but its way bends before
   const std::size_t turning = here_.add("car", {"NC", "CW"}, 0, 4);
