@@ -131,6 +131,15 @@ std::optional<Escape> escape_of(const Pair& pair) {
   return escape_from(near, pair);
 }
 
+/// Of two narrow vehicles side by side the one whose middle is behind keeps apart: who is ahead
+/// would else be pressed away from the gap that both make for.
+bool falls_behind(const AgentGeometry& own, const AgentGeometry& their) {
+  constexpr double kNarrow = 0.6, kBehind = 0.3;  // [m]
+  return own.on_wheels && their.on_wheels && own.half.y() < kNarrow && their.half.y() < kNarrow &&
+         their.forward.dot(own.forward) > 0.7 &&
+         (their.position - own.position).dot(own.forward) < -kBehind;
+}
+
 }  // namespace
 
 double responsibility_share(const Model& model, const Scene& scene, const TickGeometry& geometry,
@@ -158,7 +167,8 @@ void append_geometric_constraints(const Model& model, const Scene& scene,
     const std::size_t other = neighbour.row;
     const AgentGeometry& their = geometry.agent[other];
     // differs from the paper: on a road who follows keeps apart from who is ahead (see following)
-    if (scene.context[row].active && comes_from_behind(own, their)) continue;
+    if (scene.context[row].active && (comes_from_behind(own, their) || falls_behind(own, their)))
+      continue;
     const std::int64_t foe = scene.id[other].value;
     const double horizon =
         road_horizon(scene.context[row], own, their, foe,

@@ -160,6 +160,12 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   intent.postpone = change->from - around.along < 2.0 + 1.2 * speed;
 }
 
+/// Is a vehicle on its way past somebody beside its lane? Then it stays on its path.
+bool passes(const Scene& scene, std::size_t row) {
+  constexpr double kAside = 0.3;  // [m]
+  return std::abs(scene.passing_offset[row] - scene.path_offset[row]) > kAside;
+}
+
 /// Moves the place aimed at within the lane, at walking pace, towards where it should be.
 void move_aim(double wanted, double dt, double& aim) {
   constexpr double kSideways = 0.8;  // [m/s]
@@ -191,7 +197,7 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
         scene.passing_offset[row] = passing_offset(model, *path, scene, around, row);
         if (path->trip) {
           wait_for_gap(model, *path, scene, around, row, intent);
-          if (scene.stop_left[row] <= 0.0 && !std::isfinite(intent.gate))
+          if (scene.stop_left[row] <= 0.0 && !std::isfinite(intent.gate) && !passes(scene, row))
             intent.wanted = better_lane(model, *path, scene, around, row);
         }
       }

@@ -1,14 +1,17 @@
 #include "model/leader.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/approaches.h"
+#include "model/passing.h"
 
 namespace sumogamma {
 
 namespace {
 
-constexpr double kAbreast = 1.5;  // between the middles [m]
+constexpr double kAbreast = 1.5;    // between the middles [m]
+constexpr double kNoseAhead = 0.3;  // likewise of narrow vehicles [m]
 
 /// Somebody on foot who stands: at a kerb, as far as anyone can tell.
 bool waits_at_kerb(const Model& model, const Scene& scene, std::size_t row) {
@@ -16,8 +19,11 @@ bool waits_at_kerb(const Model& model, const Scene& scene, std::size_t row) {
          type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic;
 }
 
-constexpr double kCrawl = 1.0;     // [m/s]
-constexpr double kPatience = 6.0;  // with somebody on foot who stands in the way [s]
+constexpr double kTakenFor = 10.0;  // is waited for who stands there [s]
+constexpr double kHesitates = 2.0;  // [s]
+constexpr double kCloses = 0.5;     // of the gap in a second
+constexpr double kCrawl = 1.0;      // [m/s]
+constexpr double kPatience = 6.0;   // with somebody on foot who stands in the way [s]
 
 /// Has somebody on foot held up a vehicle for long who doesn't get on either?
 bool shuffles_before(const Scene& scene, std::size_t vehicle, std::size_t walker) {
@@ -36,6 +42,43 @@ void note_merging(const DrivingAhead::Vehicle& vehicle, bool on_its_way, Driving
   ahead.on_its_way = on_its_way;
 }
 
+/// Where somebody means to be, beside the path of another at whose `offset` it is [m].
+double aim_beside(const RoadState& road, const Scene& scene, std::size_t row, double offset) {
+  const Path* path = road.path(scene.path[row]);
+  if (path == nullptr || path->walking) return offset;
+  const double along = scene.path_along[row];
+  const double own =
+      cross(path->line.direction_at(along), scene.position[row] - path->line.point_at(along));
+  return offset + scene.lateral_aim[row] - own;
+}
+
+/// Is somebody beside a vehicle, its middle ahead, where that means to be beside its path?
+bool is_way_aside_taken(const Path& path, const Scene& scene, const SpatialGrid& grid,
+                        std::size_t row, double own_offset) {
+  constexpr double kThere = 0.1, kNear = 5.0;  // [m]
+  const double aim = scene.lateral_aim[row], along = scene.path_along[row];
+  if (std::abs(aim - own_offset) < kThere) return false;
+  const Vec2 tangent = path.line.direction_at(along), left = left_of(tangent);
+  const double half_length = half_extent(scene, row, tangent);
+  const double half_width = half_extent(scene, row, left_of(direction_of(scene.heading[row])));
+  bool taken = false;
+  grid.visit_within(scene.position[row], kNear, [&](std::size_t other, double) {
+    if (other == row || taken || on_other_storey(scene, row, other)) return;
+    const Vec2 place = to_body(scene.position[other] - scene.position[row], tangent);
+    const double offset = own_offset + place.y();
+    taken = place.x() > 0.0 && place.x() < half_length + half_extent(scene, other, tangent) &&
+            place.y() * (aim - own_offset) > 0.0 &&
+            std::abs(offset - aim) < half_width + half_extent(scene, other, left);
+  });
+  return taken;
+}
+
+void cap_passing(double speed, std::int64_t id, DrivingAhead& ahead) {
+  if (speed >= ahead.passing_speed) return;
+  ahead.passing_speed = speed;
+  ahead.passed = id;
+}
+
 }  // namespace
 
 Leader find_leader(const Model& model, const RoadState& road, const Scene& scene,
@@ -48,11 +91,16 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
   const Vec2 tangent = path->line.direction_at(along);
   const Vec2 position = scene.position[row];
   const double own_half_length = half_extent(scene, row, tangent);
-  const double own_half_width = half_extent(scene, row, left_of(direction_of(scene.heading[row])));
+  const Vec2 forward = direction_of(scene.heading[row]);
+  const double own_half_width = half_extent(scene, row, left_of(forward));
   const double own_offset = cross(tangent, position - path->line.point_at(along));
   const double speed = scene.speed[row];
   const double aim = scene.lateral_aim[row];
+  const bool narrow = is_narrow(type.width);
   const double margin = std::min(0.1 + 0.03 * speed, type.width < 1.0 ? 0.15 : 0.3);
+
+  const bool taken = narrow && scene.standing_time[row] < kTakenFor &&
+                     is_way_aside_taken(*path, scene, grid, row, own_offset);
 
   grid.visit_within(position, reach, [&](std::size_t other, double) {
     if (other == row || on_other_storey(scene, row, other)) return;
@@ -63,7 +111,9 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     if (place.distance > own_half_width + scene.footprint[other].radius + margin) return;
     // of two abreast who lean towards each other just one is ahead
     const double ahead_by = place.along - along;
-    if (ahead_by < (scene.id[other] < scene.id[row] ? -kAbreast : kAbreast)) return;
+    const double abreast =
+        narrow && is_narrow(type_of(model.types, scene.type[other]).width) ? kNoseAhead : kAbreast;
+    if (ahead_by < (scene.id[other] < scene.id[row] ? -abreast : abreast)) return;
     const Vec2 direction = path->line.direction_at(place.along);
     const double half_width = half_extent(scene, other, left_of(direction));
     // the body drifts to where it means to be beside its path: near ahead its own offset counts
@@ -74,7 +124,34 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     // whoever is beside already, or waits at the kerb, is passed as close as it comes
     const bool at_kerb = waits_at_kerb(model, scene, other);
     const double kept = at_kerb ? -0.35 : gap < 0.0 ? 0.02 : margin;
-    if (std::abs(place.offset - swept) > own_half_width + half_width + kept) {
+    const bool on_foot =
+        type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic;
+    const bool aligned = direction.dot(direction_of(scene.heading[other])) > 0.5;
+    const double sides = own_half_width + half_width;
+    // a narrow vehicle that means to pass is about to leave whoever is ahead of it now
+    const double clearance = std::abs(place.offset - aim) - sides;
+    const bool passes = narrow && aligned && !on_foot && clearance > margin &&
+                        (place.offset - aim) * (place.offset - own_offset) > 0.0;
+    if (passes) {
+      const double reach_aside =
+          gap < 0.0 ? half_extent(scene, row, left_of(tangent)) : own_half_width;
+      const double apart = own_offset - place.offset;
+      const Passed passed{gap,
+                          std::abs(apart) - half_width - reach_aside,
+                          clearance,
+                          std::copysign(1.0, apart) * cross(tangent, forward),
+                          std::max(0.0, scene.velocity[other].dot(direction)),
+                          taken};
+      cap_passing(passing_speed(passed, type), scene.id[other].value, ahead);
+      if (gap > 0.0 && passed.aside() > 0.0) ahead.turning_way = std::min(ahead.turning_way, gap);
+    }
+    // two narrow ones make for the same gap: who is behind lets the other in
+    if (narrow && aligned && !on_foot && is_narrow(2.0 * half_width) &&
+        scene.standing_time[other] < kHesitates &&
+        std::abs(aim_beside(road, scene, other, place.offset) - aim) < sides)
+      cap_passing(std::max(0.0, scene.speed[other] + kCloses * (gap - type.min_gap)),
+                  scene.id[other].value, ahead);
+    if (std::abs(place.offset - swept) > sides + kept) {
       const bool merges =
           scene.merge_to[other] != kNoLane && scene.merge_to[other] == scene.lane[row].lane;
       if (!merges) return;
@@ -89,14 +166,11 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
             on_its_way, ahead);
       return;
     }
-    if (gap < -own_half_length) return;
+    if (passes || gap < -own_half_length) return;
     const Vec2 velocity = scene.velocity[other];
     const double other_speed = std::max(0.0, velocity.dot(direction));
     // two vehicles across each other's way would wait for ever as leaders: that is for right of way
     // and avoidance. Somebody on foot in the way is waited for, once near
-    const bool aligned = direction.dot(direction_of(scene.heading[other])) > 0.5;
-    const bool on_foot =
-        type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic;
     if (!aligned && (!on_foot || gap > 2.0 * speed + 3.0)) return;
     // somebody on foot who waits in the way for long waits for this very vehicle as well as not:
     // who crawls goes round as close as avoidance lets it, and has the other step back

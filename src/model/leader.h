@@ -30,6 +30,11 @@ struct DrivingAhead {
   std::size_t count = 0;
   Vehicle merging;          ///< the nearest that has to change into this agent's lane
   bool on_its_way = false;  ///< it has begun to; else it waits for a gap
+  /// At which a narrow vehicle goes by those whom it passes, [m/s], and who that is.
+  double passing_speed = std::numeric_limits<double>::infinity();
+  std::int64_t passed = -1;
+  /// Within which it has to be where it means to be beside its path [m].
+  double turning_way = std::numeric_limits<double>::infinity();
 
   void add(const Vehicle& vehicle) {
     if (count < vehicles.size()) vehicles[count++] = vehicle;

@@ -7,9 +7,12 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kNarrow = 1.2;    ///< vehicles below this width share lanes [m]
-constexpr double kFarthest = 2.3;  ///< aside [m]
-constexpr double kGain = 1.0;      ///< worth passing for [m/s]
+constexpr double kNarrow = 1.2;     ///< vehicles below this width share lanes [m]
+constexpr double kFarthest = 2.3;   ///< aside of the path [m]
+constexpr double kGain = 1.0;       ///< worth passing for [m/s]
+constexpr double kSmallGain = 0.3;  ///< likewise for narrow vehicles [m/s]
+constexpr double kQueue = 3.0;      ///< slower than this is a queue [m/s]
+constexpr double kLeast = 0.2;      ///< to the side of whoever a narrow vehicle passes [m]
 
 /// What is left between two bodies side by side [m].
 double side_gap(bool narrow, double speed) {
@@ -24,31 +27,114 @@ bool is_near_junction(const Path& path, const Surroundings& around) {
   });
 }
 
+/// See hoped_speed: that of a narrow vehicle, which looks further ahead. It goes by slowly where it
+/// is close, and counts on other narrow ones to go on as it does.
+double filtering_hope(const Scene& scene, const Surroundings& around, double offset,
+                      double free_speed, double margin) {
+  constexpr double kOutlook = 8.0;   // [s]
+  constexpr double kGoesOn = 2.0;    // [m/s]
+  constexpr double kBrakesOn = 2.0;  // [s]
+  const double front = around.along + around.half_length;
+  const double rear = around.along - around.half_length;
+  double hoped = free_speed;
+  for (const RoadUser& user : around.users) {
+    if (user.front < rear - 0.3) continue;
+    const double clearance = std::abs(user.offset - offset) - user.half_width - around.half_width;
+    const bool vehicle = user.aligned && !user.on_foot;
+    const double braking = std::min(scene.acceleration[user.row].dot(around.tangent), 0.0);
+    double pace = std::max(user.speed + kBrakesOn * braking, 0.0);
+    if (clearance > margin) {
+      if (vehicle) hoped = std::min(hoped, pace + filtering_speed(clearance));
+      continue;
+    }
+    const double gap = user.rear - front;
+    const bool goes_on = vehicle && is_narrow(2.0 * user.half_width);
+    if (gap < 0.0 && !goes_on) return 0.0;
+    if (goes_on) pace = std::max(pace, kGoesOn);
+    hoped = std::min(hoped, pace + std::max(gap, 0.0) / kOutlook);
+  }
+  return hoped;
+}
+
+/// Where beside `user` a narrow vehicle passes it: in the middle of what is free up to the next
+/// wide body on that side, at most so far aside that it need not mind its sides.
+double place_beside(const Surroundings& around, const RoadUser& user, double side) {
+  constexpr double kRoomy = 0.6;  // to a side [m]
+  constexpr double kNear = 6.0;   // along the path, of who is beside or soon will be [m]
+  const double edge = user.offset + side * user.half_width;
+  double free = 2.0 * (around.half_width + kRoomy);
+  for (const RoadUser& other : around.users) {
+    if (is_narrow(2.0 * other.half_width) || other.rear > user.front + kNear ||
+        other.front < user.rear - kNear)
+      continue;
+    const double way = side * (other.offset - edge) - other.half_width;
+    if (way > 0.0) free = std::min(free, way);
+  }
+  return edge + 0.5 * side * free;
+}
+
+/// Way on which a body that is turned to a side already (a sine) gets `distance` [m] further to it
+/// with a steady curvature [1/m].
+double way_aside(double distance, double turned, double curvature) {
+  const double root = turned * turned + 2.0 * curvature * std::max(distance, 0.0);
+  return std::max(std::sqrt(root) - turned, 0.0) / curvature;
+}
+
 }  // namespace
+
+bool is_narrow(double width) { return width < kNarrow; }
+
+double filtering_speed(double clearance) {
+  constexpr double kClosest = 0.16;  // [m]
+  constexpr double kRate = 25.0;     // [m/s] a metre
+  return std::max(kRate * (clearance - kClosest), 0.0);
+}
+
+double passing_speed(const Passed& passed, const AgentType& type) {
+  constexpr double kAside = 0.48;  // [m/s]
+  constexpr double kCloses = 0.5;  // of the way in a second
+  constexpr double kThere = 0.05;  // [m]
+  constexpr double kLock = 0.55;   // of its tightest turn
+  const double past = filtering_speed(passed.meant);
+  if (passed.gap <= 0.0)
+    return passed.speed + std::clamp(filtering_speed(passed.now), kAside, std::max(past, kAside));
+  const double far = std::sqrt(past * past + 2.0 * type.comfortable_deceleration * passed.gap);
+  const double aside = passed.aside();
+  if (aside < kThere) return passed.speed + far;
+  const double curvature = kLock * std::tan(type.max_steering) / type.wheelbase;
+  const double spare = std::max(passed.gap - way_aside(aside, passed.turned, curvature), 0.0);
+  const double least = passed.taken ? 0.0 : kAside;
+  const double steady = std::min(kAside * passed.gap / aside, kCloses * spare);
+  return passed.speed + std::min(far, std::max(least, steady));
+}
 
 double passing_offset(const Model& model, const Path& path, const Scene& scene,
                       const Surroundings& around, std::size_t row) {
   const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
   const PathStretch& here = path.stretch_at(around.along);
   const double half = around.half_width;
-  const double most_left = here.room_left - half - 0.15, most_right = half + 0.15 - here.room_right;
-  const double liked =
-      std::clamp(scene.path_offset[row], std::min(most_right, 0.0), std::max(most_left, 0.0));
+  const double most_left = std::max(here.room_left - half - 0.15, 0.0);
+  const double most_right = std::min(half + 0.15 - here.room_right, 0.0);
+  const double liked = std::clamp(scene.path_offset[row], most_right, most_left);
+  const bool narrow = is_narrow(2.0 * half);
+  const auto hope = [&](double offset, double margin) {
+    return narrow ? filtering_hope(scene, around, offset, free_speed, margin)
+                  : hoped_speed(around, offset, free_speed, margin);
+  };
   const double margin = 0.15;
   double best = liked;
-  double most = hoped_speed(around, liked, free_speed, margin);
+  double most = hope(liked, margin);
   // what was begun is gone on with unless something is clearly better
   const double present = scene.passing_offset[row];
   if (std::abs(present - liked) > 0.2 && present <= most_left && present >= most_right) {
-    const double hoped = hoped_speed(around, present, free_speed, 0.8 * margin);
-    if (hoped > most + 0.3) {
+    const double hoped = hope(present, 0.8 * margin);
+    if (hoped > most + 0.3 || (narrow && most < kQueue)) {
       best = present;
-      most = hoped;
+      most = std::max(most, hoped);
     }
   }
   if (most > 0.8 * free_speed) return best;
 
-  const bool narrow = 2.0 * half < kNarrow;
   // wide vehicles keep to their lane where ways cross
   if (!narrow && is_near_junction(path, around)) return liked;
   const double inner_side = model.road.left_hand ? -1.0 : 1.0;
@@ -63,11 +149,12 @@ double passing_offset(const Model& model, const Path& path, const Scene& scene,
     if (std::abs(user.offset - liked) > user.half_width + half + gap_wanted) continue;
     for (const double side : {inner_side, -inner_side}) {
       if (!narrow && side != inner_side) continue;
-      const double offset = user.offset + side * (user.half_width + half + gap_wanted);
-      if (offset > most_left || offset < most_right || std::abs(offset - liked) > kFarthest)
-        continue;
-      const double hoped = hoped_speed(around, offset, free_speed, 0.9 * gap_wanted);
-      if (hoped > std::max(most, base + kGain)) {
+      const double offset =
+          narrow ? std::clamp(place_beside(around, user, side), most_right, most_left)
+                 : user.offset + side * (user.half_width + half + gap_wanted);
+      if (offset > most_left || offset < most_right || std::abs(offset) > kFarthest) continue;
+      const double hoped = hope(offset, narrow ? kLeast : 0.9 * gap_wanted);
+      if (hoped > std::max(most, base + (narrow ? kSmallGain : kGain))) {
         best = offset;
         most = hoped;
       }

@@ -5,6 +5,7 @@
 #include "model/following.h"
 #include "model/leader.h"
 #include "model/locate.h"
+#include "model/passing.h"
 #include "model/right_of_way.h"
 
 namespace sumogamma {
@@ -97,8 +98,10 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
     // a lane is no wall: at a snail's pace it may be left, so that two who are wedged side by side
     // find a way on
     const double drift = kDrift * course.type.horizon + extent;
-    left = std::min(left, std::max({corridor, offset + half_width + 0.4, course.offset + drift}));
-    right = std::min(right, std::max({corridor, half_width + 0.4 - offset, drift - course.offset}));
+    // narrow vehicles turn out of a lane within a few metres
+    const double beside = half_width + (is_narrow(course.type.width) ? 1.2 : 0.4);
+    left = std::min(left, std::max({corridor, beside + offset, course.offset + drift}));
+    right = std::min(right, std::max({corridor, beside - offset, drift - course.offset}));
   }
   context.room_left = left - course.offset - extent;
   context.room_right = right + course.offset - extent;
@@ -219,6 +222,17 @@ double eased(const Scene& scene, const Course& course, double acceleration, doub
   return std::min(acceleration, std::max(now, kBraked) + kJerk * dt);
 }
 
+/// Who has to be aside within `way` aims at a sub-goal no further ahead.
+void aim_sooner(const Scene& scene, const Course& course, double way, RoadContext& context) {
+  constexpr double kNearest = 1.2;   // [m]
+  constexpr double kSteepest = 1.8;  // ahead for a metre aside [m]
+  const Vec2 position = scene.position[course.row];
+  const Vec2 goal = to_body(context.sub_goal - position, context.tangent);
+  const double ahead =
+      std::min(goal.x(), std::max({0.6 * way, kSteepest * std::abs(goal.y()), kNearest}));
+  context.sub_goal = position + from_body(Vec2(ahead, goal.y()), context.tangent);
+}
+
 void set_allowed_speed(const View& view, const Course& course, double dt, RoadContext& context) {
   const auto& [model, road, scene, grid, approaches] = view;
   const AgentType& type = course.type;
@@ -236,6 +250,7 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
         behind_acceleration(type, course.speed, free_speed,
                             {leader.gap, leader.speed, leader.acceleration}, course.headway_factor),
         LimitReason::Leader, leader.id, binding, context);
+  if (std::isfinite(ahead.turning_way)) aim_sooner(scene, course, ahead.turning_way, context);
   if (ahead.merging.id >= 0) {
     const double courtesy =
         following_acceleration(type, course.speed, free_speed, ahead.merging.rear - front,
@@ -296,6 +311,13 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
   // who may start has room to find out where to: how fast it gets there is the body's business
   if (binding > 0.5 * type.max_acceleration)
     context.allowed_speed = std::max(context.allowed_speed, kStart);
+  const double passing =
+      std::max(ahead.passing_speed, course.speed - type.comfortable_deceleration * dt);
+  if (passing < context.allowed_speed) {
+    context.allowed_speed = passing;
+    context.reason = LimitReason::Leader;
+    context.foe = ahead.passed;
+  }
 }
 
 /// People who walk the same way one behind the other keep a distance that grows with their speed,

@@ -15,6 +15,8 @@ namespace {
 
 // a body slower than this is held up, and creeps at most this fast [m/s]
 constexpr double kCreep = 0.5;
+// who may go slower than this doesn't creep [m/s]
+constexpr double kLeastWish = 0.4;
 // and one that is slower than this stands [m/s]
 constexpr double kStill = 0.01;
 // people shuffle without turning round, see tracking
@@ -101,7 +103,7 @@ bool is_wedged(const Scene& scene, std::size_t row) { return scene.wedge_left[ro
 void update_wedge(double dt, Scene& scene, std::size_t row) {
   constexpr double kPatience = 5.0, kLasts = 10.0;  // [s]
   constexpr double kNoGapPatience = 15.0;           // [s]
-  constexpr double kMayStart = 0.5;                 // [m/s]
+  constexpr double kMayStart = 0.4;                 // [m/s]
   const RoadContext& context = scene.context[row];
   // two who want to change into each other's lane at its end wait for each other
   const bool no_gap =
@@ -272,7 +274,8 @@ std::optional<Vec2> creep_round(StoppingGuard& guard, const Model& model, const 
   const bool in_lane = own.on_wheels && scene.context[row].active && !is_wedged(scene, row);
   for (const Creep& creep : creeps) {
     if (in_lane && creep.turn != 0.0) continue;
-    const Vec2 velocity = creep.speed * from_body(rotation(creep.turn), ahead);
+    const double speed = std::min(creep.speed, preferred.norm());
+    const Vec2 velocity = speed * from_body(rotation(creep.turn), ahead);
     const bool within = std::all_of(hard.begin(), hard.end(),
                                     [&](const HalfPlane& p) { return slack(p, velocity) >= 0; });
     if (within && guard.admits(velocity)) return velocity;
@@ -296,7 +299,7 @@ Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const Scene& sce
     if (!stands && speed < asked && speed >= 0.5 * kCreep && guard.admits(speed * along))
       return speed * along;
 
-  if (model.options.creep_when_held && preferred.norm() > kCreep && now < 2.0 * kCreep &&
+  if (model.options.creep_when_held && preferred.norm() > kLeastWish && now < 2.0 * kCreep &&
       !guard.overlapping()) {
     const auto creep = creep_round(guard, model, scene, own, row, preferred, hard);
     if (creep) return *creep;
