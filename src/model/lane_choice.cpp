@@ -5,6 +5,7 @@
 
 #include "model/approaches.h"
 #include "model/following.h"
+#include "model/overtaking.h"
 #include "model/passing.h"
 #include "model/walking_place.h"
 
@@ -160,10 +161,11 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   intent.postpone = change->from - around.along < 2.0 + 1.2 * speed;
 }
 
-/// Is a vehicle on its way past somebody beside its lane? Then it stays on its path.
-bool passes(const Scene& scene, std::size_t row) {
+/// Is a narrow vehicle on its way past somebody beside its lane? Then it stays on its path.
+bool filters(const Scene& scene, const Surroundings& around, std::size_t row) {
   constexpr double kAside = 0.3;  // [m]
-  return std::abs(scene.passing_offset[row] - scene.path_offset[row]) > kAside;
+  return is_narrow(2.0 * around.half_width) &&
+         std::abs(scene.passing_offset[row] - scene.path_offset[row]) > kAside;
 }
 
 /// Moves the place aimed at within the lane, at walking pace, towards where it should be.
@@ -178,6 +180,7 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
                   RoadState& road, Scene& scene, LaneChoiceWork& work) {
   const auto period = std::max<std::int64_t>(1, std::llround(kPeriod / dt));
   work.around.resize(workers.count());
+  work.far.resize(workers.count());
   work.intents.assign(scene.size(), {});
   workers.for_each_range(scene.size(), [&](std::size_t worker, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
@@ -194,10 +197,13 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
       }
       if (intent.fresh) {
         look_around(model, road, scene, grid, row, look_ahead(scene, row), 8.0, around);
+        scene.overtaking_room[row] =
+            overtaking_room(model, road, scene, grid, around, row, work.far[worker]);
         scene.passing_offset[row] = passing_offset(model, *path, scene, around, row);
         if (path->trip) {
           wait_for_gap(model, *path, scene, around, row, intent);
-          if (scene.stop_left[row] <= 0.0 && !std::isfinite(intent.gate) && !passes(scene, row))
+          if (scene.stop_left[row] <= 0.0 && !std::isfinite(intent.gate) &&
+              !filters(scene, around, row))
             intent.wanted = better_lane(model, *path, scene, around, row);
         }
       }

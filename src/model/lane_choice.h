@@ -20,6 +20,7 @@ struct LaneIntent {
 /// Buffers of choose_lanes, reused from tick to tick.
 struct LaneChoiceWork {
   std::vector<Surroundings> around;  ///< by worker
+  std::vector<Surroundings> far;     ///< by worker, far ahead
   std::vector<LaneIntent> intents;   ///< by row
 };
 

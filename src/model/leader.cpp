@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/approaches.h"
+#include "model/overtaking.h"
 #include "model/passing.h"
 
 namespace sumogamma {
@@ -22,6 +23,8 @@ bool waits_at_kerb(const Model& model, const Scene& scene, std::size_t row) {
 constexpr double kTakenFor = 10.0;  // is waited for who stands there [s]
 constexpr double kHesitates = 2.0;  // [s]
 constexpr double kCloses = 0.5;     // of the gap in a second
+constexpr double kFarAside = 0.8;   // [m]
+constexpr double kClearOf = 0.3;    // of who is filtered past [m]
 constexpr double kCrawl = 1.0;      // [m/s]
 constexpr double kPatience = 6.0;   // with somebody on foot who stands in the way [s]
 
@@ -97,6 +100,9 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
   const double speed = scene.speed[row];
   const double aim = scene.lateral_aim[row];
   const bool narrow = is_narrow(type.width);
+  const bool overtakes = scene.overtaking_room[row] > 0.0;
+  // who gives up overtaking falls back behind whoever it was about to pass
+  const bool returns = !narrow && !overtakes && std::abs(own_offset - aim) > kFarAside;
   const double margin = std::min(0.1 + 0.03 * speed, type.width < 1.0 ? 0.15 : 0.3);
 
   const bool taken = narrow && scene.standing_time[row] < kTakenFor &&
@@ -130,7 +136,8 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     const double sides = own_half_width + half_width;
     // a narrow vehicle that means to pass is about to leave whoever is ahead of it now
     const double clearance = std::abs(place.offset - aim) - sides;
-    const bool passes = narrow && aligned && !on_foot && clearance > margin &&
+    const bool may_pass = narrow || (overtakes && is_narrow(2.0 * half_width));
+    const bool passes = may_pass && aligned && !on_foot && clearance > margin &&
                         (place.offset - aim) * (place.offset - own_offset) > 0.0;
     if (passes) {
       const double reach_aside =
@@ -141,9 +148,12 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
                           clearance,
                           std::copysign(1.0, apart) * cross(tangent, forward),
                           std::max(0.0, scene.velocity[other].dot(direction)),
-                          taken};
+                          taken,
+                          narrow ? kClearOf : kOvertakingGap - 0.2,
+                          narrow ? 0.48 : 0.9};
       cap_passing(passing_speed(passed, type), scene.id[other].value, ahead);
-      if (gap > 0.0 && passed.aside() > 0.0) ahead.turning_way = std::min(ahead.turning_way, gap);
+      if (narrow && gap > 0.0 && passed.aside() > 0.0)
+        ahead.turning_way = std::min(ahead.turning_way, gap);
     }
     // two narrow ones make for the same gap: who is behind lets the other in
     if (narrow && aligned && !on_foot && is_narrow(2.0 * half_width) &&
@@ -151,7 +161,8 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
         std::abs(aim_beside(road, scene, other, place.offset) - aim) < sides)
       cap_passing(std::max(0.0, scene.speed[other] + kCloses * (gap - type.min_gap)),
                   scene.id[other].value, ahead);
-    if (std::abs(place.offset - swept) > sides + kept) {
+    const bool comes_back = returns && gap > 0.0 && clearance < kept;
+    if (std::abs(place.offset - swept) > sides + kept && !comes_back) {
       const bool merges =
           scene.merge_to[other] != kNoLane && scene.merge_to[other] == scene.lane[row].lane;
       if (!merges) return;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/overtaking.h"
+
 namespace sumogamma {
 
 namespace {
@@ -91,20 +93,20 @@ double filtering_speed(double clearance) {
 }
 
 double passing_speed(const Passed& passed, const AgentType& type) {
-  constexpr double kAside = 0.48;  // [m/s]
   constexpr double kCloses = 0.5;  // of the way in a second
   constexpr double kThere = 0.05;  // [m]
   constexpr double kLock = 0.55;   // of its tightest turn
   const double past = filtering_speed(passed.meant);
   if (passed.gap <= 0.0)
-    return passed.speed + std::clamp(filtering_speed(passed.now), kAside, std::max(past, kAside));
+    return passed.speed + std::clamp(filtering_speed(passed.now), passed.sideways,
+                                     std::max(past, passed.sideways));
   const double far = std::sqrt(past * past + 2.0 * type.comfortable_deceleration * passed.gap);
   const double aside = passed.aside();
   if (aside < kThere) return passed.speed + far;
   const double curvature = kLock * std::tan(type.max_steering) / type.wheelbase;
   const double spare = std::max(passed.gap - way_aside(aside, passed.turned, curvature), 0.0);
-  const double least = passed.taken ? 0.0 : kAside;
-  const double steady = std::min(kAside * passed.gap / aside, kCloses * spare);
+  const double least = passed.taken ? 0.0 : passed.sideways;
+  const double steady = std::min(passed.sideways * passed.gap / aside, kCloses * spare);
   return passed.speed + std::min(far, std::max(least, steady));
 }
 
@@ -113,8 +115,10 @@ double passing_offset(const Model& model, const Path& path, const Scene& scene,
   const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
   const PathStretch& here = path.stretch_at(around.along);
   const double half = around.half_width;
-  const double most_left = std::max(here.room_left - half - 0.15, 0.0);
-  const double most_right = std::min(half + 0.15 - here.room_right, 0.0);
+  const double over = scene.overtaking_room[row];
+  const double over_left = model.road.left_hand ? 0.0 : over, over_right = over - over_left;
+  const double most_left = std::max(here.room_left + over_left - half - 0.15, 0.0);
+  const double most_right = std::min(half + 0.15 - here.room_right - over_right, 0.0);
   const double liked = std::clamp(scene.path_offset[row], most_right, most_left);
   const bool narrow = is_narrow(2.0 * half);
   const auto hope = [&](double offset, double margin) {
@@ -139,7 +143,7 @@ double passing_offset(const Model& model, const Path& path, const Scene& scene,
   if (!narrow && is_near_junction(path, around)) return liked;
   const double inner_side = model.road.left_hand ? -1.0 : 1.0;
   const double base = most;
-  const double gap_wanted = side_gap(narrow, around.speed);
+  const double gap_wanted = over > 0.0 ? kOvertakingGap : side_gap(narrow, around.speed);
   for (const RoadUser& user : around.users) {
     if ((!user.aligned && !user.on_foot) || user.front < around.along - around.half_length ||
         user.rear > around.along + around.half_length + 10.0 + 3.0 * around.speed)
@@ -152,7 +156,8 @@ double passing_offset(const Model& model, const Path& path, const Scene& scene,
       const double offset =
           narrow ? std::clamp(place_beside(around, user, side), most_right, most_left)
                  : user.offset + side * (user.half_width + half + gap_wanted);
-      if (offset > most_left || offset < most_right || std::abs(offset) > kFarthest) continue;
+      if (offset > most_left || offset < most_right || std::abs(offset) > kFarthest + over)
+        continue;
       const double hoped = hope(offset, narrow ? kLeast : 0.9 * gap_wanted);
       if (hoped > std::max(most, base + (narrow ? kSmallGain : kGain))) {
         best = offset;

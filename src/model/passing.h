@@ -13,20 +13,19 @@ bool is_narrow(double width);
 /// between their sides: 0 where that is too little to go by at all.
 double filtering_speed(double clearance);
 
-/// Somebody whom a narrow vehicle means to pass.
+/// Somebody whom a vehicle means to pass.
 struct Passed {
-  double gap = 0;      ///< way ahead [m], negative beside
-  double now = 0;      ///< clear between the sides as the vehicle is [m]
-  double meant = 0;    ///< likewise where it means to be [m]
-  double turned = 0;   ///< its heading to the side on which it passes, a sine
-  double speed = 0;    ///< of the other [m/s]
-  bool taken = false;  ///< somebody is beside the vehicle where it means to be
+  double gap = 0;          ///< way ahead [m], negative beside
+  double now = 0;          ///< clear between the sides as the vehicle is [m]
+  double meant = 0;        ///< likewise where it means to be [m]
+  double turned = 0;       ///< its heading to the side on which it passes, a sine
+  double speed = 0;        ///< of the other [m/s]
+  bool taken = false;      ///< somebody is beside the vehicle where it means to be
+  double clear = 0.3;      ///< far enough aside [m]
+  double sideways = 0.48;  ///< how fast the vehicle gets aside [m/s]
 
   /// How far the vehicle still has to move over before it is beside [m].
-  double aside() const {
-    constexpr double kClear = 0.3;  // [m]
-    return std::min(meant, kClear) - now;
-  }
+  double aside() const { return std::min(meant, clear) - now; }
 };
 
 /// The most speed at which a narrow vehicle goes by [m/s]. Ways aside are made at a slow walk: so
@@ -35,7 +34,8 @@ double passing_speed(const Passed& passed, const AgentType& type);
 
 /// Where beside its path an agent on wheels should be [m, positive left]: where it likes to be, or
 /// far enough aside to pass somebody slow with a gap, where the room of its own direction allows
-/// it. Wide vehicles pass narrow ones on the inner side; narrow ones pass anybody, on either side,
+/// it, and over the middle of the road where it may overtake there (scene.overtaking_room). Wide
+/// vehicles pass narrow ones on the inner side; narrow ones pass anybody, on either side,
 /// and between two queues in the middle of what is free.
 double passing_offset(const Model& model, const Path& path, const Scene& scene,
                       const Surroundings& around, std::size_t row);

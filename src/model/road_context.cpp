@@ -60,9 +60,12 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
   const PathStretch& target = course.path.stretch_at(ahead);
   const double half_width =
       half_extent(scene, course.row, left_of(direction_of(scene.heading[course.row])));
-  const double offset = std::clamp(scene.lateral_aim[course.row],
-                                   -std::max(target.room_right - half_width - 0.1, 0.0),
-                                   std::max(target.room_left - half_width - 0.1, 0.0));
+  const double over = scene.overtaking_room[course.row];
+  const double over_left = model.road.left_hand ? 0.0 : over, over_right = over - over_left;
+  const double offset =
+      std::clamp(scene.lateral_aim[course.row],
+                 -std::max(target.room_right + over_right - half_width - 0.1, 0.0),
+                 std::max(target.room_left + over_left - half_width - 0.1, 0.0));
   if (course.path.walking) {
     // inside a sharp corner the place beside the path would be where a slow walker is already: it
     // would stay there for ever
@@ -88,7 +91,7 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
   }
   const PathStretch& here = course.path.stretch_at(course.along);
   const double extent = half_extent(scene, course.row, left_of(context.tangent));
-  double left = here.room_left, right = here.room_right;
+  double left = here.room_left + over_left, right = here.room_right + over_right;
   if (!course.path.walking) {
     // differs from the paper: who drives keeps to its lane, not just to its carriageway, but for
     // where it means to pass; whoever is in the way is slowed down for, not swerved around
@@ -98,8 +101,9 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
     // a lane is no wall: at a snail's pace it may be left, so that two who are wedged side by side
     // find a way on
     const double drift = kDrift * course.type.horizon + extent;
-    // narrow vehicles turn out of a lane within a few metres
-    const double beside = half_width + (is_narrow(course.type.width) ? 1.2 : 0.4);
+    // who filters or overtakes turns out of its lane within a few metres
+    const double spare = over > 0.0 ? 2.0 : is_narrow(course.type.width) ? 1.2 : 0.4;
+    const double beside = half_width + spare;
     left = std::min(left, std::max({corridor, beside + offset, course.offset + drift}));
     right = std::min(right, std::max({corridor, beside - offset, drift - course.offset}));
   }

@@ -30,6 +30,7 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.path_offset);
   visit(scene.passing_offset);
   visit(scene.lateral_aim);
+  visit(scene.overtaking_room);
   visit(scene.merge_to);
   visit(scene.gate);
   visit(scene.blocked_time);

@@ -57,9 +57,10 @@ struct Scene {
   std::vector<double> path_along;  ///< of the centre along the path [m]
   std::vector<double>
       path_offset;  ///< where beside its path the agent likes to be, positive left [m]
-  std::vector<double> passing_offset;  ///< where it means to be at present [m]
-  std::vector<double> lateral_aim;     ///< on the way from one to the other [m]
-  std::vector<LaneId> merge_to;        ///< lane into which it has to change soon, kNoLane: none
+  std::vector<double> passing_offset;   ///< where it means to be at present [m]
+  std::vector<double> lateral_aim;      ///< on the way from one to the other [m]
+  std::vector<double> overtaking_room;  ///< over the middle of the road that it may use now [m]
+  std::vector<LaneId> merge_to;         ///< lane into which it has to change soon, kNoLane: none
   std::vector<double> gate;  ///< along its path, where it waits for a gap there; infinite: free
   std::vector<double> blocked_time;  ///< [s] for which it has stood although no rule holds it
   std::vector<double> wedge_left;  ///< [s] for which it still drives as one that was stuck between
