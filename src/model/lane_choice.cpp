@@ -163,9 +163,9 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
 
 /// Is a narrow vehicle on its way past somebody beside its lane? Then it stays on its path.
 bool filters(const Scene& scene, const Surroundings& around, std::size_t row) {
-  constexpr double kAside = 0.3;  // [m]
+  constexpr double kBeside = 0.3;  // [m]
   return is_narrow(2.0 * around.half_width) &&
-         std::abs(scene.passing_offset[row] - scene.path_offset[row]) > kAside;
+         std::abs(scene.passing_offset[row] - scene.path_offset[row]) > kBeside;
 }
 
 /// Moves the place aimed at within the lane, at walking pace, towards where it should be.

@@ -138,7 +138,7 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     const double clearance = std::abs(place.offset - aim) - sides;
     const bool may_pass = narrow || (overtakes && is_narrow(2.0 * half_width));
     const bool passes = may_pass && aligned && !on_foot && clearance > margin &&
-                        (place.offset - aim) * (place.offset - own_offset) > 0.0;
+                        (place.offset - aim) * (place.offset - own_offset) >= 0.0;
     if (passes) {
       const double reach_aside =
           gap < 0.0 ? half_extent(scene, row, left_of(tangent)) : own_half_width;

@@ -1,0 +1,97 @@
+// Narrow vehicles between queues: places, speeds, and who is first.
+#include <gtest/gtest.h>
+
+#include "model/leader.h"
+#include "model/passing.h"
+#include "support/road_scene.h"
+
+namespace sumogamma {
+namespace {
+
+using testing::PlainNet;
+using testing::RoadScene;
+
+TEST(FilteringSpeed, IsTheLessTheCloserTheSidesAre) {
+  EXPECT_EQ(filtering_speed(0.1), 0.0);
+  EXPECT_GT(filtering_speed(0.3), 2.0);
+  EXPECT_LT(filtering_speed(0.3), filtering_speed(0.4));
+}
+
+TEST(PassingSpeed, LeavesTheWayThatTurningOutTakes) {
+  const AgentTypeTable types = default_agent_types();
+  const AgentType& motorcycle = type_of(types, find_agent_type(types, "motorcycle"));
+  // behind a car that stands, 1.5 m to go aside: slower the nearer, and a slow walk in the end
+  Passed passed{20.0, -1.2, 0.35, 0.0, 0.0, false};
+  double before = passing_speed(passed, motorcycle);
+  for (const double gap : {10.0, 5.0, 2.0, 0.5}) {
+    passed.gap = gap;
+    EXPECT_LE(passing_speed(passed, motorcycle), before);
+    before = passing_speed(passed, motorcycle);
+  }
+  EXPECT_GT(before, 0.0);
+  EXPECT_LT(before, 0.5);
+  // nobody creeps up to the car while the place beside it is taken
+  passed.taken = true;
+  EXPECT_EQ(passing_speed(passed, motorcycle), 0.0);
+  // clear of it already: as fast as its sides allow
+  passed.taken = false;
+  passed.now = 0.35;
+  EXPECT_GE(passing_speed(passed, motorcycle), filtering_speed(0.35));
+}
+
+PlainNet two_lanes() {
+  PlainNet net;
+  net.nodes = "<node id='W' x='0' y='0'/><node id='E' x='200' y='0'/>";
+  net.edges = "<edge id='WE' from='W' to='E' numLanes='2' speed='13.89' width='3.5'/>";
+  return net;
+}
+
+// two queues of cars that stand on lanes of 3.5 m; a motorcycle comes behind the right one
+class Filtering : public ::testing::Test {
+ protected:
+  Filtering() {
+    for (const char* lane : {"WE_0", "WE_1"})
+      for (const double along : {80.0, 86.5, 93.0}) here_.add("car", {"WE"}, along, 0, 0, -1, lane);
+    rider_ = here_.add("motorcycle", {"WE"}, 66, 5, 0, -1, "WE_0");
+  }
+  double place() {
+    here_.update();
+    Surroundings around;
+    look_around(here_.model, here_.road, here_.scene, here_.geometry.grid, rider_, 60.0, 8.0,
+                around);
+    return passing_offset(here_.model, here_.path(rider_), here_.scene, around, rider_);
+  }
+  RoadScene here_{testing::read_plain_net(two_lanes())};
+  std::size_t rider_ = 0;
+};
+
+TEST_F(Filtering, AimsAtTheMiddleBetweenTheQueues) { EXPECT_NEAR(place(), 1.75, 1e-6); }
+
+TEST_F(Filtering, FollowsNobodyWhomItMeansToPassAndGetsSlowBeforeThem) {
+  here_.scene.passing_offset[rider_] = here_.scene.lateral_aim[rider_] = place();
+  DrivingAhead ahead;
+  const Leader leader =
+      find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, rider_, 60.0, ahead);
+  EXPECT_EQ(leader.id, -1);
+  EXPECT_GE(ahead.passed, 0);
+  EXPECT_LT(ahead.passing_speed, 6.0);
+}
+
+TEST_F(Filtering, WhoIsAheadOnTheWayIntoTheGapGoesFirst) {
+  const std::size_t other = here_.add("motorcycle", {"WE"}, 31.5, 5, 0, -1, "WE_1");
+  here_.move(rider_, 30, 0.9);
+  here_.move(other, 31.5, -0.9);
+  here_.update();
+  for (const std::size_t row : {rider_, other})
+    here_.scene.lateral_aim[row] = row == rider_ ? 1.75 : -1.75;
+  const auto cap = [&](std::size_t row) {
+    DrivingAhead ahead;
+    find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, row, 60.0, ahead);
+    return std::pair(ahead.passing_speed, ahead.passed);
+  };
+  EXPECT_EQ(cap(rider_).second, static_cast<std::int64_t>(here_.scene.id[other].value));
+  EXPECT_NE(cap(other).second, static_cast<std::int64_t>(here_.scene.id[rider_].value));
+}
+
+}  // namespace
+}  // namespace sumogamma
