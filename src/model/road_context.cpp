@@ -226,6 +226,16 @@ double eased(const Scene& scene, const Course& course, double acceleration, doub
   return std::min(acceleration, std::max(now, kBraked) + kJerk * dt);
 }
 
+/// Stop lines of neighbouring lanes need not be level: who filters between two lanes halts a little
+/// before its own [m].
+double beside_lane(const Model& model, const Course& course) {
+  constexpr double kEarlier = 0.6;  // [m]
+  const Lane& lane = model.road.lane(course.path.stretch_at(course.along).lane);
+  const bool beside = lane.kind == LaneKind::Normal && is_narrow(course.type.width) &&
+                      std::abs(course.offset) + 0.5 * course.type.width > 0.5 * lane.width;
+  return beside ? kEarlier : 0.0;
+}
+
 /// Who has to be aside within `way` aims at a sub-goal no further ahead.
 void aim_sooner(const Scene& scene, const Course& course, double way, RoadContext& context) {
   constexpr double kNearest = 1.2;   // [m]
@@ -264,7 +274,8 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
       limit(std::max(courtesy, -kCourtesy), LimitReason::Leader, ahead.merging.id, binding,
             context);
   }
-  const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed, free_speed};
+  const Traveller traveller{course.row, front + beside_lane(model, course),
+                            2.0 * course.half_length, course.speed, free_speed};
   for (const PathLink& link : course.path.links) {
     if (link.end < course.along - course.half_length) continue;
     if (link.stop_line > front + reach) break;
