@@ -79,8 +79,8 @@ TEST_F(Filtering, FollowsNobodyWhomItMeansToPassAndGetsSlowBeforeThem) {
 
 TEST_F(Filtering, WhoIsAheadOnTheWayIntoTheGapGoesFirst) {
   const std::size_t other = here_.add("motorcycle", {"WE"}, 31.5, 5, 0, -1, "WE_1");
-  here_.move(rider_, 30, 0.9);
-  here_.move(other, 31.5, -0.9);
+  here_.move(rider_, 30, 0.5);
+  here_.move(other, 31.5, -1.75);
   here_.update();
   for (const std::size_t row : {rider_, other})
     here_.scene.lateral_aim[row] = row == rider_ ? 1.75 : -1.75;
