@@ -304,8 +304,8 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
       if (beyond.must_stop) decision = {true, line - kStopMargin, beyond.reason, beyond.foe};
     }
     if (!decision.must_stop) continue;
-    const double gap = decision.stop_at - front + type.min_gap;
-    context.to_halt = std::max(decision.stop_at - front, 0.0);
+    const double gap = decision.stop_at - traveller.front + type.min_gap;
+    context.to_halt = std::max(decision.stop_at - traveller.front, 0.0);
     limit(following_acceleration(type, course.speed, free_speed, gap, 0.0), decision.reason,
           decision.foe, binding, context);
     break;
