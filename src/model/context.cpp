@@ -27,12 +27,20 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
     if (!std::isfinite(room)) return;
     double limit = std::max(room, 0.0) / type.horizon;
     // differs from the paper: a wheeled body that points outward can only come back by rolling on
-    // while it turns, so it may creep along the inmost direction that it can track
+    // while it turns, so it may creep along the inmost direction that it can track, and beyond the
+    // boundary no further out than that
     if (on_wheels) {
-      const double turn = std::abs(
-          heading_of(sumogamma::cross(forward, outward) > 0.0 ? trackable.right : trackable.left));
+      const bool back_is_right = sumogamma::cross(forward, context.tangent) < 0.0;
+      const double turn =
+          0.9 * std::abs(heading_of(back_is_right ? trackable.right : trackable.left));
       const double away = std::asin(std::clamp(forward.dot(outward), -1.0, 1.0));
-      limit = std::max(limit, kCreep * std::sin(std::clamp(away - 0.9 * turn, 0.0, 0.5 * kPi)));
+      if (room < 0.0 && away > turn) {
+        const Vec2 inmost = from_body(direction_of(back_is_right ? -turn : turn), forward);
+        constraints.append({Vec2::Zero(), back_is_right ? Vec2(-left_of(inmost)) : left_of(inmost)},
+                           {ConstraintKind::LaneBoundary, -1});
+        return;
+      }
+      limit = std::max(limit, kCreep * std::sin(std::clamp(away - turn, 0.0, 0.5 * kPi)));
     }
     constraints.append({limit * outward, -outward}, {ConstraintKind::LaneBoundary, -1});
   };

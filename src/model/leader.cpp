@@ -20,6 +20,22 @@ bool waits_at_kerb(const Model& model, const Scene& scene, std::size_t row) {
          type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic;
 }
 
+/// Do two bodies that head the same way, more or less, lie close together?
+bool near_each_other(const Scene& scene, std::size_t row, std::size_t other) {
+  constexpr double kClose = 1.0;  // [m]
+  const double reach = scene.footprint[row].radius + scene.footprint[other].radius + kClose;
+  return (scene.position[other] - scene.position[row]).norm() < reach &&
+         direction_of(scene.heading[other]).dot(direction_of(scene.heading[row])) > 0.0;
+}
+
+/// How far `other` is ahead of `row` [m], seen along the mean of their headings: just as far as
+/// `row` is behind `other`. Along their paths, which may cross, either might be ahead of the other,
+/// and both would wait.
+double lead_over(const Scene& scene, std::size_t row, std::size_t other) {
+  const Vec2 mean = direction_of(scene.heading[row]) + direction_of(scene.heading[other]);
+  return (scene.position[other] - scene.position[row]).dot(mean.normalized());
+}
+
 constexpr double kTakenFor = 10.0;  // is waited for who stands there [s]
 constexpr double kHesitates = 2.0;  // [s]
 constexpr double kCloses = 0.5;     // of the gap in a second
@@ -115,8 +131,9 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     const PolylinePosition place =
         path->line.project(scene.position[other], along - 2.0 * kAbreast, along + reach);
     if (place.distance > own_half_width + scene.footprint[other].radius + margin) return;
-    // of two abreast who lean towards each other just one is ahead
-    const double ahead_by = place.along - along;
+    const double ahead_by =
+        near_each_other(scene, row, other) ? lead_over(scene, row, other) : place.along - along;
+    // of two abreast just one is ahead
     const double abreast =
         narrow && is_narrow(type_of(model.types, scene.type[other]).width) ? kNoseAhead : kAbreast;
     if (ahead_by < (scene.id[other] < scene.id[row] ? -abreast : abreast)) return;

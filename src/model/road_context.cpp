@@ -7,6 +7,7 @@
 #include "model/locate.h"
 #include "model/passing.h"
 #include "model/right_of_way.h"
+#include "model/tracking.h"
 
 namespace sumogamma {
 
@@ -49,6 +50,48 @@ Vec2 bend_of(const Course& course) {
   return to_body(chord / (end - course.along), line.direction_at(course.along));
 }
 
+/// Mean direction of the path between two places.
+Vec2 chord_direction(const Polyline& line, double from, double to) {
+  const Vec2 chord = line.point_at(to) - line.point_at(from);
+  return chord.norm() > 1e-6 ? Vec2(chord.normalized()) : line.direction_at(to);
+}
+
+/// Over which a path's direction is taken: half a second and more, so that the corners of a coarse
+/// line don't ask for a jerk of the wheel [m].
+double bend_window(const Course& course) { return 1.0 + 0.5 * course.speed; }
+
+/// How the path bends at the body [1/m], positive to the left; no more than the body can.
+double curvature_of(const Course& course) {
+  const Polyline& line = course.path.line;
+  const double along = course.along, window = bend_window(course);
+  const Vec2 before = chord_direction(line, along - window, along);
+  const double turn = heading_of(to_body(chord_direction(line, along, along + window), before));
+  const double tightest = std::tan(course.type.max_steering) / course.type.wheelbase;
+  return std::clamp(turn / window, -tightest, tightest);
+}
+
+/// Where to steer so that the body stays beside its path as it is: the path's direction a little
+/// ahead, for the time that steering takes, less what a steady bend turns until there, which would
+/// cut every long bend. Bends that are too tight for the body are begun early all the same.
+Vec2 direction_to_steer(const Course& course, double curvature) {
+  const AgentType& type = course.type;
+  const double to_steer = 0.1 + 0.5 * type.max_steering / type.max_steering_rate;  // [s]
+  const double preview = 0.4 + to_steer * course.speed;
+  const double place = course.along + preview, window = bend_window(course);
+  const Vec2 ahead = chord_direction(course.path.line, place - window, place + window);
+  return from_body(ahead, direction_of(-curvature * (preview - steering_lead(type, course.speed))));
+}
+
+/// How far inwards the middle of a body keeps in a bend towards the kerb [m], positive left: its
+/// ends swing outwards by length^2 / 8 R, so that the way it sweeps lies evenly about the path. In
+/// a bend the other way whoever waits in the road turned into would be in the way of that.
+double lean_of(const Course& course, double curvature, bool keep_left) {
+  constexpr double kMost = 1.0;  // [m]
+  if ((curvature > 0.0) != keep_left) return 0.0;
+  const double length = 2.0 * course.half_length;
+  return std::clamp(curvature * length * length / 16.0, -kMost, kMost);
+}
+
 constexpr double kDrift = 0.15;  // out of one's lane [m/s]
 
 void set_geometry(const Model& model, const Scene& scene, const Course& course,
@@ -62,10 +105,9 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
       half_extent(scene, course.row, left_of(direction_of(scene.heading[course.row])));
   const double over = scene.overtaking_room[course.row];
   const double over_left = model.road.left_hand ? 0.0 : over, over_right = over - over_left;
-  const double offset =
-      std::clamp(scene.lateral_aim[course.row],
-                 -std::max(target.room_right + over_right - half_width - 0.1, 0.0),
-                 std::max(target.room_left + over_left - half_width - 0.1, 0.0));
+  double offset = std::clamp(scene.lateral_aim[course.row],
+                             -std::max(target.room_right + over_right - half_width - 0.1, 0.0),
+                             std::max(target.room_left + over_left - half_width - 0.1, 0.0));
   if (course.path.walking) {
     // inside a sharp corner the place beside the path would be where a slow walker is already: it
     // would stay there for ever
@@ -77,14 +119,10 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
     context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : direction;
   } else {
     // the sub-goal lies ahead in the path's own coordinates: aimed at straight, it would cut every
-    // bend by the look-ahead squared over twice the radius, which is metres for a bus. The
-    // direction is taken a little ahead, for the time that steering takes
-    const double preview = course.along + 0.4 + 0.3 * course.speed;
-    // over half a second and more, so that the corners of a coarse line don't ask for a jerk of the
-    // wheel
-    const double window = 1.0 + 0.5 * course.speed;
-    const Vec2 chord = line.point_at(preview + window) - line.point_at(preview - window);
-    context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : direction;
+    // bend by the look-ahead squared over twice the radius, which is metres for a bus
+    const double curvature = curvature_of(course);
+    offset += lean_of(course, curvature, model.road.left_hand);
+    context.tangent = direction_to_steer(course, curvature);
     context.bend = bend_of(course);
     context.sub_goal = scene.position[course.row] + look_ahead(course) * context.tangent +
                        (offset - course.offset) * left_of(context.tangent);
@@ -176,6 +214,21 @@ std::int64_t blocks_exit(const View& view, DrivingAhead& ahead, const Course& co
   return rest < needed ? (end - 1)->id : -1;
 }
 
+// kept clear at the most, and driven on for so long then. Round a block whose roads are full nobody
+// would ever move on: somebody has to lend the queue the room of the junction [s]
+constexpr double kKeepsClear = 40.0, kGoesOn = 10.0;
+
+/// Counts for how long the agent has kept a junction clear.
+void note_keeping_clear(const Course& course, const RoadContext& context, double dt, Scene& scene) {
+  double& kept = scene.keeps_clear[course.row];
+  if (context.reason == LimitReason::BlockedJunction && course.speed < 0.3) {
+    kept += dt;
+    if (kept > kKeepsClear) kept = kKeepsClear + kGoesOn;
+  } else {
+    kept = kept > kKeepsClear ? kept - dt : 0.0;
+  }
+}
+
 /// Remembers for stop signs that the agent came to a halt before its next link.
 void note_halt(const Course& course, Scene& scene) {
   constexpr double kAtLine = 4.0, kHalt = 0.3;
@@ -218,7 +271,7 @@ LinkDecision decide_beyond(const View& view, const Course& course, const Travell
 /// The throttle goes down at ease where the vehicle drives: a cap on the jerk that following and
 /// avoidance leave, however they take turns. Brakes and the start are not eased.
 double eased(const Scene& scene, const Course& course, double acceleration, double dt) {
-  constexpr double kJerk = 3.0;    // [m/s^3]
+  constexpr double kJerk = 2.8;    // [m/s^3]
   constexpr double kBraked = 0.0;  // the throttle is taken up from here at the least [m/s^2]
   constexpr double kDrives = 8.0;  // [m/s]
   if (course.speed < kDrives) return acceleration;
@@ -293,6 +346,7 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
     // who waits on the junction goes no further, either
     const double entry = std::max(link.stop_line, link.inside);
     if (!decision.must_stop && entry > front - 0.3 &&
+        scene.keeps_clear[course.row] <= kKeepsClear &&
         has_crossing_traffic(model, link.connection)) {
       const std::int64_t blocker = blocks_exit(view, ahead, course, link);
       const LinkDecision beyond =
@@ -445,6 +499,7 @@ void update_road_contexts(const Model& model, const RoadState& road, const Spati
         } else {
           note_halt(course, scene);
           set_allowed_speed(view, course, dt, context);
+          note_keeping_clear(course, context, dt, scene);
         }
       }
       // a row reads other rows' state but never their new context

@@ -56,15 +56,17 @@ Steering within_limits(const AgentType& type, double speed, double lock) {
   return {std::copysign(most, lock), std::copysign(tangent(most), lock)};
 }
 
+/// The centre moves along v where the rear axle's curvature is tan(angle of v) over this [m].
+double steering_reach(const AgentType& type, double speed) {
+  return std::max({type.rear_axle_to_center, kSteeringTime * speed, 0.1 * type.wheelbase});
+}
+
 /// Tangent of the angle that points the centre's velocity along `asked` (body axes), softened at
 /// speed. Beyond a right angle there is nothing better than full lock.
 double asked_lock(const AgentType& type, double speed, const Vec2& asked) {
   if (asked.x() <= 0)
     return asked.y() == 0 ? 0.0 : std::copysign(std::numeric_limits<double>::infinity(), asked.y());
-  // the centre moves along v where the rear axle's curvature is tan(angle) / (rear axle to centre)
-  const double reach =
-      std::max({type.rear_axle_to_center, kSteeringTime * speed, 0.1 * type.wheelbase});
-  return type.wheelbase * asked.y() / (asked.x() * reach);
+  return type.wheelbase * asked.y() / (asked.x() * steering_reach(type, speed));
 }
 
 /// The wheels turn towards the asked angle within angle, rate and grip.
@@ -130,6 +132,10 @@ Advanced advance_body(const AgentType& type, const BodyState& body, const Vec2& 
 BodyState advance_body(const AgentType& type, const BodyState& body, const Vec2& velocity,
                        double dt) {
   return advance_body(type, body, rotation(body.heading), velocity, dt).body;
+}
+
+double steering_lead(const AgentType& type, double speed) {
+  return steering_reach(type, speed) - type.rear_axle_to_center;
 }
 
 BodyState roll_back(const AgentType& type, const BodyState& body, double lock, double speed,

@@ -35,6 +35,9 @@ struct Advanced {
 Advanced advance_body(const AgentType& type, const BodyState& body, const Vec2& forward,
                       const Vec2& velocity, double dt);
 
+/// How far ahead [m] on a circle the direction has to be asked for that keeps a wheeled body on it.
+double steering_lead(const AgentType& type, double speed);
+
 /// One step backwards at `speed` [m/s, >= 0] with the front wheels turned towards `lock` (tangent
 /// of their angle) within angle and rate: on an exact arc of the rear axle, too. For backing out
 /// (see backing) alone; single track only. The forward speed of the result is 0.

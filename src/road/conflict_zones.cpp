@@ -39,7 +39,7 @@ constexpr double kStep = 1.0;
 /// The way that is driven over a link, with corners rounded as a car's path has them, from its stop
 /// line on.
 Polyline driven_way(const RoadNetwork& network, ConnectionId id) {
-  constexpr double kApproach = 12.0, kTurningRadius = 3.8;
+  constexpr double kApproach = 20.0, kTurningRadius = 3.8;
   const Connection& connection = network.connection(id);
   const Polyline inside = link_geometry(network, id);
   if (inside.empty() || network.lane(connection.to).kind == LaneKind::Crossing) return inside;
@@ -56,6 +56,7 @@ Polyline driven_way(const RoadNetwork& network, ConnectionId id) {
   path.line = Polyline(std::move(points));
   path.links.push_back({id, stop_line, end, stop_line});
   round_corners(kTurningRadius, path);
+  move_stop_lines(network, path);
   std::vector<Vec2> driven;
   append_span(path.line, path.links.front().stop_line, path.links.front().end, driven);
   return Polyline(std::move(driven));

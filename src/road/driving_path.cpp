@@ -163,6 +163,7 @@ class Builder {
   Path finish() {
     path_.line = Polyline(std::move(points_));
     round_corners(request_.turning_radius, path_);
+    move_stop_lines(network_, path_);
     path_.arrival = path_.line.length();
     if (path_.stretches.empty()) path_.stretches.push_back({});
     path_.stretches.back().to = path_.arrival;
@@ -186,15 +187,13 @@ class Builder {
     stretch.lane = id;
     stretch.route_index = route_index_;
     stretch.speed_limit = lane.speed_limit;
-    // a junction has no kerb beside each of its lanes, and long bodies swing out
-    const double swing = lane.kind == LaneKind::Internal ? 1.5 : 0.0;
     const double inner =
-        0.5 * lane.width + swing + side_width(network_, lane, request_.vehicle_class, true);
+        0.5 * lane.width + side_width(network_, lane, request_.vehicle_class, true);
     const double outer =
-        0.5 * lane.width + swing + side_width(network_, lane, request_.vehicle_class, false);
+        0.5 * lane.width + side_width(network_, lane, request_.vehicle_class, false);
     // lanes count from the kerb, so the inner side is the left one unless traffic keeps left
-    stretch.room_left = network_.left_hand ? outer : inner;
-    stretch.room_right = network_.left_hand ? inner : outer;
+    stretch.room_left = (network_.left_hand ? outer : inner) + lane.beside_left;
+    stretch.room_right = (network_.left_hand ? inner : outer) + lane.beside_right;
     return stretch;
   }
 

@@ -60,6 +60,41 @@ std::vector<double> filter_widths(const std::vector<Vec2>& samples, double step,
     widths[i] = std::max(widths[i], widths[i + 1] - kRamp * step);
   return widths;
 }
+/// Draws the line straight where it turns back on itself and on again, as between the ends of lanes
+/// that overlap: nobody drives to the tip and back. What turns round for good stays.
+void straighten_folds(double step, std::vector<Vec2>& samples) {
+  constexpr double kReversal = -0.35;  // cosine of a turn within kNear
+  constexpr double kNear = 1.0;        // [m]
+  constexpr double kFarthest = 14.0;   // [m]
+  constexpr double kAligned = 0.5;     // cosine between the new piece and its ends
+  const auto near = static_cast<std::size_t>(std::max(1.0, kNear / step));
+  const auto farthest = static_cast<std::size_t>(kFarthest / step);
+  const auto cosine = [](const Vec2& a, const Vec2& b) {
+    return a.dot(b) / std::max(a.norm() * b.norm(), 1e-9);
+  };
+  const auto into = [&](std::size_t i) { return Vec2(samples[i] - samples[i - near]); };
+  const auto out_of = [&](std::size_t i) { return Vec2(samples[i + near] - samples[i]); };
+  for (std::size_t tip = 2 * near; tip + 2 * near < samples.size(); ++tip) {
+    if (cosine(into(tip), out_of(tip)) > kReversal) continue;
+    // the shortest piece that leaves the line and joins it again at ease
+    const std::size_t before = std::min(farthest, tip - near);
+    const std::size_t after = std::min(farthest, samples.size() - 1 - near - tip);
+    for (std::size_t span = 2 * near, found = 0; found == 0 && span <= before + after; ++span)
+      for (std::size_t back = span > after ? span - after : 1; back <= std::min(before, span - 1);
+           ++back) {
+        const std::size_t from = tip - back, to = from + span;
+        const Vec2 piece = samples[to] - samples[from];
+        if (cosine(into(from), piece) < kAligned || cosine(piece, out_of(to)) < kAligned) continue;
+        const Vec2 begin = samples[from];
+        for (std::size_t k = 1; k < span; ++k)
+          samples[from + k] = begin + static_cast<double>(k) / static_cast<double>(span) * piece;
+        tip = to;
+        found = span;
+        break;
+      }
+  }
+}
+
 /// Leaves out vertices that lie within a centimetre of the chord over them: whoever looks along the
 /// line has fewer pieces to look at.
 std::vector<Vec2> without_flat_vertices(const std::vector<Vec2>& points) {
@@ -92,6 +127,7 @@ void round_corners(double turning_radius, Path& path) {
   for (std::size_t i = 0; i <= count; ++i)
     samples[i] = path.line.point_at(static_cast<double>(i) * step);
 
+  straighten_folds(step, samples);
   // only where the line bends tighter than the body can: every other bend is driven as it lies
   const std::vector<double> widths = filter_widths(samples, step, turning_radius);
   std::vector<Vec2> sums(count + 2, Vec2::Zero());
@@ -110,6 +146,23 @@ void round_corners(double turning_radius, Path& path) {
     place = along[i] + (index - static_cast<double>(i)) * (along[i + 1] - along[i]);
   });
   path.line = Polyline(without_flat_vertices(rounded));
+}
+
+void move_stop_lines(const RoadNetwork& network, Path& path) {
+  constexpr double kMost = 6.0, kStep = 0.25;  // [m]
+  for (PathLink& link : path.links) {
+    const Polyline& lane = network.lane(network.connection(link.connection).from).centerline;
+    const Vec2 end = lane.points().back(), forward = lane.direction_at(lane.length());
+    const auto passed = [&](double along) {
+      return to_body(path.line.point_at(along) - end, forward).x() > 0.05;
+    };
+    double moved = link.stop_line;
+    const double least = std::max(link.stop_line - kMost, 0.0);
+    while (moved > least && passed(moved)) moved -= kStep;
+    moved = std::max(moved, least);
+    link.halt = std::max(link.halt - (link.stop_line - moved), 0.0);
+    link.stop_line = moved;
+  }
 }
 
 void append_span(const Polyline& line, double from, double to, std::vector<Vec2>& points) {
@@ -141,8 +194,10 @@ double Path::profile_at(double along) const {
   const double place = std::max(along, 0.0) / kProfileStep;
   const auto index = static_cast<std::size_t>(place);
   if (index + 1 >= speed_profile.size()) return speed_profile.back();
+  // squares, so that braking from one place to the next is steady
   const double t = place - static_cast<double>(index);
-  return (1.0 - t) * speed_profile[index] + t * speed_profile[index + 1];
+  const double here = speed_profile[index], next = speed_profile[index + 1];
+  return std::sqrt((1.0 - t) * here * here + t * next * next);
 }
 
 }  // namespace sumogamma

@@ -14,6 +14,10 @@ void compute_speed_profile(const PathRequest& request, Path& path);
 /// overshooting it. Places along the path are carried over.
 void round_corners(double turning_radius, Path& path);
 
+/// Moves the stop lines of a path with rounded corners back to where it passes the ends of the
+/// lanes: it may pass them earlier than their own middles do.
+void move_stop_lines(const RoadNetwork& network, Path& path);
+
 /// Calls carry(along) for every place on a path that moves with its line: ends of stretches, links,
 /// halts.
 template <typename Carry>

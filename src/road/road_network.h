@@ -58,8 +58,10 @@ struct Lane {
   std::vector<double>
       elevation;  ///< by vertex of the centerline [m]; empty: 0 everywhere. Keeps bridges apart
   std::vector<Vec2> outline;  ///< polygon of a walking area or crossing as in the file, else empty
-  LaneId inner = kNoLane;  ///< neighbour with the next higher index on the same edge (towards the
-                           ///< road's middle)
+  double beside_left = 0,
+         beside_right = 0;  ///< free of people's ways beside a lane on a junction [m]
+  LaneId inner = kNoLane;   ///< neighbour with the next higher index on the same edge (towards the
+                            ///< road's middle)
   LaneId outer =
       kNoLane;  ///< neighbour with the next lower index on the same edge (towards the kerb)
   LaneId opposite = kNoLane;  ///< nearest lane of the opposite direction, where the network says so

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "road/junction_room.h"
 #include "road/stop_lines.h"
 
 namespace sumogamma {
@@ -473,6 +474,7 @@ RoadNetwork read_sumo_net(const std::filesystem::path& file) {
   const pugi::xml_node root = load_root(file, document, {"net"});
   RoadNetwork network = NetBuilder(file, root).build();
   set_back_stop_lines(network);
+  set_junction_rooms(network);
   return network;
 }
 

@@ -37,6 +37,7 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.wedge_left);
   visit(scene.backing_left);
   visit(scene.gives_way_left);
+  visit(scene.keeps_clear);
   visit(scene.standing_time);
   visit(scene.halted_for);
   visit(scene.halted_at);

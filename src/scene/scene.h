@@ -67,6 +67,8 @@ struct Scene {
                                    ///< bodies
   std::vector<double> backing_left;      ///< [s] for which it still backs out
   std::vector<double> gives_way_left;    ///< [s] for which it lets others go first after that
+  std::vector<double> keeps_clear;       ///< [s] for which it has stood before a junction because
+                                         ///< there is no room behind it
   std::vector<double> standing_time;     ///< [s] since it was last faster than 0.3 m/s
   std::vector<ConnectionId> halted_for;  ///< link before which it last came to a halt
   std::vector<double> halted_at;         ///< when it did [s]

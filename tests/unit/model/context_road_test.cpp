@@ -2,6 +2,7 @@
 
 #include "model/context.h"
 #include "model/preferred_velocity.h"
+#include "model/tracking.h"
 #include "support/road_scene.h"
 #include "support/small_net.h"
 
@@ -58,6 +59,31 @@ TEST_F(ContextTest, BeyondTheBoundaryOnlyBackOrAlong) {
   EXPECT_FALSE(admits(own, {1.0, 0.1}));
 }
 
+// A car across the road, its front over the left boundary: it comes back by turning towards its
+// way, the short way round, however far it points beyond.
+TEST_F(ContextTest, WhoPointsOutwardComesBackTheShortWay) {
+  for (const double heading : {0.9, 1.5, 1.7, 2.2}) {
+    RoadScene here{testing::small_net()};
+    const std::size_t own = here.add("car", {"in", "out"}, 40, 0.5);
+    here.move(own, 40, 3.0);
+    here.scene.heading[own] = heading;
+    here.scene.velocity[own] = 0.5 * direction_of(heading);
+    here.update();
+    ConstraintSet set;
+    append_contextual_constraints(here.model, here.scene, own, set);
+    const auto admitted = [&](double turn) {
+      const Vec2 velocity = 0.4 * direction_of(heading + turn);
+      for (std::size_t k = 0; k < set.planes.size(); ++k)
+        if (set.sources[k].kind == ConstraintKind::LaneBoundary &&
+            slack(set.planes[k], velocity) < -1e-9)
+          return false;
+      return true;
+    };
+    EXPECT_TRUE(admitted(-0.45)) << heading;
+    EXPECT_FALSE(admitted(0.3)) << heading;
+  }
+}
+
 TEST_F(ContextTest, WheelsNeverGoAgainstTheirDirection) {
   const std::size_t own = here_.add("car", {"in", "out"}, 40, 5);
   here_.update();
@@ -104,6 +130,35 @@ TEST_F(ContextTest, ThePlaceThatAnAgentLikesBesideItsPathIsKeptOnTheRoad) {
   here_.update();
   // lane of 3.2 m, body of 0.65 m
   EXPECT_NEAR(here_.context(own).sub_goal.y(), -(1.6 - 0.325 - 0.1), 1e-9);
+}
+
+// On a circle everybody steers so as to stay on it, and long bodies keep inside where the kerb is.
+TEST_F(ContextTest, ASteadyBendIsNotCut) {
+  constexpr double kRadius = 15.0;
+  std::vector<Vec2> points;
+  for (int degrees = 0; degrees <= 180; degrees += 2)
+    points.push_back(kRadius * Vec2(std::cos(radians(degrees)), std::sin(radians(degrees))));
+  for (const char* name : {"car", "bus"}) {
+    Path path;
+    path.line = Polyline(points);
+    PathStretch stretch;
+    stretch.lane = here_.model.road.lane_by_name.at("in_1");
+    stretch.to = path.line.length();
+    stretch.speed_limit = 6;
+    stretch.room_left = stretch.room_right = 3;
+    path.stretches = {stretch};
+    path.speed_profile.assign(26, 5.0);
+    const AgentTypeId id = find_agent_type(here_.model.types, name);
+    const std::size_t own =
+        here_.add(id, std::make_shared<const Path>(std::move(path)), 0.5 * kPi * kRadius, 5.0);
+    here_.update();
+    const AgentType& type = type_of(here_.model.types, id);
+    // asked for its present speed along the tangent, the body keeps to the circle
+    const double needed = steering_lead(type, 5.0) / kRadius;
+    const double asked = heading_of(here_.context(own).tangent) -
+                         heading_of(here_.path(own).line.direction_at(0.5 * kPi * kRadius));
+    EXPECT_NEAR(wrap_angle(asked), needed, 0.03) << name;
+  }
 }
 
 // (0,0) --------> (10,0)

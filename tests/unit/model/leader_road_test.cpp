@@ -78,6 +78,26 @@ TEST_F(LeaderTest, OfTwoAbreastWhoPressTogetherOneIsAhead) {
   EXPECT_FALSE(a_follows && b_follows);
 }
 
+// Two who change into each other's lane: each has its middle ahead along its own crossing way.
+TEST_F(LeaderTest, OfTwoWhoseWaysCrossOneIsAhead) {
+  for (const double ahead : {-1.9, -0.8, 0.0, 0.8, 1.9}) {
+    RoadScene here{testing::small_net()};
+    const std::size_t a = here.add("van", {"in", "out"}, 50, 5);
+    const std::size_t b = here.add("van", {"in", "out"}, 50, 5);
+    here.move(a, 50, 1.2);
+    here.move(b, 50 + ahead, -1.2);
+    here.scene.heading[a] -= 0.45;
+    here.scene.heading[b] += 0.45;
+    here.update();
+    const auto follows = [&](std::size_t row, std::size_t other) {
+      DrivingAhead list;
+      return find_leader(here.model, here.road, here.scene, here.geometry.grid, row, 100, list)
+                 .id == static_cast<std::int64_t>(here.scene.id[other].value);
+    };
+    EXPECT_FALSE(follows(a, b) && follows(b, a)) << ahead;
+  }
+}
+
 TEST_F(LeaderTest, PeopleOnFootCountOnceNear) {
   const std::size_t own = here_.add("car", {"in", "out"}, 20, 5);
   const std::size_t walker = here_.add("pedestrian", {"in"}, 30, 1);

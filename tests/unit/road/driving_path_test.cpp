@@ -269,6 +269,60 @@ TEST(RoundCorners, TurnsARightAngleAboutTheRadiusAskedFor) {
   EXPECT_LT(radius, 5.0);
 }
 
+// Lanes that overlap at a junction: the link between them leads back before it leads on.
+//   (0,0) ----------------------> (30,0)
+//              (22,0.5) <-------- '
+//              '----------------------------> (60,0.5)
+TEST(RoundCorners, DrawsFoldsStraightAndCarriesPlacesOver) {
+  Path path;
+  path.line = Polyline({{0, 0}, {30, 0}, {22, 0.5}, {60, 0.5}});
+  path.stretches.push_back({});
+  path.stretches.back().to = path.line.length();
+  path.links.push_back({kNoConnection, 30.0, 38.0, 30.0, 30.0});
+  round_corners(4.0, path);
+  for (double s = 0.5; s < path.line.length(); s += 0.5)
+    EXPECT_GT(path.line.direction_at(s).x(), 0.5) << "at " << s;
+  EXPECT_LT(path.line.length(), 61.0);
+  EXPECT_LT(path.links.front().stop_line, path.links.front().end);
+  EXPECT_EQ(path.line.points().back(), Vec2(60, 0.5));
+}
+
+TEST(RoundCorners, WhoTurnsRoundStillTurnsRound) {
+  Path path;
+  path.line = Polyline({{0, 0}, {30, 0}, {30, 3}, {0, 3}});
+  path.stretches.push_back({});
+  path.stretches.back().to = path.line.length();
+  round_corners(4.0, path);
+  EXPECT_EQ(path.line.points().back(), Vec2(0, 3));
+  EXPECT_LT(path.line.direction_at(path.line.length() - 5).x(), -0.9);
+  EXPECT_NEAR(path.line.point_at(0.5 * path.line.length()).x(), 28.0, 2.0);
+}
+
+TEST(SpeedProfile, BrakesSteadilyBetweenItsPlaces) {
+  Path path;
+  path.line = Polyline({{0, 0}, {4, 0}});
+  path.speed_profile = {6.0, 5.0, 4.0};
+  // v^2 is linear along the way where the deceleration is steady
+  EXPECT_NEAR(path.profile_at(1.0), std::sqrt(0.5 * (36.0 + 25.0)), 1e-12);
+  EXPECT_NEAR(path.profile_at(2.0), 5.0, 1e-12);
+}
+
+// A path whose rounded corner passes the end of its lane before its own stop line does.
+TEST_F(Crossroads, StopLinesLieWhereThePathPassesTheEndOfItsLane) {
+  const std::vector<EdgeId> route = route_of(right(), {"WC", "CS"});
+  PathRequest request = request_of(route);
+  request.turning_radius = 6.0;
+  std::string why;
+  const auto path = build_driving_path(right(), request, why);
+  ASSERT_TRUE(path) << why;
+  const PathLink& link = path->links.front();
+  const Polyline& lane = right().lane(right().connection(link.connection).from).centerline;
+  const Vec2 forward = lane.direction_at(lane.length());
+  const Vec2 place = path->line.point_at(link.stop_line);
+  EXPECT_LE((place - lane.points().back()).dot(forward), 0.05 + 1e-9);
+  EXPECT_GT((place - lane.points().back()).dot(forward), -1.5);
+}
+
 TEST(RoundCorners, LeavesShortAndStraightLinesAlone) {
   Path straight;
   straight.line = Polyline({{0, 0}, {30, 0}});

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "road/road_network.h"
+
+namespace sumogamma {
+
+/// Sets Lane::beside_left and Lane::beside_right of every lane on a junction that vehicles drive: a
+/// junction has no kerb beside each of its lanes, and long bodies swing out, but not on to where
+/// people walk.
+void set_junction_rooms(RoadNetwork& network);
+
+}  // namespace sumogamma
