@@ -204,6 +204,23 @@ TEST_F(PriorityTest, NobodyEntersAJunctionWithoutRoomBehindIt) {
   EXPECT_EQ(here_.context(own).foe, here_.scene.id[queue].value);
 }
 
+// Round a block whose roads are all full somebody has to lend the queue the room of a junction.
+TEST_F(PriorityTest, WhoHasKeptAJunctionClearForLongGoesOnForAWhile) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  const double end = here_.path(own).links.front().end;
+  here_.move(own, here_.path(own).links.front().stop_line - 2.25 - 0.6);
+  const std::size_t queue = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  here_.move(queue, end + 2.25 + 1.0);
+  double blocked = 0, went_on = 0;
+  constexpr double kStep = 0.5;
+  for (double time = 0; time < 60; time += kStep) {
+    here_.update(1, kStep);
+    (here_.context(own).reason == LimitReason::BlockedJunction ? blocked : went_on) += kStep;
+  }
+  EXPECT_NEAR(went_on, 10.0, 1.5);
+  EXPECT_GT(blocked, 40.0);
+}
+
 TEST_F(PriorityTest, NobodyWaitsForWhoIsHeldByBodiesAlone) {
   const std::size_t minor = here_.add("car", {"SC", "CN"}, 0, 0);
   here_.move(minor, here_.path(minor).links.front().stop_line - 2.25 - 0.6);

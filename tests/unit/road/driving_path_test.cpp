@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "road/lane_locator.h"
 #include "road/path.h"
 #include "road/path_profile.h"
 #include "support/plain_net.h"
@@ -196,6 +197,42 @@ TEST_F(Crossroads, RoomEndsWhereTheClassMayNotGo) {
   const Path inner = path_along(right(), {"WC", "CE"}, "WC_2");
   EXPECT_NEAR(inner.stretches.front().room_right, 1.5 * width, 1e-9);
   EXPECT_NEAR(inner.stretches.front().room_left, 0.5 * width, 1e-9);
+}
+
+TEST_F(Crossroads, RoomOnAJunctionEndsWherePeopleWalk) {
+  const LaneLocator locator(right());
+  std::vector<LaneHit> hits;
+  int narrowed = 0, widened = 0;
+  for (const Lane& lane : right().lanes) {
+    if (lane.kind != LaneKind::Internal) continue;
+    for (const double side : {1.0, -1.0}) {
+      const double beside = side > 0 ? lane.beside_left : lane.beside_right;
+      ASSERT_GE(beside, 0.0);
+      ASSERT_LE(beside, 1.5);
+      (beside < 1.5 ? narrowed : widened) += 1;
+      for (double along = 0; along <= lane.centerline.length(); along += 2.0) {
+        const Vec2 edge =
+            lane.centerline.point_at(along) +
+            side * (0.5 * lane.width + beside) * left_of(lane.centerline.direction_at(along));
+        locator.find_containing(edge, hits);
+        const bool walkway = !hits.empty() && std::all_of(hits.begin(), hits.end(), [](auto& hit) {
+          return right().lane(hit.lane).kind == LaneKind::WalkingArea;
+        });
+        EXPECT_TRUE(beside == 0.0 || !walkway) << lane.name << " at " << along;
+      }
+    }
+  }
+  EXPECT_GT(narrowed, 0);
+  EXPECT_GT(widened, 0);
+}
+
+// Who waits at the mouth of a narrow road halts where a bus that turns into it leaves room.
+TEST_F(Crossroads, StopLinesLeaveRoomForABusThatTurns) {
+  double farthest = 0.0;
+  for (const Connection& connection : right().connections)
+    farthest = std::max(farthest, connection.setback);
+  EXPECT_GT(farthest, 2.0);
+  EXPECT_LE(farthest, 10.0);
 }
 
 TEST_F(Crossroads, RoomIsMirroredWhereTrafficKeepsLeft) {
