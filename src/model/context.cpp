@@ -3,11 +3,13 @@
 #include <algorithm>
 
 #include "base/units.h"
+#include "model/stopping_guard.h"
 
 namespace sumogamma {
 
 namespace {
-constexpr double kCreep = 1.0;  // [m/s]
+constexpr double kCreep = 1.0;        // [m/s]
+constexpr double kRoundOthers = 4.0;  // beyond the boundary [m]
 }  // namespace
 
 void append_contextual_constraints(const Model& model, const Scene& scene, std::size_t row,
@@ -34,7 +36,9 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
       const double turn =
           0.9 * std::abs(heading_of(back_is_right ? trackable.right : trackable.left));
       const double away = std::asin(std::clamp(forward.dot(outward), -1.0, 1.0));
-      if (room < 0.0 && away > turn) {
+      // who is wedged may find its way round whoever it is wedged against
+      const double farthest = is_wedged(scene, row) ? -kRoundOthers : 0.0;
+      if (room < farthest && away > turn) {
         const Vec2 inmost = from_body(direction_of(back_is_right ? -turn : turn), forward);
         constraints.append({Vec2::Zero(), back_is_right ? Vec2(-left_of(inmost)) : left_of(inmost)},
                            {ConstraintKind::LaneBoundary, -1});

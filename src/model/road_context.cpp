@@ -225,7 +225,7 @@ void note_keeping_clear(const Course& course, const RoadContext& context, double
     kept += dt;
     if (kept > kKeepsClear) kept = kKeepsClear + kGoesOn;
   } else {
-    kept = kept > kKeepsClear ? kept - dt : 0.0;
+    kept = kept - dt > kKeepsClear ? kept - dt : 0.0;
   }
 }
 

@@ -170,13 +170,28 @@ void RuleMonitor::judge_stop_line(const Row& agent, State& state, const Vec2& fr
                            meets ? &agent.counts : nullptr});
       continue;
     }
+    // who drives between two lanes goes by the light of either
+    LaneId passed = hit.lane;
+    std::size_t its_links = links;
+    if (red_links_.size() == links) {
+      const double over = std::abs(now.y()) + 0.5 * agent.type.width - 0.5 * lane.width;
+      const LaneId beside = (now.y() > 0) != network_.left_hand ? lane.inner : lane.outer;
+      if (over > 0 && beside != kNoLane) {
+        const std::size_t others = find_red_links(network_.lane(beside), road, beside_red_);
+        if (beside_red_.size() < others) {
+          passed = beside;
+          its_links = others;
+          red_links_ = beside_red_;
+        }
+      }
+    }
     state.was_red = red_links_;
     ++agent.counts.signal_crossings;
-    if (!state.was_red.empty() && state.was_red.size() == links)
+    if (!state.was_red.empty() && state.was_red.size() == its_links)
       record_red(agent, state, front, state.was_red.front());
     state.red_met = kNoEdge;
-    if (state.was_red.empty() || state.was_red.size() == links) return;
-    state.passed = hit.lane;
+    if (state.was_red.empty() || state.was_red.size() == its_links) return;
+    state.passed = passed;
     state.passed_at = agent.scene.time;
     state.passed_place = front;
     return;

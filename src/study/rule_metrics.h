@@ -140,7 +140,7 @@ class RuleMonitor {
   std::vector<RedLightEvent> new_events_;
   std::vector<OffenceSpan> offences_;
   std::vector<LaneHit> hits_, front_hits_;
-  std::vector<ConnectionId> red_links_;
+  std::vector<ConnectionId> red_links_, beside_red_;
   /// A front near the end of a lane with signals, in that end's coordinates.
   struct AtLine {
     LaneId lane = kNoLane;

@@ -226,13 +226,20 @@ TEST_F(Crossroads, RoomOnAJunctionEndsWherePeopleWalk) {
   EXPECT_GT(widened, 0);
 }
 
-// Who waits at the mouth of a narrow road halts where a bus that turns into it leaves room.
-TEST_F(Crossroads, StopLinesLeaveRoomForABusThatTurns) {
-  double farthest = 0.0;
-  for (const Connection& connection : right().connections)
-    farthest = std::max(farthest, connection.setback);
-  EXPECT_GT(farthest, 2.0);
-  EXPECT_LE(farthest, 10.0);
+// Who waits at the mouth of a road halts where a bus that turns into it leaves room.
+TEST(StopLines, LeaveRoomForABusThatTurns) {
+  const auto farthest = [](const std::string& allowed) {
+    std::vector<std::string> options = kSidewalks;
+    options.insert(options.end(), {"--default.junctions.radius", "7"});
+    if (!allowed.empty()) options.insert(options.end(), {"--default.disallow", allowed});
+    const RoadNetwork network = read_plain_net(crossroads("priority", options));
+    double most = 0.0;
+    for (const Connection& connection : network.connections)
+      most = std::max(most, connection.setback);
+    return most;
+  };
+  EXPECT_GT(farthest(""), farthest("bus"));
+  EXPECT_LE(farthest(""), 10.0);
 }
 
 TEST_F(Crossroads, RoomIsMirroredWhereTrafficKeepsLeft) {

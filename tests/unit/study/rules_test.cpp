@@ -2,6 +2,7 @@
 
 #include "base/units.h"
 #include "study/rule_metrics.h"
+#include "support/plain_net.h"
 #include "support/small_net.h"
 
 namespace sumogamma {
@@ -66,6 +67,45 @@ TEST_F(Rules, AmberIsNoOffence) {
   add("car", {70, 0}, {10, 0});
   run(5);
   EXPECT_EQ(counts().red_light_crossings, 0u);
+}
+
+// A motorcycle between two lanes, of which one has red and the other green, and a car amid the one
+// with red.
+TEST(RulesBetweenLanes, WhoDrivesBetweenTwoLanesGoesByTheLightOfEither) {
+  const RoadNetwork net = testing::read_plain_net(testing::crossroads("traffic_light"));
+  const LaneLocator locator(net);
+  const AgentTypeTable types = default_agent_types();
+  RoadState road;
+  road.signal_states.assign(net.signals.size(), std::string(32, 'G'));
+  const Edge& edge = net.edge(net.edge_by_name.at("WC"));
+  const Lane& outer = net.lane(edge.lanes[0]);
+  for (const ConnectionId id : outer.outgoing) {
+    const Connection& connection = net.connection(id);
+    road.signal_states[index_of(connection.signal)]
+                      [static_cast<std::size_t>(connection.signal_link)] = 'r';
+  }
+  const auto red_lights = [&](const char* type, double offset) {
+    RuleMonitor monitor(kStep, net, locator);
+    AgentState agent;
+    agent.type = find_agent_type(types, type);
+    const AgentType& row = type_of(types, agent.type);
+    agent.footprint = box_footprint(row.length, row.width);
+    const double length = outer.centerline.length();
+    agent.position = outer.centerline.point_at(length - 15) +
+                     offset * left_of(outer.centerline.direction_at(length));
+    agent.speed = 10;
+    Scene scene;
+    append_agent(scene, agent);
+    for (int tick = 0; tick < 40; ++tick) {
+      scene.time += kStep;
+      scene.position[0] += kStep * scene.velocity[0];
+      monitor.add(scene, types, road);
+    }
+    return monitor.result(types).all.red_light_crossings;
+  };
+  EXPECT_EQ(red_lights("car", 0.0), 1u);
+  EXPECT_EQ(red_lights("motorcycle", 0.0), 1u);
+  EXPECT_EQ(red_lights("motorcycle", 0.5 * outer.width - 0.1), 0u);
 }
 
 TEST_F(Rules, StoppingBeforeTheLineIsNoOffence) {
