@@ -28,12 +28,14 @@ bool near_each_other(const Scene& scene, std::size_t row, std::size_t other) {
          direction_of(scene.heading[other]).dot(direction_of(scene.heading[row])) > 0.0;
 }
 
-/// How far `other` is ahead of `row` [m], seen along the mean of their headings: just as far as
-/// `row` is behind `other`. Along their paths, which may cross, either might be ahead of the other,
-/// and both would wait.
-double lead_over(const Scene& scene, std::size_t row, std::size_t other) {
-  const Vec2 mean = direction_of(scene.heading[row]) + direction_of(scene.heading[other]);
-  return (scene.position[other] - scene.position[row]).dot(mean.normalized());
+/// How far the nose of `other` is ahead of the one of `row` [m], seen along the mean of their
+/// headings: just as far as the one of `row` is behind the other. Along their paths, which may
+/// cross, either might be ahead of the other, and both would wait.
+double nose_lead(const Scene& scene, std::size_t row, std::size_t other) {
+  const Vec2 mean =
+      (direction_of(scene.heading[row]) + direction_of(scene.heading[other])).normalized();
+  return (scene.position[other] - scene.position[row]).dot(mean) + half_extent(scene, other, mean) -
+         half_extent(scene, row, mean);
 }
 
 constexpr double kTakenFor = 10.0;  // is waited for who stands there [s]
@@ -131,11 +133,12 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     const PolylinePosition place =
         path->line.project(scene.position[other], along - 2.0 * kAbreast, along + reach);
     if (place.distance > own_half_width + scene.footprint[other].radius + margin) return;
-    const double ahead_by =
-        near_each_other(scene, row, other) ? lead_over(scene, row, other) : place.along - along;
-    // of two abreast just one is ahead
+    // of two abreast just one is ahead: close together the one with its nose ahead
+    const bool close = near_each_other(scene, row, other);
+    const double ahead_by = close ? nose_lead(scene, row, other) : place.along - along;
     const double abreast =
-        narrow && is_narrow(type_of(model.types, scene.type[other]).width) ? kNoseAhead : kAbreast;
+        close || (narrow && is_narrow(type_of(model.types, scene.type[other]).width)) ? kNoseAhead
+                                                                                      : kAbreast;
     if (ahead_by < (scene.id[other] < scene.id[row] ? -abreast : abreast)) return;
     const Vec2 direction = path->line.direction_at(place.along);
     const double half_width = half_extent(scene, other, left_of(direction));

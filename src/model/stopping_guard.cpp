@@ -23,6 +23,8 @@ constexpr double kStill = 0.01;
 constexpr double kShuffle = 0.28;  // [m/s]
 // rounding: neither an overlap nor a smaller gap [m]
 constexpr double kSame = 1e-6;
+// on a road nobody comes closer than this: halving what is left, bodies touch in the end [m]
+constexpr double kLeastGap = 0.01;
 // bodies that overlap on a road may do so deeper by this a look [m]
 constexpr double kHair = 2e-3;
 // but no deeper than this [m]
@@ -203,7 +205,8 @@ bool StoppingGuard::clear_at(Foe& foe, std::size_t instant, const Pose& pose) co
   if (foe.overlaps) return gap >= room.gap - kHair && gap > -kDeepest;
   // closer than the margin already: half of what is left may be used, so that bodies side by side
   // can turn apart
-  if (gap < std::min(model_->options.guard_margin, 0.5 * room.gap)) return false;
+  const double least = in_lane() ? kLeastGap : 0.0;
+  if (gap < std::max(least, std::min(model_->options.guard_margin, 0.5 * room.gap))) return false;
   return !own.is_box || reach_along(box_at(pose, own), room.axis) <= room.middle;
 }
 
