@@ -20,6 +20,24 @@ bool for_vehicles(const Lane& lane) {
          (lane.allowed & kRoadVehicle);
 }
 
+/// Can somebody on `own` be about to leave `lane` by one of its links, or have just done so? Lanes
+/// lie over one another on junctions and before them: who is on another way only drives over its
+/// end.
+bool leads_over(const RoadNetwork& network, LaneId own, const Lane& lane) {
+  if (own == kNoLane || network.lane(own).edge == lane.edge) return true;
+  const EdgeId edge = network.lane(own).edge;
+  const auto& ahead = network.lane(own).outgoing;
+  return std::any_of(ahead.begin(), ahead.end(),
+                     [&](ConnectionId id) {
+                       return network.lane(network.connection(id).to).edge == lane.edge;
+                     }) ||
+         std::any_of(lane.outgoing.begin(), lane.outgoing.end(), [&](ConnectionId id) {
+           const Connection& link = network.connection(id);
+           return network.lane(link.to).edge == edge ||
+                  (link.via != kNoLane && network.lane(link.via).edge == edge);
+         });
+}
+
 double front_reach(const Footprint& footprint) {
   double reach = 0;
   for (const Vec2& vertex : footprint.outline()) reach = std::max(reach, vertex.x());
@@ -156,6 +174,7 @@ void RuleMonitor::judge_stop_line(const Row& agent, State& state, const Vec2& fr
   for (const LaneHit& hit : front_hits_) {
     const Lane& lane = network_.lane(hit.lane);
     if (lane.kind != LaneKind::Normal || !for_vehicles(lane)) continue;
+    if (!leads_over(network_, agent.scene.lane[agent.row].lane, lane)) continue;
     const Vec2& end = lane.centerline.points().back();
     const Vec2 forward = lane.centerline.direction_at(lane.centerline.length());
     const Vec2 now = to_body(front - end, forward), was = to_body(state.front - end, forward);

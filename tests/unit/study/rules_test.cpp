@@ -62,6 +62,16 @@ TEST_F(Rules, PassingRedIsOneOffence) {
   EXPECT_EQ(events_, 1u);
 }
 
+TEST_F(Rules, WhoIsOnAnotherWayOnlyDrivesOverTheLine) {
+  road_.signal_states = {"rr"};
+  add("car", {70, 0}, {10, 0});
+  add("car", {55, 0}, {10, 0});
+  scene_.lane[0].lane = net_.lane_by_name.at("back_0");
+  scene_.lane[1].lane = net_.lane_by_name.at("in_1");
+  run(5);
+  EXPECT_EQ(counts().red_light_crossings, 1u);
+}
+
 TEST_F(Rules, AmberIsNoOffence) {
   road_.signal_states = {"yr"};
   add("car", {70, 0}, {10, 0});
