@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace sumogamma {
 
@@ -60,38 +62,55 @@ std::vector<double> filter_widths(const std::vector<Vec2>& samples, double step,
     widths[i] = std::max(widths[i], widths[i + 1] - kRamp * step);
   return widths;
 }
+/// Looks along the samples of a line, `near` of them at a time.
+struct Heading {
+  const std::vector<Vec2>& samples;
+  std::size_t near;
+
+  Vec2 into(std::size_t i) const { return samples[i] - samples[i - near]; }
+  Vec2 out_of(std::size_t i) const { return samples[i + near] - samples[i]; }
+  static double cosine(const Vec2& a, const Vec2& b) {
+    return a.dot(b) / std::max(a.norm() * b.norm(), 1e-9);
+  }
+};
+
+/// The shortest straight piece over a tip, up to `farthest` samples to each side, that leaves the
+/// line and joins it again at ease: first and last sample.
+std::optional<std::pair<std::size_t, std::size_t>> bridge_over(const Heading& heading,
+                                                               std::size_t tip,
+                                                               std::size_t farthest) {
+  constexpr double kAligned = 0.5;  // cosine between the piece and the line at its ends
+  const std::size_t before = std::min(farthest, tip - heading.near);
+  const std::size_t after = std::min(farthest, heading.samples.size() - 1 - heading.near - tip);
+  for (std::size_t span = 2 * heading.near; span <= before + after; ++span)
+    for (std::size_t back = span > after ? span - after : 1; back <= std::min(before, span - 1);
+         ++back) {
+      const std::size_t from = tip - back, to = from + span;
+      const Vec2 piece = heading.samples[to] - heading.samples[from];
+      if (Heading::cosine(heading.into(from), piece) >= kAligned &&
+          Heading::cosine(piece, heading.out_of(to)) >= kAligned)
+        return std::make_pair(from, to);
+    }
+  return std::nullopt;
+}
+
 /// Draws the line straight where it turns back on itself and on again, as between the ends of lanes
 /// that overlap: nobody drives to the tip and back. What turns round for good stays.
 void straighten_folds(double step, std::vector<Vec2>& samples) {
   constexpr double kReversal = -0.35;  // cosine of a turn within kNear
   constexpr double kNear = 1.0;        // [m]
   constexpr double kFarthest = 14.0;   // [m]
-  constexpr double kAligned = 0.5;     // cosine between the new piece and its ends
   const auto near = static_cast<std::size_t>(std::max(1.0, kNear / step));
-  const auto farthest = static_cast<std::size_t>(kFarthest / step);
-  const auto cosine = [](const Vec2& a, const Vec2& b) {
-    return a.dot(b) / std::max(a.norm() * b.norm(), 1e-9);
-  };
-  const auto into = [&](std::size_t i) { return Vec2(samples[i] - samples[i - near]); };
-  const auto out_of = [&](std::size_t i) { return Vec2(samples[i + near] - samples[i]); };
+  const Heading heading{samples, near};
   for (std::size_t tip = 2 * near; tip + 2 * near < samples.size(); ++tip) {
-    if (cosine(into(tip), out_of(tip)) > kReversal) continue;
-    // the shortest piece that leaves the line and joins it again at ease
-    const std::size_t before = std::min(farthest, tip - near);
-    const std::size_t after = std::min(farthest, samples.size() - 1 - near - tip);
-    for (std::size_t span = 2 * near, found = 0; found == 0 && span <= before + after; ++span)
-      for (std::size_t back = span > after ? span - after : 1; back <= std::min(before, span - 1);
-           ++back) {
-        const std::size_t from = tip - back, to = from + span;
-        const Vec2 piece = samples[to] - samples[from];
-        if (cosine(into(from), piece) < kAligned || cosine(piece, out_of(to)) < kAligned) continue;
-        const Vec2 begin = samples[from];
-        for (std::size_t k = 1; k < span; ++k)
-          samples[from + k] = begin + static_cast<double>(k) / static_cast<double>(span) * piece;
-        tip = to;
-        found = span;
-        break;
-      }
+    if (Heading::cosine(heading.into(tip), heading.out_of(tip)) > kReversal) continue;
+    const auto bridge = bridge_over(heading, tip, static_cast<std::size_t>(kFarthest / step));
+    if (!bridge) continue;
+    const auto [from, to] = *bridge;
+    const Vec2 begin = samples[from], piece = samples[to] - begin;
+    for (std::size_t k = from + 1; k < to; ++k)
+      samples[k] = begin + static_cast<double>(k - from) / static_cast<double>(to - from) * piece;
+    tip = to;
   }
 }
 
