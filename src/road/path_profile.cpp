@@ -62,6 +62,30 @@ std::vector<double> filter_widths(const std::vector<Vec2>& samples, double step,
     widths[i] = std::max(widths[i], widths[i + 1] - kRamp * step);
   return widths;
 }
+/// Half width [m] of the box filter with which drivers smooth what a map draws with a vertex here
+/// and there: as wide as it leaves them close to the line.
+std::vector<double> smoothing_widths(const std::vector<Vec2>& samples,
+                                     const std::vector<Vec2>& sums, double step) {
+  constexpr double kAside = 0.15, kWidest = 5.0, kRamp = 0.8;
+  const auto widest = static_cast<std::size_t>(kWidest / step);
+  std::vector<double> widths(samples.size(), 0.0);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::size_t most = std::min({widest, i, samples.size() - 1 - i});
+    std::size_t window = 0;
+    for (std::size_t wider = 1; wider <= most; ++wider) {
+      const Vec2 mean =
+          (sums[i + wider + 1] - sums[i - wider]) / static_cast<double>(2 * wider + 1);
+      if ((mean - samples[i]).squaredNorm() > kAside * kAside) break;
+      window = wider;
+    }
+    widths[i] = static_cast<double>(window) * step;
+  }
+  for (std::size_t i = 1; i < widths.size(); ++i)
+    widths[i] = std::min(widths[i], widths[i - 1] + kRamp * step);
+  for (std::size_t i = widths.size() - 1; i-- > 0;)
+    widths[i] = std::min(widths[i], widths[i + 1] + kRamp * step);
+  return widths;
+}
 /// Looks along the samples of a line, `near` of them at a time.
 struct Heading {
   const std::vector<Vec2>& samples;
@@ -147,10 +171,12 @@ void round_corners(double turning_radius, Path& path) {
     samples[i] = path.line.point_at(static_cast<double>(i) * step);
 
   straighten_folds(step, samples);
-  // only where the line bends tighter than the body can: every other bend is driven as it lies
-  const std::vector<double> widths = filter_widths(samples, step, turning_radius);
   std::vector<Vec2> sums(count + 2, Vec2::Zero());
   for (std::size_t i = 0; i <= count; ++i) sums[i + 1] = sums[i] + samples[i];
+  // wide only where the line bends tighter than the body can: other bends are driven as they lie
+  std::vector<double> widths = filter_widths(samples, step, turning_radius);
+  const std::vector<double> smoothing = smoothing_widths(samples, sums, step);
+  for (std::size_t i = 0; i <= count; ++i) widths[i] = std::max(widths[i], smoothing[i]);
   std::vector<Vec2> rounded(count + 1);
   std::vector<double> along(count + 1, 0.0);
   for (std::size_t i = 0; i <= count; ++i) {

@@ -226,22 +226,6 @@ TEST_F(Crossroads, RoomOnAJunctionEndsWherePeopleWalk) {
   EXPECT_GT(widened, 0);
 }
 
-// Who waits at the mouth of a road halts where a bus that turns into it leaves room.
-TEST(StopLines, LeaveRoomForABusThatTurns) {
-  const auto farthest = [](const std::string& allowed) {
-    std::vector<std::string> options = kSidewalks;
-    options.insert(options.end(), {"--default.junctions.radius", "7"});
-    if (!allowed.empty()) options.insert(options.end(), {"--default.disallow", allowed});
-    const RoadNetwork network = read_plain_net(crossroads("priority", options));
-    double most = 0.0;
-    for (const Connection& connection : network.connections)
-      most = std::max(most, connection.setback);
-    return most;
-  };
-  EXPECT_GT(farthest(""), farthest("bus"));
-  EXPECT_LE(farthest(""), 10.0);
-}
-
 TEST_F(Crossroads, RoomIsMirroredWhereTrafficKeepsLeft) {
   ASSERT_TRUE(left().left_hand);
   const Path outer = path_along(left(), {"WC", "CE"}, "WC_1");
@@ -317,6 +301,27 @@ TEST(RoundCorners, TurnsARightAngleAboutTheRadiusAskedFor) {
 //   (0,0) ----------------------> (30,0)
 //              (22,0.5) <-------- '
 //              '----------------------------> (60,0.5)
+// What a map draws with a vertex here and there is driven smoothly, within a hand's breadth.
+TEST(RoundCorners, SmoothsKinksWithoutLeavingTheLine) {
+  Path path;
+  path.line = Polyline({{0, 0}, {30, 0}, {60, 4}, {90, 4}});  // two kinks of 8 degrees
+  const Polyline drawn = path.line;
+  path.stretches.push_back({});
+  path.stretches.back().to = path.line.length();
+  round_corners(4.0, path);
+  double sharpest = 0, farthest = 0;
+  for (double s = 1.0; s < path.line.length() - 1.0; s += 0.25) {
+    const Vec2 place = path.line.point_at(s);
+    farthest = std::max(farthest, drawn.project(place).distance);
+    sharpest =
+        std::max(sharpest, std::abs(wrap_angle(heading_of(path.line.direction_at(s + 1.0)) -
+                                               heading_of(path.line.direction_at(s - 1.0)))));
+  }
+  EXPECT_LT(farthest, 0.2);
+  EXPECT_GT(farthest, 0.05);
+  EXPECT_LT(sharpest, 0.09) << "within 2 m; 0.13 rad as it is drawn";
+}
+
 TEST(RoundCorners, DrawsFoldsStraightAndCarriesPlacesOver) {
   Path path;
   path.line = Polyline({{0, 0}, {30, 0}, {22, 0.5}, {60, 0.5}});
