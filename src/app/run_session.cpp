@@ -114,6 +114,7 @@ std::unique_ptr<Simulation> make_simulation(const RunPlan& plan, unsigned thread
   for (const auto& file : plan.input.additional) read_obstacles(file, sim->model.road);
   sim->model.obstacles = ObstacleIndex(sim->model.road.obstacles);
   sim->model.conflicts = build_conflict_table(sim->model.road);
+  sim->model.swept_ways = find_swept_ways(sim->model.road, sim->model.conflicts);
   sim->model.options.keep_left = sim->model.road.left_hand;
   return sim;
 }

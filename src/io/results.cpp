@@ -187,6 +187,8 @@ const char* name_of_reason(LimitReason reason) {
       return "lane change";
     case LimitReason::GivesWay:
       return "backed out";
+    case LimitReason::TurningRoom:
+      return "turning room";
   }
   return "none";
 }

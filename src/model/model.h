@@ -5,8 +5,8 @@
 
 #include "model/kinematic_set.h"
 #include "model/obstacle_index.h"
-#include "road/conflict_zones.h"
 #include "road/road_network.h"
+#include "road/swept_ways.h"
 #include "scene/agent_type.h"
 #include "scene/scene.h"
 
@@ -48,6 +48,7 @@ struct Model {
   std::vector<KinematicTable> kinematics;  ///< K by type, in the order of `types`
   RoadNetwork road;                        ///< empty for a standalone scene
   ConflictTable conflicts;                 ///< by connection of `road`
+  SweptWayTable swept_ways;                ///< likewise
   ObstacleIndex obstacles;                 ///< sides of the solid things of `road`
   ModelOptions options;
 };

@@ -64,6 +64,7 @@ bool waits_behind(const Model& model, const Scene& scene, const ApproachTable& a
     case LimitReason::Stop:
     case LimitReason::BlockedJunction:
     case LimitReason::GivesWay:
+    case LimitReason::TurningRoom:
     case LimitReason::Merge:
     case LimitReason::Leader:  // it stands in a queue, be it behind us
       return true;
@@ -147,10 +148,13 @@ struct Judge {
     if (!overlap)
       return blocks_if(zone.yields && !foe_inside && !foe.stands && ours.begin < theirs.begin &&
                        cuts_in(zone, foe, foe_top));
-    // who has backed out of a deadlock lets everybody past, wherever it stands; whom bodies hold
-    // isn't coming, and past the line it is no use to wait for it
+    // who has backed out of a deadlock lets everybody past, wherever it stands, and so does who
+    // leaves room for a long body; whom bodies hold isn't coming, and past the line it is no use to
+    // wait for it
     const Waiting& waiting = approaches.waiting(foe.row);
-    if (foe.stands && waiting.reason == LimitReason::GivesWay) return Verdict::Held;
+    const bool lets_past =
+        waiting.reason == LimitReason::GivesWay || waiting.reason == LimitReason::TurningRoom;
+    if (foe.stands && lets_past) return Verdict::Held;
     if (foe.stands && waiting.blocked && (!foe_inside || on_junction(zone))) return Verdict::Held;
     const bool waits_for_us =
         foe.stands && approaches.waiting(foe.row).foe == scene.id[traveller.row].value;
@@ -299,13 +303,13 @@ enum class SignalDuty {
   GoAtRed,  ///< a red light is a stop sign to this traveller, and everybody else comes first
 };
 
-/// Red stops always, amber where braking at ease still does it, for a front that would come to rest
 /// What a link's signal shows, and since when [s].
 struct Aspect {
   char letter = 'O';
   double since = 0;
 };
 
+/// Red stops always, amber where braking at ease still does it, for a front that would come to rest
 /// at `halt` [m]. Once past the line, clear the junction.
 SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& traveller,
                        const PathLink& link, const Aspect& aspect, double halt) {

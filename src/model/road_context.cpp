@@ -8,6 +8,7 @@
 #include "model/locate.h"
 #include "model/passing.h"
 #include "model/right_of_way.h"
+#include "model/turning_room.h"
 
 namespace sumogamma {
 
@@ -202,9 +203,10 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
   }
   const Traveller traveller{course.row, front + beside_lane(model, course),
                             2.0 * course.half_length, course.speed, free_speed};
-  for (const PathLink& link : course.path.links) {
+  for (PathLink link : course.path.links) {
     if (link.end < course.along - course.half_length) continue;
     if (link.stop_line > front + reach) break;
+    link.halt = halt_for_long_bodies(model, scene, approaches, traveller, link);
     const ZipperLeader teeth = find_zipper_leader(model, scene, approaches, traveller, link);
     if (teeth.id >= 0) {
       // closer than it will follow afterwards: the gap opens while lanes run together
@@ -230,6 +232,8 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
                                                          : link.inside;
       if (beyond.must_stop) decision = {true, line - kStopMargin, beyond.reason, beyond.foe};
     }
+    if (!decision.must_stop)
+      decision = leave_turning_room(model, road, scene, approaches, traveller, link);
     if (!decision.must_stop) continue;
     const double gap = decision.stop_at - traveller.front + type.min_gap;
     context.to_halt = std::max(decision.stop_at - traveller.front, 0.0);
@@ -293,7 +297,7 @@ void follow_on_foot(const View& view, const Course& course, RoadContext& context
 /// Where somebody on foot waits for a crossing [m along its path]: where its way off the road ends,
 /// or before its place beside the path gets onto the crossing, as inside the corner in which the
 /// way turns there.
-double waiting_place(const Model& model, const Course& course, const PathLink& link) {
+double kerb_halt(const Model& model, const Course& course, const PathLink& link) {
   constexpr double kFarthest = 4.0, kStep = 0.2, kOnIt = 0.2;  // [m]
   const Polyline& line = course.path.line;
   const Vec2 begin = line.point_at(link.stop_line), way = line.point_at(link.end) - begin;
@@ -320,7 +324,7 @@ void set_walker_limit(const View& view, const Course& course, RoadContext& conte
   for (PathLink link : course.path.links) {
     if (link.end < course.along || link.stop_line < front - 0.5) continue;
     if (link.halt > front + 8.0) break;
-    link.halt = waiting_place(view.model, course, link);
+    link.halt = kerb_halt(view.model, course, link);
     if (link.halt > front + 4.0) continue;
     const LinkDecision decision =
         decide_link(view.model, view.road, view.scene, view.approaches, traveller, link);

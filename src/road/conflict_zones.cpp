@@ -27,6 +27,27 @@ Polyline link_geometry(const RoadNetwork& network, ConnectionId id) {
   return Polyline(std::move(points));
 }
 
+Path rounded_way(const RoadNetwork& network, ConnectionId id, double before, double after,
+                 double turning_radius) {
+  const Connection& connection = network.connection(id);
+  const Polyline inside = link_geometry(network, id);
+  Path path;
+  if (inside.empty()) return path;
+  const Polyline& from = network.lane(connection.from).centerline;
+  const Polyline& to = network.lane(connection.to).centerline;
+  std::vector<Vec2> points;
+  append_span(from, std::max(0.0, from.length() - before), from.length(), points);
+  const double stop_line = Polyline(points).length();
+  append_span(inside, 0.0, inside.length(), points);
+  const double end = Polyline(points).length();
+  append_span(to, 0.0, std::min(after, to.length()), points);
+  path.line = Polyline(std::move(points));
+  path.links.push_back({id, stop_line, end, stop_line});
+  round_corners(turning_radius, path);
+  move_stop_lines(network, path);
+  return path;
+}
+
 namespace {
 
 struct LinkShape {
@@ -36,27 +57,13 @@ struct LinkShape {
 };
 constexpr double kStep = 1.0;
 
-/// The way that is driven over a link, with corners rounded as a car's path has them, from its stop
-/// line on.
+/// The way that is driven over a link by a car, from its stop line on.
 Polyline driven_way(const RoadNetwork& network, ConnectionId id) {
   constexpr double kApproach = 20.0, kTurningRadius = 3.8;
-  const Connection& connection = network.connection(id);
-  const Polyline inside = link_geometry(network, id);
-  if (inside.empty() || network.lane(connection.to).kind == LaneKind::Crossing) return inside;
-  const Polyline& before = network.lane(connection.from).centerline;
-  const Polyline& after = network.lane(connection.to).centerline;
-  std::vector<Vec2> points;
-  append_span(before, std::max(0.0, before.length() - kApproach), before.length(), points);
-  Path path;
-  path.line = Polyline(points);
-  const double stop_line = path.line.length();
-  append_span(inside, 0.0, inside.length(), points);
-  const double end = Polyline(points).length();
-  append_span(after, 0.0, std::min(kApproach, after.length()), points);
-  path.line = Polyline(std::move(points));
-  path.links.push_back({id, stop_line, end, stop_line});
-  round_corners(kTurningRadius, path);
-  move_stop_lines(network, path);
+  if (network.lane(network.connection(id).to).kind == LaneKind::Crossing)
+    return link_geometry(network, id);
+  const Path path = rounded_way(network, id, kApproach, kApproach, kTurningRadius);
+  if (path.links.empty()) return {};
   std::vector<Vec2> driven;
   append_span(path.line, path.links.front().stop_line, path.links.front().end, driven);
   return Polyline(std::move(driven));
@@ -92,6 +99,19 @@ std::optional<std::pair<double, double>> near_span(const LinkShape& a, const Lin
   return span;
 }
 
+/// How near two ways must come to be in each other's way [m]. Those that start side by side are not
+/// yet, though bodies that swing may come near there: only from where they approach each other.
+double conflict_reach(const RoadNetwork& network, ConnectionId a, ConnectionId b,
+                      const LinkShape& way_a, const LinkShape& way_b) {
+  constexpr double kAir = 0.3, kNearer = 0.4, kLeast = 1.5;  // [m]
+  const double reach = way_a.half_width + way_b.half_width + kAir;
+  const Lane &from = network.lane(network.connection(a).from),
+             &beside = network.lane(network.connection(b).from);
+  if (from.edge != beside.edge || from.index == beside.index) return reach;
+  const double apart = (way_a.samples.front() - way_b.samples.front()).norm();
+  return std::min(reach, std::max(apart - kNearer, kLeast));
+}
+
 /// True where two links start on the same edge, or both are crossings.
 bool same_origin(const RoadNetwork& network, ConnectionId a, ConnectionId b) {
   const Connection &first = network.connection(a), &second = network.connection(b);
@@ -114,7 +134,8 @@ void add_conflicts(const RoadNetwork& network, const Junction& junction, Conflic
       // ways that part from one lane are one behind the other before they part
       const bool ruled = yields || conflicts;
       if (!ruled && same_origin(network, junction.links[i], junction.links[k])) continue;
-      const double reach = shapes[i].half_width + shapes[k].half_width + 0.3;
+      const double reach =
+          conflict_reach(network, junction.links[i], junction.links[k], shapes[i], shapes[k]);
       const auto own = near_span(shapes[i], shapes[k], reach);
       const auto other = near_span(shapes[k], shapes[i], reach);
       if (!own || !other) continue;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "road/road_network.h"
+#include "road/path.h"
 
 namespace sumogamma {
 
@@ -25,6 +25,12 @@ struct ConflictZone {
 /// of opposite turns on a narrow junction, are in.
 using ConflictTable = std::vector<std::vector<ConflictZone>>;
 ConflictTable build_conflict_table(const RoadNetwork& network);
+
+/// The way of a body with that turning radius over a link, with up to `before` [m] of the lane that
+/// it comes from and `after` of the one into which it leads: the line, and the link with its stop
+/// line and end. Empty for a link without lanes of its own.
+Path rounded_way(const RoadNetwork& network, ConnectionId id, double before, double after,
+                 double turning_radius);
 
 /// Centreline of a link over its junction: its internal lanes in order, or the crossing that it
 /// enters.

@@ -24,6 +24,7 @@ class RoadScene {
     model.kinematics = kinematic_tables();
     model.road = std::move(network);
     model.conflicts = build_conflict_table(model.road);
+    model.swept_ways = find_swept_ways(model.road, model.conflicts);
     model.options.keep_left = model.road.left_hand;
     road.signal_states.resize(model.road.signals.size());
   }

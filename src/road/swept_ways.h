@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "road/conflict_zones.h"
+
+namespace sumogamma {
+
+/// Who is longer than this leaves its lane with its ends where it turns [m].
+inline constexpr double kLongBody = 8.0;
+
+/// Where a long body that takes one link sweeps over the way of another link, though it be the end
+/// of the lane on which others wait. Distances [m] from where the links begin; negative before
+/// that. On the way of the body that sweeps they are the places of its front when it begins to and
+/// of its rear when it has done, which may lie before the former.
+struct SweptWay {
+  ConnectionId foe = kNoConnection;
+  double begin = 0, end = 0;          ///< on this link's way
+  double foe_begin = 0, foe_end = 0;  ///< on the foe's
+  bool foe_is_long = false;  ///< the foe's body does the sweeping, on this link's way; else this
+                             ///< link's does, on the foe's
+};
+
+/// By connection: the ways of a junction that a bus which takes it sweeps, and the buses that sweep
+/// its own, as far as the conflict zones don't tell it already. A bus is rolled along each link
+/// that bends, corners rounded.
+using SweptWayTable = std::vector<std::vector<SweptWay>>;
+SweptWayTable find_swept_ways(const RoadNetwork& network, const ConflictTable& conflicts);
+
+}  // namespace sumogamma

@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include "model/turning_room.h"
+#include "support/road_scene.h"
+
+namespace sumogamma {
+namespace {
+
+using testing::crossroads;
+using testing::read_plain_net;
+using testing::RoadScene;
+
+// narrow corners: a bus from the west that turns right, into the south, sweeps the end of SC
+class TurningRoomTest : public ::testing::Test {
+ protected:
+  static const RoadNetwork& net() {
+    static const RoadNetwork network =
+        read_plain_net(crossroads("priority", {"--default.junctions.radius", "3"}));
+    return network;
+  }
+  std::size_t add_bus(const std::string& type = "bus") {
+    const std::size_t bus = here_.add(type, {"WC", "CS"}, 0, 4);
+    here_.move(bus, here_.path(bus).links.front().stop_line - 12.0);
+    return bus;
+  }
+  /// Somebody on SC whose front is so far before its stop line.
+  std::size_t add_waiting(double before, double speed) {
+    const std::size_t car = here_.add("car", {"SC", "CN"}, 0, speed);
+    here_.move(car, here_.path(car).links.front().stop_line - before - 2.25);
+    return car;
+  }
+  double halt_of(std::size_t row) {
+    const PathLink& link = here_.path(row).links.front();
+    const Traveller traveller{row, here_.scene.path_along[row] + 2.25, 4.5, 5.0, 13.0};
+    return link.halt -
+           halt_for_long_bodies(here_.model, here_.scene, here_.approaches, traveller, link);
+  }
+  RoadScene here_{net()};
+};
+
+TEST_F(TurningRoomTest, WhoWaitsLeavesRoomForABusThatComes) {
+  const std::size_t car = add_waiting(30.0, 8.0);
+  here_.update();
+  EXPECT_EQ(halt_of(car), 0.0) << "nobody comes";
+  add_bus();
+  here_.update();
+  EXPECT_GT(halt_of(car), 2.0);
+  EXPECT_LT(halt_of(car), 17.0);
+}
+
+TEST_F(TurningRoomTest, ACarThatTurnsNeedsNoMoreThanItsLane) {
+  const std::size_t car = add_waiting(30.0, 8.0);
+  add_bus("car");
+  here_.update();
+  EXPECT_EQ(halt_of(car), 0.0);
+}
+
+TEST_F(TurningRoomTest, ABusLetsThosePastWhoStandWhereItWillSweep) {
+  const std::size_t bus = add_bus();
+  here_.update();
+  EXPECT_NE(here_.context(bus).reason, LimitReason::TurningRoom);
+  const std::size_t car = add_waiting(0.6, 0.0);
+  here_.update();
+  EXPECT_EQ(here_.context(bus).reason, LimitReason::TurningRoom);
+  EXPECT_EQ(here_.context(bus).foe, here_.scene.id[car].value);
+  EXPECT_LT(here_.context(bus).allowed_speed, 4.0);
+}
+
+TEST_F(TurningRoomTest, NobodyWaitsForABusThatLetsItPast) {
+  const std::size_t bus = add_bus();
+  here_.move(bus, here_.path(bus).links.front().stop_line - 6.0 - 0.7);
+  here_.set_speed(bus, 0.0);
+  const std::size_t car = add_waiting(0.6, 0.0);
+  here_.update(2);
+  EXPECT_EQ(here_.context(bus).reason, LimitReason::TurningRoom);
+  EXPECT_NE(here_.context(car).foe, here_.scene.id[bus].value);
+}
+
+}  // namespace
+}  // namespace sumogamma

@@ -1,0 +1,60 @@
+#include "road/swept_ways.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/plain_net.h"
+
+namespace sumogamma {
+namespace {
+
+using testing::crossroads;
+using testing::read_plain_net;
+
+RoadNetwork narrow_corners(const std::string& disallowed = {}) {
+  std::vector<std::string> options = {"--default.junctions.radius", "3"};
+  if (!disallowed.empty()) options.insert(options.end(), {"--default.disallow", disallowed});
+  return read_plain_net(crossroads("priority", options));
+}
+
+TEST(SweptWays, ABusThatTurnsSweepsTheEndsOfLanesOnWhichOthersWait) {
+  const RoadNetwork network = narrow_corners();
+  const SweptWayTable table = find_swept_ways(network, build_conflict_table(network));
+  int ends = 0;
+  for (std::size_t i = 0; i < table.size(); ++i)
+    for (const SweptWay& way : table[i]) {
+      if (way.foe_is_long) {
+        EXPECT_LE(way.begin, way.end);
+      }
+      EXPECT_NE(network.lane(network.connections[i].from).edge,
+                network.lane(network.connection(way.foe).from).edge);
+      // the other link knows the same
+      const auto& theirs = table[index_of(way.foe)];
+      EXPECT_TRUE(std::any_of(theirs.begin(), theirs.end(), [&](const SweptWay& other) {
+        return other.foe == static_cast<ConnectionId>(i) && other.foe_is_long != way.foe_is_long &&
+               other.begin == way.foe_begin && other.foe_end == way.end;
+      }));
+      if (!way.foe_is_long) continue;
+      EXPECT_GE(way.begin, -16.0) << "nobody halts farther back";
+      ends += way.begin < 0.0;
+    }
+  EXPECT_GT(ends, 0);
+}
+
+TEST(SweptWays, WhereNoBusMayDriveNothingIsSwept) {
+  const RoadNetwork network = narrow_corners("bus");
+  const SweptWayTable table = find_swept_ways(network, build_conflict_table(network));
+  for (const auto& ways : table) EXPECT_TRUE(ways.empty());
+}
+
+TEST(SweptWays, StraightOnSweepsNothing) {
+  const RoadNetwork network = narrow_corners();
+  const SweptWayTable table = find_swept_ways(network, build_conflict_table(network));
+  for (std::size_t i = 0; i < table.size(); ++i)
+    for (const SweptWay& way : table[i])
+      EXPECT_FALSE(!way.foe_is_long && network.connections[i].direction == 's');
+}
+
+}  // namespace
+}  // namespace sumogamma
