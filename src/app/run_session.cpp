@@ -395,6 +395,7 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   results.threads = common.threads;
   observers.fill(results);
   fill_agents(world.life_cycle(), sim->model.types, results.agents);
+  results.agents.detours = sim->detours;
   results.coupling = coupling.result();
   results.teleports = static_cast<std::uint64_t>(world.coupling().teleports);
   results.emergency_stops = static_cast<std::uint64_t>(world.coupling().emergency_stops);

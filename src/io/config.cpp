@@ -92,6 +92,7 @@ void bind_model(ModelOptions& model, std::vector<Binding>& bindings) {
   bindings.push_back({"model.use_avoidance", &model.use_avoidance});
   // keep_left isn't here: the network says on which side traffic keeps
   bindings.push_back({"model.use_guard", &model.use_guard});
+  bindings.push_back({"model.take_detours", &model.take_detours});
   bindings.push_back({"model.guard_margin", &model.guard_margin, 0});
   bindings.push_back({"model.pass_as_intended", &model.pass_as_intended});
   bindings.push_back({"model.look_aside", &model.look_aside});

@@ -25,6 +25,7 @@ Json agents_json(const AgentCounts& agents) {
           {"controlled_now", agents.controlled_now},
           {"controlled_peak", agents.controlled_peak},
           {"controlled_mean", agents.controlled_mean},
+          {"detours", agents.detours},
           {"removed", removed},
           {"by_type", by_type}};
 }
@@ -272,6 +273,7 @@ void print_results_table(std::FILE* stream, const RunResults& results) {
   std::uint64_t removed = 0;
   for (const auto& [reason, count] : agents.removed) removed += count;
   table.count("removed before destination", removed);
+  table.count("detours", results.agents.detours);
   table.heading("collisions");
   table.count("pairs", results.collisions.unique_pairs);
   table.count("pairs deeper than 0.1 m", results.collisions.deep_pairs);

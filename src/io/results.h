@@ -26,6 +26,7 @@ struct AgentCounts {
   std::uint64_t inserted = 0, arrived = 0;
   std::uint64_t controlled_now = 0, controlled_peak = 0;  ///< driven by GAMMA at the end, at most
   double controlled_mean = 0;                             ///< over the ticks
+  std::uint64_t detours = 0;                              ///< taken by drivers whose way was shut
   std::map<std::string, ByType> by_type;
   std::map<std::string, std::uint64_t> removed;  ///< taken out before their destination, by reason
 };

@@ -30,6 +30,7 @@ struct ModelOptions {
   bool look_aside = true;            ///< people on foot who are held up turn to the passing side
   bool creep_when_held =
       true;  ///< who has to stand creeps round what is in its way where the guard admits it
+  bool take_detours = true;       ///< drivers whose way is shut for long take another one
   bool use_guard = true;          ///< ablation: false leaves the stopping guard out
   double guard_margin = 0.015;    ///< room that the guard keeps between bodies that brake [m]
   double step = 0.05;             ///< length of a tick, which the guard reckons with [s]

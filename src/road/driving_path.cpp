@@ -418,4 +418,28 @@ std::optional<Path> back_to_lane(const RoadNetwork& network, const Path& path, d
   return std::nullopt;
 }
 
+std::optional<Path> take_route(const RoadNetwork& network, const Path& path, double& along,
+                               std::vector<EdgeId> route, double back) {
+  const Remade old{network, path, along, back, path.stretch_at(along).lane};
+  const bool halts = std::any_of(path.stops.begin(), path.stops.end(),
+                                 [&](const PathStop& stop) { return stop.along > along; });
+  if (!old.possible() || halts || old.here.changing || route.empty() ||
+      route.front() != old.lane.edge)
+    return std::nullopt;
+  auto trip = std::make_shared<Trip>();
+  trip->route = std::move(route);
+  trip->request = path.trip->request;
+  trip->request.route = trip->route;
+  trip->options = plan_lanes(network, trip->request);
+  const LaneOption& option = trip->options.front()[static_cast<std::size_t>(old.lane.index)];
+  if (option.cost == kUnreachable || option.exit_index != old.lane.index) return std::nullopt;
+  Builder builder(network, trip->request);
+  std::string why;
+  if (!drive_on(network, *trip, 0, old.lane.index, old.begin, builder, why)) return std::nullopt;
+  Path remade = builder.finish();
+  remade.trip = std::move(trip);
+  along = old.on_lane - old.begin;
+  return remade;
+}
+
 }  // namespace sumogamma

@@ -125,6 +125,12 @@ std::optional<Path> stay_in_lane(const RoadNetwork& network, const Path& path, d
 std::optional<Path> back_to_lane(const RoadNetwork& network, const Path& path, double& along,
                                  double back);
 
+/// The path of somebody who goes on from `along` by another route to the same destination. `route`
+/// begins with the edge at `along`. Otherwise like change_lane, except that nobody who has halts
+/// ahead gets another route: nullopt then, too.
+std::optional<Path> take_route(const RoadNetwork& network, const Path& path, double& along,
+                               std::vector<EdgeId> route, double back);
+
 /// Path of a pedestrian along the edges of a walk: sidewalks in either direction, walking areas and
 /// crossings between them found by least distance. nullopt with `why` set where the walk can't be
 /// connected.

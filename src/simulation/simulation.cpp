@@ -4,6 +4,7 @@
 #include <ctime>
 
 #include "model/backing.h"
+#include "model/detour.h"
 #include "model/locate.h"
 #include "model/road_context.h"
 
@@ -78,6 +79,7 @@ void tick(Simulation& sim, World& world) {
   prepare_tick(sim.model, scene, *sim.workers, sim.geometry);
   choose_lanes(sim.model, sim.geometry.grid, sim.dt, *sim.workers, sim.road, scene,
                sim.lane_choice);
+  if (sim.model.options.take_detours) sim.detours += take_detours(sim.model, sim.road, scene);
   update_road_contexts(sim.model, sim.road, sim.geometry.grid, sim.dt, *sim.workers, sim.approaches,
                        scene);
   clock.end(sim.times.context);

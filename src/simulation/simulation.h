@@ -27,6 +27,7 @@ struct Simulation {
   double dt = 0.05;  ///< [s]
   std::unique_ptr<Workers> workers = std::make_unique<Workers>(1);
   PhaseTimes times;
+  std::uint64_t detours = 0;  ///< taken by drivers whose way was shut
 
   // scratch, meaning nothing between ticks
   ApproachTable approaches;

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/model.h"
+#include "model/road_state.h"
+
+namespace sumogamma {
+
+/// Drivers whose way is shut take another one: who has stood for long before a full road, or for a
+/// gap into the lane that its route needs, goes on from its own lane by the fastest route to its
+/// destination, as the roads are now, where there is room at its begin. Buses and
+/// other long bodies keep their routes, and so does who has stops to serve. Serial, and in order of
+/// row; returns how many took another way.
+std::uint64_t take_detours(const Model& model, RoadState& road, Scene& scene);
+
+}  // namespace sumogamma
