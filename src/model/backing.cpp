@@ -11,17 +11,20 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kPace = 0.45;        // walking backwards [m/s]
-constexpr double kThrottle = 1.0;     // [m/s^2]
-constexpr double kBrake = 2.0;        // [m/s^2]
-constexpr double kLeast = 8.0;        // wedged for so long before anybody backs out [s]
-constexpr double kStagger = 8.0;      // and up to so much longer, so that not all do at once [s]
-constexpr double kTries = 8.0;        // [s]
-constexpr double kGivesWay = 8.0;     // [s]
-constexpr double kClear = 0.25;       // kept to everybody behind [m]
-constexpr double kRoomToBegin = 0.5;  // [m]
-constexpr double kTarget = 3.0;       // behind the rear axle, aimed at on the path [m]
-constexpr double kStill = 0.01;       // [m/s]
+constexpr double kPace = 0.48;          // walking backwards [m/s]
+constexpr double kThrottle = 1.0;       // [m/s^2]
+constexpr double kBrake = 2.0;          // [m/s^2]
+constexpr double kLeast = 8.0;          // wedged for so long before anybody backs out [s]
+constexpr double kStagger = 8.0;        // and up to so much longer, so that not all do at once [s]
+constexpr double kTries = 14.0;         // rolls back for so long at the most [s]
+constexpr double kMakesRoom = 12.0;     // likewise who lets somebody back out [s]
+constexpr double kHeldUp = 8.0;         // and has stood for so long before [s]
+constexpr double kGivesWay = 6.0;       // then let others go first, for so long at the least [s]
+constexpr double kStaggerAfter = 18.0;  // and up to so much longer [s]
+constexpr double kClear = 0.25;         // kept to everybody behind [m]
+constexpr double kRoomToBegin = 0.5;    // [m]
+constexpr double kTarget = 3.0;         // behind the rear axle, aimed at on the path [m]
+constexpr double kStill = 0.01;         // [m/s]
 
 double backward_speed(const Scene& scene, std::size_t row) {
   return std::max(0.0, -scene.velocity[row].dot(direction_of(scene.heading[row])));
@@ -31,6 +34,12 @@ double backward_speed(const Scene& scene, std::size_t row) {
 double patience(const Scene& scene, std::size_t row) {
   const auto stretch = static_cast<std::uint64_t>(scene.time / (kLeast + kStagger));
   return kLeast + random_uniform(0, scene.id[row].value, stretch, Draw::Intention, 0.0, kStagger);
+}
+
+/// How long this row lets others go first after it has backed out [s].
+double courtesy(const Scene& scene, std::size_t row) {
+  return kGivesWay + random_uniform(1, scene.id[row].value, static_cast<std::uint64_t>(scene.time),
+                                    Draw::Intention, 0.0, kStaggerAfter);
 }
 
 /// Front wheels that bring the rear axle back along the path (pure pursuit backwards).
@@ -66,13 +75,13 @@ bool keeps_clear(const Scene& scene, const TickGeometry& geometry, std::size_t r
   return clear;
 }
 
-/// Is this row right behind one that has tried to back out for some time, for want of room?
+/// Is this row right behind one that means to back out, or to make room itself, and can't?
 bool makes_room(const Scene& scene, std::size_t row) {
-  constexpr double kTried = 3.0;  // [s]
+  constexpr double kTried = 1.0;  // [s]
   const RoadContext& context = scene.context[row];
-  if (context.reason != LimitReason::Leader || scene.standing_time[row] < kTries) return false;
+  if (context.reason != LimitReason::Leader || scene.standing_time[row] < kHeldUp) return false;
   const std::size_t leader = find_row(scene, AgentId{static_cast<std::uint32_t>(context.foe)});
-  return leader < scene.size() && scene.blocked_time[leader] > kLeast &&
+  return leader < scene.size() && scene.standing_time[leader] > kHeldUp &&
          scene.backing_left[leader] > 0.0 && scene.backing_left[leader] < kTries - kTried;
 }
 
@@ -90,13 +99,13 @@ void update_backing(double dt, Scene& scene, std::size_t row) {
       // who made room for somebody follows it again
       const bool rolled = scene.standing_time[row] < kTries;
       const bool for_itself = scene.context[row].reason != LimitReason::Leader;
-      gives_way = rolled && for_itself && !moved_on ? kGivesWay : 0.0;
+      gives_way = rolled && for_itself && !moved_on ? courtesy(scene, row) : 0.0;
     }
   } else if (gives_way <= 0.0 && is_wedged(scene, row) &&
              scene.blocked_time[row] > patience(scene, row)) {
     left = kTries;
   } else if (gives_way <= 0.0 && makes_room(scene, row)) {
-    left = 0.5 * kTries;
+    left = kMakesRoom;
   }
 }
 

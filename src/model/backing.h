@@ -11,7 +11,8 @@ namespace sumogamma {
 /// Backing out: what drivers do who stand nose to nose. differs from the paper: K holds no velocity
 /// backwards, so two bodies that are in each other's way would stand for ever. A vehicle that has
 /// been wedged for long (see is_wedged) and has room behind rolls back along its path by some
-/// metres, at walking pace, and then lets the others go first for some seconds.
+/// metres, at walking pace, and then lets the others go first for some seconds. Where there is no
+/// room behind, those who stand there roll back before it, one after the other.
 ///
 /// Still to roll back for that long, and still to let others go first [s]; kept once a tick, after
 /// everybody has moved.

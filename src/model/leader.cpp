@@ -187,8 +187,9 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
           scene.merge_to[other] != kNoLane && scene.merge_to[other] == scene.lane[row].lane;
       if (!merges) return;
       const Path* theirs = road.path(scene.path[other]);
-      const bool on_its_way =
-          theirs != nullptr && theirs->stretch_at(scene.path_along[other]).changing;
+      // but for who has halted on its way to let this one past
+      const bool on_its_way = theirs != nullptr && !std::isfinite(scene.gate[other]) &&
+                              theirs->stretch_at(scene.path_along[other]).changing;
       // who is on its way already and has its middle ahead needs the room beside it, too
       if (on_its_way || rear > along + own_half_length + 1.0)
         note_merging(

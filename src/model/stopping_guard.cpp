@@ -105,13 +105,12 @@ bool is_wedged(const Scene& scene, std::size_t row) { return scene.wedge_left[ro
 void update_wedge(double dt, Scene& scene, std::size_t row) {
   constexpr double kPatience = 5.0, kLasts = 10.0;  // [s]
   constexpr double kNoGapPatience = 15.0;           // [s]
-  constexpr double kMayStart = 0.4;                 // [m/s]
   const RoadContext& context = scene.context[row];
   // two who want to change into each other's lane at its end wait for each other
   const bool no_gap =
       context.reason == LimitReason::Merge && scene.standing_time[row] > kNoGapPatience;
   const bool blocked = context.active && scene.standing_time[row] > 0.0 &&
-                       (context.allowed_speed > kMayStart || no_gap);
+                       (context.allowed_speed > kLeastWish || no_gap);
   scene.blocked_time[row] = blocked ? scene.blocked_time[row] + dt : 0.0;
   scene.wedge_left[row] =
       scene.blocked_time[row] > kPatience ? kLasts : std::max(0.0, scene.wedge_left[row] - dt);

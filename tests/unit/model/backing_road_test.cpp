@@ -59,9 +59,37 @@ class BackingTest : public ::testing::Test {
 TEST_F(BackingTest, AWedgedCarRollsBackAndThenGivesWay) {
   const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
   EXPECT_EQ(stand_wedged(own, 7.0), 0.0) << "not before its patience is over";
-  EXPECT_GT(stand_wedged(own, 20.0), 1.5);
+  EXPECT_GT(stand_wedged(own, 32.0), 3.0);
   EXPECT_LE(fastest_, 0.5);
   EXPECT_TRUE(gave_way_);
+}
+
+// Who stands behind somebody that has no room to back out makes some, and so on down the queue.
+TEST_F(BackingTest, AQueueMakesRoomOneAfterTheOther) {
+  const std::size_t first = here_.add("car", {"WC", "CE"}, 100, 0);
+  const std::size_t second = here_.add("car", {"WC", "CE"}, 94, 0);
+  const std::size_t third = here_.add("car", {"WC", "CE"}, 88, 0);
+  here_.scene.standing_time = {20.0, 20.0, 20.0};
+  here_.scene.backing_left[first] = 5.0;
+  for (const std::size_t row : {second, third}) {
+    here_.scene.context[row].reason = LimitReason::Leader;
+    here_.scene.context[row].foe = static_cast<std::int64_t>(row) - 1;
+  }
+  update_backing(kDt, here_.scene, second);
+  EXPECT_GT(here_.scene.backing_left[second], 0.0);
+  update_backing(kDt, here_.scene, third);
+  EXPECT_GT(here_.scene.backing_left[third], 0.0);
+}
+
+TEST_F(BackingTest, NobodyMakesRoomForWhoCanRollBack) {
+  const std::size_t first = here_.add("car", {"WC", "CE"}, 100, 0);
+  const std::size_t second = here_.add("car", {"WC", "CE"}, 94, 0);
+  here_.scene.standing_time = {0.0, 20.0};
+  here_.scene.backing_left[first] = 5.0;
+  here_.scene.context[second].reason = LimitReason::Leader;
+  here_.scene.context[second].foe = 0;
+  update_backing(kDt, here_.scene, second);
+  EXPECT_EQ(here_.scene.backing_left[second], 0.0);
 }
 
 TEST_F(BackingTest, GivingWayHoldsIt) {
