@@ -39,6 +39,14 @@ Box box_of(const Scene& scene, std::size_t row) {
           half_extent(scene, row, left_of(forward))};
 }
 
+/// What somebody's body covers until it stands, if it brakes at ease after half a second.
+Box covered(const Box& body, const AgentType& type, double speed) {
+  constexpr double kReaction = 0.5;  // [s]
+  const double way = speed * (kReaction + 0.5 * speed / type.comfortable_deceleration);
+  return {body.center + 0.5 * way * direction_of(body.heading), body.heading,
+          body.half_length + 0.5 * way, body.half_width};
+}
+
 /// May somebody have to be waited for at this link?
 bool needs_care(const Model& model, const PathLink& link) {
   if (model.road.connection(link.connection).signal != kNoSignal) return true;
@@ -82,8 +90,16 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
     if (std::abs(scene.height[row] - ground) > kStorey) continue;
     const Box other = box_of(scene, row);
     if (overlap(wanted, other)) return std::nullopt;
-    // who is ahead and not quite in this lane may be on its way into it
-    const double aside = relative.x() > 0.0 ? 0.7 : 0.3;
+    // nor does anybody start before somebody who comes across or towards it
+    const Vec2 velocity = scene.velocity[row];
+    const bool other_way = velocity.dot(direction) < 0.3 * velocity.norm();
+    if (other_way && !on_foot &&
+        overlap(wanted, covered(other, type_of(model.types, scene.type[row]), velocity.norm())))
+      return std::nullopt;
+    // who is ahead and not quite in this lane may be on its way into it, and is if it says so
+    const LaneId lane = path.stretches.front().lane;
+    const bool comes_in = scene.lane[row].lane == lane || scene.merge_to[row] == lane;
+    const double aside = relative.x() <= 0.0 ? 0.3 : comes_in ? 3.5 : 0.7;
     if (on_foot || std::abs(relative.y()) > half_width + other.half_width + aside) continue;
     const double ahead = scene.velocity[row].dot(direction);
     const double free = std::abs(relative.x()) - half_length - scene.footprint[row].radius - gap;

@@ -177,11 +177,11 @@ void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
     if (scene.control[row] != Control::Gamma) continue;
     const Path* path = road.path(scene.path[row]);
     const Known& known = known_[scene.id[row].value];
-    // vehicles arrive with their front, before it crosses whatever line is there, walkers when they
-    // are there within a step or two
+    // vehicles arrive with their front, before it crosses whatever line is there (the place on the
+    // path is that of a tick ago), walkers when they are there within a step or two
     const double reached =
         scene.path_along[row] +
-        (known.is_person ? 0.7 : 0.5 * known.length + 0.3 + 1.5 * scene.speed[row] * options_.dt);
+        (known.is_person ? 0.7 : 0.5 * known.length + 0.3 + 2.0 * scene.speed[row] * options_.dt);
     if (reached < path->arrival) continue;
     if (known.is_person) {
       const std::vector<std::string> next = backend_.finish_stage(known.sumo_id);

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/road_scene.h"
+#include "support/small_net.h"
+
 namespace sumogamma {
 namespace {
 
@@ -33,6 +36,50 @@ TEST(Entry, NobodyStartsInAWall) {
   EXPECT_TRUE(touches_wall(model, agent));
   agent.position = {0, 0.7};
   EXPECT_FALSE(touches_wall(model, agent));
+}
+
+class EntryTest : public ::testing::Test {
+ protected:
+  std::optional<double> speed_of_newcomer() {
+    const Path& path = here_.path(first_);
+    AgentState agent;
+    agent.type = here_.scene.type[first_];
+    agent.footprint = here_.scene.footprint[first_];
+    agent.position = path.line.point_at(0.0);
+    agent.heading = heading_of(path.line.direction_at(0.0));
+    agent.preferred_speed = 13.0;
+    return entry_speed(here_.model, path, agent, 0.0, here_.scene);
+  }
+  testing::RoadScene here_{testing::small_net()};
+  std::size_t first_ = here_.add("car", {"in", "out"}, 120, 10);
+};
+
+TEST_F(EntryTest, AFreePlaceIsTaken) { EXPECT_TRUE(speed_of_newcomer()); }
+
+TEST_F(EntryTest, NobodyStartsInFrontOfWhoComesAcross) {
+  const std::size_t other = here_.add("car", {"in", "out"}, 0, 0);
+  // 12 m aside of the place, on its way over it
+  const Vec2 start = here_.path(first_).line.point_at(0.0);
+  here_.scene.position[other] = start + Vec2(0, 12);
+  here_.scene.heading[other] = -0.5 * kPi;
+  here_.set_speed(other, 0.0);
+  EXPECT_TRUE(speed_of_newcomer()) << "it stands";
+  here_.set_speed(other, 7.0);
+  EXPECT_FALSE(speed_of_newcomer());
+  here_.scene.heading[other] = 0.5 * kPi;
+  here_.set_speed(other, 7.0);
+  EXPECT_TRUE(speed_of_newcomer()) << "it goes away";
+}
+
+TEST_F(EntryTest, WhoChangesIntoTheLaneAheadIsFollowed) {
+  const double alone = *speed_of_newcomer();
+  const std::size_t other = here_.add("car", {"in", "out"}, 0, 0);
+  here_.move(other, 18.0, 3.2);
+  here_.set_speed(other, 3.0);
+  EXPECT_EQ(speed_of_newcomer(), alone) << "it keeps to the lane beside";
+  here_.scene.lane[other].lane = here_.path(first_).stretches.front().lane;
+  const auto behind = speed_of_newcomer();
+  EXPECT_TRUE(!behind || *behind < 0.7 * alone);
 }
 
 }  // namespace
