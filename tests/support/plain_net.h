@@ -83,6 +83,29 @@ inline PlainNet crossroads(const std::string& type, std::vector<std::string> opt
   return plain;
 }
 
+/// Two ways from A to D, by N or, shorter, by S; one lane each, and `both_ways` the way back, too.
+///
+///          N
+///        /   |          edges are named after their ends: IA runs from I to A
+///   I - A    D - O
+///        |   /
+///          S
+inline PlainNet two_ways(bool both_ways) {
+  PlainNet plain;
+  plain.nodes = R"(<node id="I" x="-150" y="0"/><node id="A" x="0" y="0"/>
+    <node id="N" x="100" y="100"/><node id="S" x="100" y="-60"/><node id="D" x="200" y="0"/>
+    <node id="O" x="350" y="0"/>)";
+  auto edge = [&](char from, char to) {
+    plain.edges += std::string("<edge id=\"") + from + to + "\" from=\"" + from + "\" to=\"" + to +
+                   "\" numLanes=\"1\" speed=\"13\"/>";
+  };
+  for (const std::string way : {"IA", "AN", "ND", "AS", "SD", "DO"}) {
+    edge(way[0], way[1]);
+    if (both_ways) edge(way[1], way[0]);
+  }
+  return plain;
+}
+
 inline std::vector<EdgeId> route_of(const RoadNetwork& network,
                                     const std::vector<std::string>& names) {
   std::vector<EdgeId> route;

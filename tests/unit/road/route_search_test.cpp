@@ -7,30 +7,13 @@
 namespace sumogamma {
 namespace {
 
-using testing::PlainNet;
 using testing::read_plain_net;
-
-//        N
-//      /   |           A to D by N or by S, from the one lane of IA; everything both ways
-//  I - A   D - O
-//      |   /
-//        S
-PlainNet two_ways() {
-  PlainNet plain;
-  plain.nodes = R"(<node id="I" x="-150" y="0"/><node id="A" x="0" y="0"/>
-    <node id="N" x="100" y="100"/><node id="S" x="100" y="-60"/><node id="D" x="200" y="0"/>
-    <node id="O" x="350" y="0"/>)";
-  for (const std::string way : {"IA", "AN", "ND", "AS", "SD", "DO"})
-    for (const std::string& name : {way, std::string(way.rbegin(), way.rend())})
-      plain.edges += "<edge id=\"" + name + "\" from=\"" + name[0] + "\" to=\"" + name[1] +
-                     "\" numLanes=\"1\" speed=\"13\"/>";
-  return plain;
-}
+using testing::two_ways;
 
 class FastestRoute : public ::testing::Test {
  protected:
   static const RoadNetwork& net() {
-    static const RoadNetwork network = read_plain_net(two_ways());
+    static const RoadNetwork network = read_plain_net(two_ways(true));
     return network;
   }
   FastestRoute() : times_(net().edges.size()) {
