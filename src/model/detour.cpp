@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/approaches.h"
+#include "model/locate.h"
 #include "road/route_search.h"
 
 namespace sumogamma {
@@ -13,6 +14,13 @@ namespace {
 constexpr double kPeriod = 1.0;  ///< between two looks of an agent [s]
 constexpr double kShut = 15.0;   ///< stood before a way that is shut [s]
 constexpr double kBack = 20.0;   ///< of path kept behind the body [m]
+
+/// The first link of a path ahead of a place; null behind the last.
+const PathLink* next_link(const Path& path, double along) {
+  for (const PathLink& link : path.links)
+    if (link.stop_line > along) return &link;
+  return nullptr;
+}
 
 /// Is the way of a driver shut, and can it still take another one? The link before which it stands,
 /// null where not.
@@ -26,9 +34,8 @@ const PathLink* shut_link(const Model& model, const Path& path, const Scene& sce
   const PathStretch& here = path.stretch_at(along);
   if (here.changing || model.road.lane(here.lane).kind != LaneKind::Normal) return nullptr;
   const double front = along + half_extent(scene, row, path.line.direction_at(along));
-  for (const PathLink& link : path.links)
-    if (link.stop_line > along) return front < link.stop_line + 0.3 ? &link : nullptr;
-  return nullptr;
+  const PathLink* link = next_link(path, along);
+  return link != nullptr && front < link->stop_line + 0.3 ? link : nullptr;
 }
 
 /// Time that each edge takes as the roads are now [s], by EdgeId.
@@ -55,9 +62,8 @@ std::vector<double> travel_times(const RoadNetwork& network, const Scene& scene)
 bool has_room(const Model& model, const Path& path, double along, const Scene& scene,
               std::size_t row) {
   constexpr double kRoom = 3.0;  // besides its own length [m]
-  const auto link = std::find_if(path.links.begin(), path.links.end(),
-                                 [&](const PathLink& l) { return l.stop_line > along; });
-  if (link == path.links.end()) return true;
+  const PathLink* link = next_link(path, along);
+  if (link == nullptr) return true;
   const LaneId target = model.road.connection(link->connection).to;
   const double own = 2.0 * half_extent(scene, row, direction_of(scene.heading[row]));
   for (std::size_t other = 0; other < scene.size(); ++other) {
@@ -93,10 +99,7 @@ std::uint64_t take_detours(const Model& model, RoadState& road, Scene& scene) {
     if (route.size() < 2 || route[1] == full) continue;
     auto taken_path = take_route(model.road, *path, along, std::move(route), kBack);
     if (!taken_path || !has_room(model, *taken_path, along, scene, row)) continue;
-    road.paths[scene.id[row].value] = std::make_shared<const Path>(std::move(*taken_path));
-    scene.path_along[row] = along;
-    scene.next_stop[row] = 0;
-    scene.gate[row] = std::numeric_limits<double>::infinity();
+    take_path(std::move(*taken_path), along, row, road, scene);
     scene.merge_to[row] = kNoLane;
     scene.keeps_clear[row] = 0.0;
     ++taken;

@@ -5,6 +5,7 @@
 
 #include "model/approaches.h"
 #include "model/following.h"
+#include "model/locate.h"
 #include "model/overtaking.h"
 #include "model/passing.h"
 #include "model/walking_place.h"
@@ -226,10 +227,7 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
                        : change_lane(model.road, path, along, intent.wanted,
                                      std::max(kChangeTime * speed, kShortest), kBack);
     if (!changed) continue;
-    road.paths[scene.id[row].value] = std::make_shared<const Path>(std::move(*changed));
-    scene.path_along[row] = along;
-    scene.next_stop[row] = 0;
-    scene.gate[row] = std::numeric_limits<double>::infinity();
+    take_path(std::move(*changed), along, row, road, scene);
   }
 }
 

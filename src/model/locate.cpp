@@ -1,5 +1,9 @@
 #include "model/locate.h"
 
+#include <limits>
+#include <memory>
+#include <utility>
+
 namespace sumogamma {
 
 double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& scene,
@@ -20,6 +24,13 @@ double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& 
                      stretch.reversed ? -place.offset : place.offset};
   scene.height[row] = elevation_at(network.lane(stretch.lane), scene.lane[row].along);
   return place.offset;
+}
+
+void take_path(Path path, double along, std::size_t row, RoadState& road, Scene& scene) {
+  road.paths[scene.id[row].value] = std::make_shared<const Path>(std::move(path));
+  scene.path_along[row] = along;
+  scene.next_stop[row] = 0;
+  scene.gate[row] = std::numeric_limits<double>::infinity();
 }
 
 }  // namespace sumogamma

@@ -1,17 +1,16 @@
 #include "model/right_of_way.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "model/following.h"
 #include "model/merging.h"
+#include "model/occupation.h"
 #include "model/rule_breaking.h"
 
 namespace sumogamma {
 
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kFillsLane = 1.2;   ///< nobody overtakes what is wider than this on a link [m]
 constexpr double kPatience = 4.0;    ///< waited for somebody who waits for a third one [s]
 constexpr double kAmber = 2.5;       ///< reckoned with from an amber on [s]
@@ -21,22 +20,6 @@ constexpr double kLeastShare = 0.4;
 // and asks this braking of who has the right of way in the lane that it joins, or at first [m/s^2]
 constexpr double kAskedMost = 3.5, kAsked = 1.5;
 constexpr double kLongWait = 60.0;  // [s]
-
-/// When a body is inside a conflict zone [s from now].
-struct Occupation {
-  double begin = 0, end = 0;
-};
-
-Occupation occupation(const AgentType& type, const Approach& who, double begin, double end,
-                      double top_speed) {
-  if (who.front - who.length > end) return {kNever, kNever};  // its rear has passed
-  const double a = type.max_acceleration;
-  // somebody who stands in the zone stays there as far as anyone can tell
-  if (who.front > begin && who.speed < 0.3) return {0.0, kNever};
-  return {time_to_cover(begin - who.front, who.speed, top_speed, a),
-          time_to_cover(end + who.length - who.front, who.speed,
-                        std::max(who.speed, 0.6 * top_speed), a)};
-}
 
 /// A piece of a link as it lies for somebody on `path`, whose link begins at `link_begin`: who
 /// walks over a crossing against its lane meets the same places in the opposite order, counted from
@@ -134,12 +117,10 @@ struct Judge {
     if (!foe_inside && ignores(zone, foe)) return Verdict::Free;
     if (is_ignored_by(foe)) zone.yields = true;
 
-    const double foe_top =
-        std::min(foe_path->profile_at(scene.path_along[foe.row]), foe_type.max_speed);
+    const double foe_top = top_speed(model, road, scene, foe.row);
     const Occupation theirs = occupation(foe_type, foe, zone.foe_begin, zone.foe_end, foe_top);
-    if (theirs.begin == kNever) return Verdict::Free;
-    const Approach own{link.connection, 0,    traveller.front - link.stop_line, traveller.length,
-                       traveller.speed, false};
+    if (theirs.begin == Occupation::kNever) return Verdict::Free;
+    const Approach own = approach_of(traveller, link);
     const Occupation ours = occupation(own_type, own, zone.begin, zone.end, traveller.top_speed);
     const double margin = zone.yields
                               ? own_type.critical_gap * (1.0 - impatience() * (1.0 - kLeastShare))

@@ -27,6 +27,13 @@ Polyline link_geometry(const RoadNetwork& network, ConnectionId id) {
   return Polyline(std::move(points));
 }
 
+bool is_driven(const RoadNetwork& network, ConnectionId id) {
+  const Connection& connection = network.connection(id);
+  return connection.via != kNoLane && connection.junction != kNoJunction &&
+         network.lane(connection.from).kind == LaneKind::Normal &&
+         network.lane(connection.to).kind == LaneKind::Normal;
+}
+
 Path rounded_way(const RoadNetwork& network, ConnectionId id, double before, double after,
                  double turning_radius) {
   const Connection& connection = network.connection(id);

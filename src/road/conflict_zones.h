@@ -32,6 +32,9 @@ ConflictTable build_conflict_table(const RoadNetwork& network);
 Path rounded_way(const RoadNetwork& network, ConnectionId id, double before, double after,
                  double turning_radius);
 
+/// Does a link lead vehicles over a junction, from lane to lane?
+bool is_driven(const RoadNetwork& network, ConnectionId id);
+
 /// Centreline of a link over its junction: its internal lanes in order, or the crossing that it
 /// enters.
 Polyline link_geometry(const RoadNetwork& network, ConnectionId id);

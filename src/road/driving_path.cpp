@@ -345,10 +345,15 @@ struct Remade {
 
   /// Goes on from lane `entry`, `from` along it, to the trip's end.
   std::optional<Path> finish(Builder& builder, int entry, double from, double& place) const {
+    return finish(builder, path.trip, index(), entry, from, place);
+  }
+  /// Likewise to the end of another trip, from its edge `first` on.
+  std::optional<Path> finish(Builder& builder, std::shared_ptr<const Trip> trip, std::size_t first,
+                             int entry, double from, double& place) const {
     std::string why;
-    if (!drive_on(network, *path.trip, index(), entry, from, builder, why)) return std::nullopt;
+    if (!drive_on(network, *trip, first, entry, from, builder, why)) return std::nullopt;
     Path remade = builder.finish();
-    remade.trip = path.trip;
+    remade.trip = std::move(trip);
     carry_stops(network, path, along, remade);
     place = on_lane - begin;
     return remade;
@@ -434,12 +439,7 @@ std::optional<Path> take_route(const RoadNetwork& network, const Path& path, dou
   const LaneOption& option = trip->options.front()[static_cast<std::size_t>(old.lane.index)];
   if (option.cost == kUnreachable || option.exit_index != old.lane.index) return std::nullopt;
   Builder builder(network, trip->request);
-  std::string why;
-  if (!drive_on(network, *trip, 0, old.lane.index, old.begin, builder, why)) return std::nullopt;
-  Path remade = builder.finish();
-  remade.trip = std::move(trip);
-  along = old.on_lane - old.begin;
-  return remade;
+  return old.finish(builder, trip, 0, old.lane.index, old.begin, along);
 }
 
 }  // namespace sumogamma

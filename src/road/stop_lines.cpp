@@ -23,12 +23,6 @@ Polyline way_through(const RoadNetwork& network, ConnectionId id) {
   return Polyline(std::move(points));
 }
 
-bool is_driven(const RoadNetwork& network, const Connection& connection) {
-  return connection.via != kNoLane && connection.junction != kNoJunction &&
-         network.lane(connection.from).kind == LaneKind::Normal &&
-         network.lane(connection.to).kind == LaneKind::Normal;
-}
-
 /// How far before its end the front must halt on `lane` so that none of the places from there to
 /// 6 m behind it lies on the `ways` of those who come otherwise; 0 where that is too far.
 double setback_on(const Lane& lane, const std::vector<Polyline>& ways) {
@@ -48,8 +42,7 @@ double setback_on(const Lane& lane, const std::vector<Polyline>& ways) {
 std::vector<Polyline> driven_ways(const RoadNetwork& network, const Junction& junction) {
   std::vector<Polyline> ways;
   for (const ConnectionId id : junction.links)
-    if (id != kNoConnection && is_driven(network, network.connection(id)))
-      ways.push_back(link_geometry(network, id));
+    if (id != kNoConnection && is_driven(network, id)) ways.push_back(link_geometry(network, id));
   return ways;
 }
 
@@ -86,9 +79,9 @@ void halt_off_the_road(const RoadNetwork& network, Path& path) {
 void set_back_stop_lines(RoadNetwork& network) {
   std::vector<std::vector<ConnectionId>> by_junction(network.junctions.size());
   for (std::size_t i = 0; i < network.connections.size(); ++i) {
-    const Connection& connection = network.connections[i];
-    if (is_driven(network, connection))
-      by_junction[index_of(connection.junction)].push_back(static_cast<ConnectionId>(i));
+    const auto id = static_cast<ConnectionId>(i);
+    if (is_driven(network, id))
+      by_junction[index_of(network.connections[i].junction)].push_back(id);
   }
   for (const std::vector<ConnectionId>& links : by_junction) {
     std::vector<Polyline> ways;

@@ -77,12 +77,6 @@ std::optional<SweptWay> swept_part(const Sweep& sweep, const Path& way, double e
   return part;
 }
 
-bool is_driven(const RoadNetwork& network, ConnectionId id) {
-  const Connection& connection = network.connection(id);
-  return connection.via != kNoLane && network.lane(connection.from).kind == LaneKind::Normal &&
-         network.lane(connection.to).kind == LaneKind::Normal;
-}
-
 }  // namespace
 
 SweptWayTable find_swept_ways(const RoadNetwork& network, const ConflictTable& conflicts) {
