@@ -183,9 +183,10 @@ class Observers {
     if (predictor_) predictor_->observe(scene);
     if (replay_) {
       replay_->add(scene, &sim_.road, name);
-      for (const CollisionEvent& event : collisions_.new_events())
-        replay_->add_event(ReplayEventKind::Collision, event.time, event.position, event.a,
-                           event.b);
+      for (; collisions_marked_ < collisions_.pairs().size(); ++collisions_marked_) {
+        const CollisionPair& pair = collisions_.pairs()[collisions_marked_];
+        replay_->add_event(ReplayEventKind::Collision, pair.since, pair.position, pair.a, pair.b);
+      }
       for (const RedLightEvent& event : rules_.new_events())
         replay_->add_event(ReplayEventKind::RedLight, event.time, event.position, event.id);
       for (; stuck_marked_ < flow_.stuck().size(); ++stuck_marked_) {
@@ -222,6 +223,8 @@ class Observers {
     write_file(output_ / "stuck.csv",
                stuck_csv(flow_.stuck(), sim_.model.types, sim_.model.road, name));
     write_file(output_ / "trips.csv", trips_csv(world_.life_cycle().trips, sim_.model.types, name));
+    write_file(output_ / "collisions.csv",
+               collisions_csv(collisions_.pairs(), sim_.model.types, name));
     write_file(output_ / "offences.csv", offences_csv(rules_.offences(), sim_.model.types, name));
     if (replay_) {
       replay_->close();
@@ -245,7 +248,7 @@ class Observers {
   TrajectoryWriter trajectories_;
   std::unique_ptr<LivePredictor> predictor_;
   std::unique_ptr<ReplayRecorder> replay_;
-  std::size_t stuck_marked_ = 0;
+  std::size_t stuck_marked_ = 0, collisions_marked_ = 0;
   std::uint64_t hash_ = 0xcbf29ce484222325ULL, controlled_sum_ = 0, controlled_peak_ = 0,
                 controlled_now_ = 0, ticks_ = 0;
 };

@@ -98,6 +98,21 @@ std::string trips_csv(const std::vector<FinishedTrip>& trips, const AgentTypeTab
   return text;
 }
 
+/// collisions.csv: one line a pair of agents that overlapped.
+template <typename NameOf>
+std::string collisions_csv(const std::vector<CollisionPair>& pairs, const AgentTypeTable& types,
+                           NameOf&& name_of) {
+  std::string text = "agent,type,other,other_type,x,y,since_s,duration_s,depth_m\n";
+  char line[120];
+  for (const CollisionPair& pair : pairs) {
+    std::snprintf(line, sizeof line, "%.2f,%.2f,%.2f,%.2f,%.3f\n", pair.position.x(),
+                  pair.position.y(), pair.since, pair.duration, pair.depth);
+    text += std::string(name_of(pair.a)) + ',' + type_of(types, pair.type_a).name + ',' +
+            std::string(name_of(pair.b)) + ',' + type_of(types, pair.type_b).name + ',' + line;
+  }
+  return text;
+}
+
 /// offences.csv: one line an offence against a traffic rule.
 template <typename NameOf>
 std::string offences_csv(const std::vector<OffenceSpan>& offences, const AgentTypeTable& types,

@@ -96,8 +96,9 @@ bool attends(const AgentGeometry& agent, const AgentGeometry& other, const Atten
   return offset.squaredNorm() <= reach * reach;
 }
 
-void find_neighbours(const TickGeometry& geometry, std::size_t row, const AttentionRange& range,
-                     const Vec2& preferred, double horizon, Neighbours& neighbours) {
+void find_neighbours(const RoadNetwork& network, const TickGeometry& geometry, std::size_t row,
+                     const AttentionRange& range, const Vec2& preferred, double horizon,
+                     Neighbours& neighbours) {
   neighbours.attended.clear();
   neighbours.near.clear();
   const AgentGeometry& own = geometry.agent[row];
@@ -109,7 +110,7 @@ void find_neighbours(const TickGeometry& geometry, std::size_t row, const Attent
     if (other_row == row) continue;
     const AgentGeometry& other = geometry.agent[other_row];
     // above or below on a bridge: never met
-    if (on_other_storey(own.lane, own.height, other.lane, other.height)) continue;
+    if (on_other_storey(network, own.ground, other.ground)) continue;
     const Vec2 offset = other.position - own.position;
     const double square = offset.squaredNorm();
     const double near = own.next_reach + other.next_reach;

@@ -30,7 +30,8 @@ struct Neighbours {
 /// Left out of Att are neighbours whose half-plane can't bind: those that the row can't touch
 /// within `horizon` [s] even at the faster of its present and its `preferred` approach, and a
 /// sidestep more.
-void find_neighbours(const TickGeometry& geometry, std::size_t row, const AttentionRange& range,
-                     const Vec2& preferred, double horizon, Neighbours& neighbours);
+void find_neighbours(const RoadNetwork& network, const TickGeometry& geometry, std::size_t row,
+                     const AttentionRange& range, const Vec2& preferred, double horizon,
+                     Neighbours& neighbours);
 
 }  // namespace sumogamma

@@ -6,6 +6,7 @@
 #include "base/random.h"
 #include "geometry/rotation.h"
 #include "model/stopping_guard.h"
+#include "scene/storey.h"
 
 namespace sumogamma {
 
@@ -54,14 +55,14 @@ double lock_along_path(const Path& path, const Scene& scene, const AgentType& ty
 }
 
 /// Does a pose keep clear of everybody as they brake now, or come no closer to who is close?
-bool keeps_clear(const Scene& scene, const TickGeometry& geometry, std::size_t row,
-                 const BodyState& body) {
+bool keeps_clear(const RoadNetwork& network, const Scene& scene, const TickGeometry& geometry,
+                 std::size_t row, const BodyState& body) {
   const AgentGeometry& own = geometry.agent[row];
   const Vec2 forward = direction_of(body.heading);
   const OrientedBox box{body.position + own.shift * forward, forward, own.half};
   bool clear = true;
   geometry.grid.visit_within(body.position, own.radius + 12.0, [&](std::size_t other, double) {
-    if (other == row || !clear || on_other_storey(scene, row, other)) return;
+    if (other == row || !clear || on_other_storey(network, scene, row, other)) return;
     const AgentGeometry& their = geometry.agent[other];
     const double kept = kClear + std::min(their.throttle_way, 0.3);
     if (!their.is_box) {
@@ -120,13 +121,13 @@ std::optional<BodyState> back_out(const Model& model, const RoadState& road, con
   const AgentType& type = type_of(model.types, scene.type[row]);
   const double lock = lock_along_path(*path, scene, type, row);
   const BodyState body = body_of(scene, row);
-  if (now <= kStill &&
-      !keeps_clear(scene, geometry, row, roll_back(type, body, lock, kRoomToBegin / dt, dt)))
+  if (now <= kStill && !keeps_clear(model.road, scene, geometry, row,
+                                    roll_back(type, body, lock, kRoomToBegin / dt, dt)))
     return std::nullopt;
   // as fast as it can still stop before the time is over and before whoever is behind
   double speed = std::min({kPace, now + kThrottle * dt, kBrake * scene.backing_left[row]});
   const double way = speed * dt + 0.5 * speed * speed / kBrake;
-  if (!keeps_clear(scene, geometry, row, roll_back(type, body, lock, way / dt, dt)))
+  if (!keeps_clear(model.road, scene, geometry, row, roll_back(type, body, lock, way / dt, dt)))
     speed = std::max(0.0, now - kBrake * dt);
   return roll_back(type, body, lock, speed, dt);
 }

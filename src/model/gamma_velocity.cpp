@@ -83,7 +83,8 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
   const AgentType& type = type_of(model.types, scene.type[row]);
   work.preferred = preferred_velocity(model, scene, row, behavior.intention);
   if (!work.preferred.allFinite()) work.preferred = Vec2::Zero();
-  find_neighbours(geometry, row, behavior.attention, work.preferred, type.horizon, work.neighbours);
+  find_neighbours(model.road, geometry, row, behavior.attention, work.preferred, type.horizon,
+                  work.neighbours);
 
   ConstraintSet& constraints = work.constraints;
   constraints.clear();

@@ -6,6 +6,7 @@
 #include "model/approaches.h"
 #include "model/overtaking.h"
 #include "model/passing.h"
+#include "scene/storey.h"
 
 namespace sumogamma {
 
@@ -74,8 +75,8 @@ double aim_beside(const RoadState& road, const Scene& scene, std::size_t row, do
 }
 
 /// Is somebody beside a vehicle, its middle ahead, where that means to be beside its path?
-bool is_way_aside_taken(const Path& path, const Scene& scene, const SpatialGrid& grid,
-                        std::size_t row, double own_offset) {
+bool is_way_aside_taken(const Model& model, const Path& path, const Scene& scene,
+                        const SpatialGrid& grid, std::size_t row, double own_offset) {
   constexpr double kThere = 0.1, kNear = 5.0;  // [m]
   const double aim = scene.lateral_aim[row], along = scene.path_along[row];
   if (std::abs(aim - own_offset) < kThere) return false;
@@ -84,7 +85,7 @@ bool is_way_aside_taken(const Path& path, const Scene& scene, const SpatialGrid&
   const double half_width = half_extent(scene, row, left_of(direction_of(scene.heading[row])));
   bool taken = false;
   grid.visit_within(scene.position[row], kNear, [&](std::size_t other, double) {
-    if (other == row || taken || on_other_storey(scene, row, other)) return;
+    if (other == row || taken || on_other_storey(model.road, scene, row, other)) return;
     const Vec2 place = to_body(scene.position[other] - scene.position[row], tangent);
     const double offset = own_offset + place.y();
     taken = place.x() > 0.0 && place.x() < half_length + half_extent(scene, other, tangent) &&
@@ -124,10 +125,10 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
   const double margin = std::min(0.1 + 0.03 * speed, type.width < 1.0 ? 0.15 : 0.3);
 
   const bool taken = narrow && scene.standing_time[row] < kTakenFor &&
-                     is_way_aside_taken(*path, scene, grid, row, own_offset);
+                     is_way_aside_taken(model, *path, scene, grid, row, own_offset);
 
   grid.visit_within(position, reach, [&](std::size_t other, double) {
-    if (other == row || on_other_storey(scene, row, other)) return;
+    if (other == row || on_other_storey(model.road, scene, row, other)) return;
     // cheap rejection: well behind
     if ((scene.position[other] - position).dot(tangent) < -reach * 0.3 - 10.0) return;
     const PolylinePosition place =

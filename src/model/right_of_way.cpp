@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kFillsLane = 1.2;   ///< nobody overtakes what is wider than this on a link [m]
 constexpr double kPatience = 4.0;    ///< waited for somebody who waits for a third one [s]
+constexpr double kCreeps = 0.1;      ///< who is on the junction and faster doesn't stand [m/s]
 constexpr double kAmber = 2.5;       ///< reckoned with from an amber on [s]
 constexpr double kTimeMargin = 1.0;  ///< left by who needn't yield to the other in a zone [s]
 // who has waited for long to give way leaves this share of its critical gap
@@ -20,6 +21,8 @@ constexpr double kLeastShare = 0.4;
 // and asks this braking of who has the right of way in the lane that it joins, or at first [m/s^2]
 constexpr double kAskedMost = 3.5, kAsked = 1.5;
 constexpr double kLongWait = 60.0;  // [s]
+// zones are kept free for so long at the most [s]
+constexpr double kKeepsZonesFree = 20.0;
 
 /// A piece of a link as it lies for somebody on `path`, whose link begins at `link_begin`: who
 /// walks over a crossing against its lane meets the same places in the opposite order, counted from
@@ -38,9 +41,9 @@ Piece as_travelled(const Path& path, double link_begin, double begin, double end
 /// True where a foe that stands and waits lets `row` go first: it waits for a signal or in a queue,
 /// for this very agent, or it came later. Of two that wait for each other exactly one goes: who is
 /// on foot, else who has stood longer.
-bool waits_behind(const Model& model, const Scene& scene, const ApproachTable& approaches,
-                  const Approach& foe, std::size_t row) {
-  if (!foe.stands) return false;
+bool lets_go_first(const Model& model, const Scene& scene, const ApproachTable& approaches,
+                   const Approach& foe, std::size_t row, bool both_on_junction) {
+  if (!foe.stands || (both_on_junction && foe.speed > kCreeps)) return false;
   const Waiting& waiting = approaches.waiting(foe.row);
   switch (waiting.reason) {
     case LimitReason::Signal:
@@ -61,9 +64,9 @@ bool waits_behind(const Model& model, const Scene& scene, const ApproachTable& a
     return type_of(model.types, scene.type[r]).kinematics == Kinematics::Holonomic;
   };
   if (waiting.foe == scene.id[row].value && on_foot(row) != on_foot(foe.row)) return on_foot(row);
-  const double own = scene.standing_time[row], other = scene.standing_time[foe.row];
+  const double own = scene.waiting_time[row], other = scene.waiting_time[foe.row];
   // it has waited long for a third one and so have we: of two that stand for nothing one goes
-  if (waiting.foe != scene.id[row].value && own > kPatience && other > kPatience) return true;
+  if (waiting.foe != scene.id[row].value && std::min(own, other) > kPatience) return true;
   return own > other || (own == other && scene.id[row] < scene.id[foe.row]);
 }
 
@@ -118,8 +121,9 @@ struct Judge {
     if (is_ignored_by(foe)) zone.yields = true;
 
     const double foe_top = top_speed(model, road, scene, foe.row);
-    const Occupation theirs = occupation(foe_type, foe, zone.foe_begin, zone.foe_end, foe_top);
+    Occupation theirs = occupation(foe_type, foe, zone.foe_begin, zone.foe_end, foe_top);
     if (theirs.begin == Occupation::kNever) return Verdict::Free;
+    if (rests_in(zone, foe)) theirs.end = Occupation::kNever;
     const Approach own = approach_of(traveller, link);
     const Occupation ours = occupation(own_type, own, zone.begin, zone.end, traveller.top_speed);
     const double margin = zone.yields
@@ -136,7 +140,7 @@ struct Judge {
     const bool lets_past =
         waiting.reason == LimitReason::GivesWay || waiting.reason == LimitReason::TurningRoom;
     if (foe.stands && lets_past) return Verdict::Held;
-    if (foe.stands && waiting.blocked && (!foe_inside || on_junction(zone))) return Verdict::Held;
+    if (foe.stands && waiting.blocked && (!foe_inside || on_junction())) return Verdict::Held;
     const bool waits_for_us =
         foe.stands && approaches.waiting(foe.row).foe == scene.id[traveller.row].value;
     // all-way stop: who has halted goes in the order in which they came
@@ -159,12 +163,12 @@ struct Judge {
     if (waits_for_us) return waiting_verdict(foe);
     // on foot one walks round what stands on the crossing, on wheels past what stands beside the
     // way
-    if (foe_inside && foe.stands && waits_behind(model, scene, approaches, foe, traveller.row) &&
+    if (foe_inside && foe.stands && waits_behind(foe) &&
         (own_type.kinematics == Kinematics::Holonomic || stands_beside(zone, foe)))
       return Verdict::Held;
-    if (foe_inside && in_deadlock(zone, foe)) return Verdict::Held;
+    if (foe_inside && in_deadlock(foe)) return Verdict::Held;
     if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
-    if (waits_behind(model, scene, approaches, foe, traveller.row)) return Verdict::Held;
+    if (waits_behind(foe)) return Verdict::Held;
     // no rule for this pair, or past the line already: who gets there first goes first, the other
     // waits for it
     if (zone.unruled || past_line(zone))
@@ -184,6 +188,10 @@ struct Judge {
   bool on_foot(std::size_t row) const {
     return type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic;
   }
+  bool waits_behind(const Approach& foe) const {
+    return lets_go_first(model, scene, approaches, foe, traveller.row,
+                         foe.front > 0.0 && on_junction());
+  }
   /// Somebody who hasn't stepped on an unsignalled crossing, where the traveller doesn't let people
   /// go first.
   bool ignores(const ConflictZone& zone, const Approach& foe) const {
@@ -202,20 +210,28 @@ struct Judge {
     // who goes at red waits before the junction, not on it
     return traveller.front > (at_red ? link.stop_line : waiting_place(link, zone).along) + 0.3;
   }
-  /// Past the line, or on the junction before this one?
-  bool on_junction(const ConflictZone& zone) const {
-    const LaneId lane = scene.lane[traveller.row].lane;
-    return past_line(zone) || (lane != kNoLane && model.road.lane(lane).kind == LaneKind::Internal);
+  /// Is some of the traveller's body on a junction, this one or one before?
+  bool on_junction() const {
+    const std::vector<PathLink>& links = road.path(scene.path[traveller.row])->links;
+    const auto first =
+        std::lower_bound(links.begin(), links.end(), traveller.front - traveller.length,
+                         [](const PathLink& l, double rear) { return l.end < rear; });
+    return first != links.end() && first->stop_line + 0.3 < traveller.front;
   }
   /// Have both stood on the junction for long? Conflict zones are wider than bodies: of those who
   /// wait for each other in a ring, whoever isn't waited for by rule alone tries.
-  bool in_deadlock(const ConflictZone& zone, const Approach& foe) const {
+  bool in_deadlock(const Approach& foe) const {
     constexpr double kLong = 8.0;  // [s]
-    const double own = scene.standing_time[traveller.row], other = scene.standing_time[foe.row];
-    if (!on_junction(zone) || std::min(own, other) < kLong) return false;
+    const double own = scene.waiting_time[traveller.row], other = scene.waiting_time[foe.row];
+    if (!on_junction() || std::min(own, other) < kLong) return false;
     const LimitReason reason = approaches.waiting(foe.row).reason;
     const bool yields = reason == LimitReason::Yield || reason == LimitReason::Crossing;
     return !yields || own > other || (own == other && scene.id[traveller.row] < scene.id[foe.row]);
+  }
+  /// Will a foe, as things are, come to rest in the zone?
+  bool rests_in(const ConflictZone& zone, const Approach& foe) const {
+    const double rest = foe.front + approaches.waiting(foe.row).to_halt;
+    return rest > zone.foe_begin + 0.3 && rest - foe.length < zone.foe_end;
   }
   /// Does a foe's body leave the traveller's way free? Conflict zones are wider than bodies.
   bool stands_beside(const ConflictZone& zone, const Approach& foe) const {
@@ -236,9 +252,7 @@ struct Judge {
   }
   double to_line() const { return link.stop_line - traveller.front; }
   /// From 0 to 1 while the traveller waits.
-  double impatience() const {
-    return std::min(scene.standing_time[traveller.row] / kLongWait, 1.0);
-  }
+  double impatience() const { return std::min(scene.waiting_time[traveller.row] / kLongWait, 1.0); }
   /// Would who comes along the lane that the link leads into have to brake hard for the traveller?
   bool cuts_in(const ConflictZone& zone, const Approach& foe, double foe_top) const {
     const Connection& foe_link = model.road.connection(zone.foe);
@@ -273,8 +287,7 @@ struct Judge {
   }
   static Verdict blocks_if(bool blocks) { return blocks ? Verdict::Blocks : Verdict::Free; }
   Verdict waiting_verdict(const Approach& foe) const {
-    return waits_behind(model, scene, approaches, foe, traveller.row) ? Verdict::Held
-                                                                      : Verdict::Blocks;
+    return waits_behind(foe) ? Verdict::Held : Verdict::Blocks;
   }
 };
 
@@ -322,6 +335,43 @@ bool runs_together(const Model& model, ConnectionId a, ConnectionId b) {
   const Connection &own = model.road.connection(a), &other = model.road.connection(b);
   return own.to == other.to && own.from != other.from &&
          model.road.lane(own.from).edge == model.road.lane(other.from).edge;
+}
+
+/// Is somebody in a zone of a foe's link, or will be soon?
+bool comes_soon(const ConflictZone& zone, const Approach& foe) {
+  constexpr double kSoon = 6.0;  // [s]
+  if (foe.front - foe.length > zone.foe_end) return false;
+  return foe.front > 0.0 || (!foe.stands && zone.foe_begin - foe.front < kSoon * foe.speed);
+}
+
+/// Who has to wait on a junction waits where it stands in nobody's way: not with its body in a zone
+/// that somebody else is about to need, but before it, unless it is in there already.
+void keep_zones_free(const Model& model, const RoadState& road, const Scene& scene,
+                     const ApproachTable& approaches, const Traveller& traveller,
+                     const PathLink& link, LinkDecision& decision) {
+  const Path& path = *road.path(scene.path[traveller.row]);
+  const AgentType& type = type_of(model.types, scene.type[traveller.row]);
+  for (bool again = true; again;) {
+    again = false;
+    for (const ConflictZone& zone : model.conflicts[index_of(link.connection)]) {
+      const Piece piece = as_travelled(path, link.stop_line, zone.begin, zone.end);
+      const double begin = link.stop_line + piece.begin, end = link.stop_line + piece.end;
+      const double line = std::max(begin, link.stop_line) - kStopMargin;
+      if (decision.stop_at <= begin || decision.stop_at - traveller.length >= end) continue;
+      if (line >= decision.stop_at || line < traveller.front) continue;
+      if (runs_together(model, link.connection, zone.foe)) continue;
+      if (deceleration_to_stop(traveller.speed, line - traveller.front) >
+          type.comfortable_deceleration)
+        continue;
+      const auto foes = approaches.of(zone.foe);
+      if (std::none_of(foes.begin(), foes.end(), [&](const Approach& foe) {
+            return foe.row != traveller.row && comes_soon(zone, foe);
+          }))
+        continue;
+      decision.stop_at = line;
+      again = true;
+    }
+  }
 }
 
 }  // namespace
@@ -389,6 +439,9 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
                     static_cast<std::int64_t>(scene.id[foe.row].value)};
     }
   }
+  if (decision.must_stop && decision.stop_at > link.stop_line &&
+      scene.waiting_time[traveller.row] < kKeepsZonesFree)
+    keep_zones_free(model, road, scene, approaches, traveller, link, decision);
   return decision;
 }
 

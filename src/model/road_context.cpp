@@ -9,6 +9,7 @@
 #include "model/passing.h"
 #include "model/right_of_way.h"
 #include "model/turning_room.h"
+#include "scene/storey.h"
 
 namespace sumogamma {
 
@@ -92,14 +93,18 @@ std::int64_t blocks_exit(const View& view, DrivingAhead& ahead, const Course& co
 // would ever move on: somebody has to lend the queue the room of the junction [s]
 constexpr double kKeepsClear = 40.0, kGoesOn = 10.0;
 
-/// Counts for how long the agent has kept a junction clear.
+/// Counts for how long the agent has kept a junction, or the room that others need to turn, clear.
 void note_keeping_clear(const Course& course, const RoadContext& context, double dt, Scene& scene) {
   double& kept = scene.keeps_clear[course.row];
-  if (context.reason == LimitReason::BlockedJunction && course.speed < 0.3) {
+  const bool for_others = context.reason == LimitReason::BlockedJunction ||
+                          context.reason == LimitReason::TurningRoom;
+  if (for_others && course.speed < 0.3) {
     kept += dt;
     if (kept > kKeepsClear) kept = kKeepsClear + kGoesOn;
-  } else {
+  } else if (kept > kKeepsClear) {
     kept = kept - dt > kKeepsClear ? kept - dt : 0.0;
+  } else if (scene.waiting_time[course.row] == 0.0) {
+    kept = 0.0;
   }
 }
 
@@ -232,7 +237,7 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
                                                          : link.inside;
       if (beyond.must_stop) decision = {true, line - kStopMargin, beyond.reason, beyond.foe};
     }
-    if (!decision.must_stop)
+    if (!decision.must_stop && scene.keeps_clear[course.row] <= kKeepsClear)
       decision = leave_turning_room(model, road, scene, approaches, traveller, link);
     if (!decision.must_stop) continue;
     const double gap = decision.stop_at - traveller.front + type.min_gap;
@@ -278,7 +283,7 @@ void follow_on_foot(const View& view, const Course& course, RoadContext& context
   const Vec2 left = left_of(context.tangent);
   const double half_width = half_extent(scene, row, left);
   view.grid.visit_within(scene.position[row], kReach, [&](std::size_t other, double) {
-    if (other == row || on_other_storey(scene, row, other)) return;
+    if (other == row || on_other_storey(view.model.road, scene, row, other)) return;
     if (type_of(view.model.types, scene.type[other]).kinematics != Kinematics::Holonomic) return;
     const Vec2 offset = scene.position[other] - scene.position[row];
     const double ahead = offset.dot(context.tangent);

@@ -116,9 +116,9 @@ void update_wedge(double dt, Scene& scene, std::size_t row) {
       scene.blocked_time[row] > kPatience ? kLasts : std::max(0.0, scene.wedge_left[row] - dt);
 }
 
-bool StoppingGuard::in_lane() const {
-  return geometry_->agent[row_].on_wheels && scene_->context[row_].active;
-}
+bool StoppingGuard::on_road() const { return scene_->context[row_].active; }
+
+bool StoppingGuard::in_lane() const { return geometry_->agent[row_].on_wheels && on_road(); }
 
 bool StoppingGuard::overlapping() const {
   return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t other) {
@@ -154,7 +154,7 @@ StoppingGuard::Foe StoppingGuard::look_closely(std::uint32_t other) const {
   Foe foe;
   foe.row = other;
   foe.overlaps = overlap_depth(*scene_, *geometry_, row_, other) > kSame;
-  if (foe.overlaps && !in_lane()) return foe;
+  if (foe.overlaps && !on_road()) return foe;
   const double step = model_->options.step;
   Braking theirs = braking_now(their, type_of(model_->types, their.type));
   // nobody makes others brake; whoever goes the same way may
@@ -201,7 +201,7 @@ bool StoppingGuard::clear_at(Foe& foe, std::size_t instant, const Pose& pose) co
   // no closer than by braking now is as good as braking
   if (gap >= room.gap - kSame) return true;
   // deeper by a hair is what it takes to roll out of each other side by side
-  if (foe.overlaps) return gap >= room.gap - kHair && gap > -kDeepest;
+  if (foe.overlaps) return gap >= room.gap - kHair && (!own.on_wheels || gap > -kDeepest);
   // closer than the margin already: half of what is left may be used, so that bodies side by side
   // can turn apart
   const double least = in_lane() ? kLeastGap : 0.0;
@@ -221,7 +221,7 @@ bool StoppingGuard::admits(const Vec2& velocity) {
     // braking for who comes from behind helps nobody
     if (in_lane() && comes_from_behind(own, geometry_->agent[other])) continue;
     Foe& foe = foe_of(other);
-    if (foe.overlaps && !in_lane()) continue;
+    if (foe.overlaps && !on_road()) continue;
     for (std::size_t k = 0; k < kInstants; ++k)
       if (!clear_at(foe, k, pose_after(braking, instant_of(foe.duration, k)))) return false;
   }

@@ -81,8 +81,9 @@ class StoppingGuard {
     std::array<Room, kInstants> room;   ///< filled where it is asked for
   };
 
-  /// Does the row drive on a road? There bodies that overlap never push through each other.
-  bool in_lane() const;
+  /// Does the row drive or walk on a road? There bodies that overlap never push through each other.
+  bool on_road() const;
+  bool in_lane() const;  ///< on a road, and on wheels
   Braking braking_after(const Vec2& velocity);
   Foe& foe_of(std::uint32_t other);
   Foe look_closely(std::uint32_t other) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/approaches.h"
+#include "scene/storey.h"
 
 namespace sumogamma {
 
@@ -21,7 +22,7 @@ void look_around(const Model& model, const RoadState& road, const Scene& scene,
   around.speed = scene.speed[row];
   around.users.clear();
   grid.visit_within(scene.position[row], reach, [&](std::size_t other, double) {
-    if (other == row || on_other_storey(scene, row, other)) return;
+    if (other == row || on_other_storey(model.road, scene, row, other)) return;
     const PolylinePosition place =
         path.line.project(scene.position[other], along - reach, along + reach);
     if (place.distance > aside + scene.footprint[other].radius) return;

@@ -55,8 +55,7 @@ AgentGeometry describe(const Model& model, const Scene& scene, std::size_t row) 
   agent.velocity = scene.velocity[row];
   agent.forward = rotation(scene.heading[row]);
   agent.on_wheels = type.kinematics != Kinematics::Holonomic;
-  agent.height = scene.height[row];
-  agent.lane = scene.lane[row].lane;
+  agent.ground = ground_of(scene, row);
   agent.speed = agent.on_wheels ? scene.speed[row] : agent.velocity.norm();
   agent.curvature = agent.on_wheels ? tangent(scene.steering[row]) / type.wheelbase : 0.0;
   agent.type = scene.type[row];

@@ -9,6 +9,7 @@
 #include "geometry/spatial_grid.h"
 #include "model/model.h"
 #include "scene/scene.h"
+#include "scene/storey.h"
 
 namespace sumogamma {
 
@@ -27,8 +28,7 @@ struct AgentGeometry {
   double far = 0;           ///< from farther than this it matters to nobody on its own account [m]
   double throttle_way = 0;  ///< what that tick adds to the way [m]
   double speed = 0;         ///< [m/s]
-  double height = 0;        ///< of the ground under it [m]
-  LaneId lane = kNoLane;    ///< that it is on
+  Ground ground;            ///< under it
   double curvature = 0;     ///< of the rear axle's way, positive left [1/m]
   AttentionRange attention;
   AgentTypeId type{};

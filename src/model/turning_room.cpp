@@ -4,6 +4,7 @@
 
 #include "model/following.h"
 #include "model/occupation.h"
+#include "scene/storey.h"
 
 namespace sumogamma {
 
@@ -28,7 +29,7 @@ double halt_for_long_bodies(const Model& model, const Scene& scene, const Approa
     if (!way.foe_is_long || way.begin >= 0.0 || traveller.front > place || place >= halt) continue;
     for (const Approach& foe : approaches.of(way.foe))
       if (foe.length > kLongBody && foe.front > -kNear && foe.front - foe.length < way.foe_end &&
-          foe.row != traveller.row && !on_other_storey(scene, traveller.row, foe.row))
+          foe.row != traveller.row && !on_other_storey(model.road, scene, traveller.row, foe.row))
         halt = std::min(halt, place);
   }
   return halt;
@@ -57,9 +58,9 @@ LinkDecision leave_turning_room(const Model& model, const RoadState& road, const
     for (const Approach& foe : approaches.of(way.foe)) {
       if (foe.row == traveller.row || (way.foe_is_long && foe.length <= kLongBody)) continue;
       if (foe.front - foe.length >= way.foe_end) continue;
-      // it waits before its line, or before the place that is swept
+      // it waits before its line, or before the place that is swept; whom bodies hold isn't coming
       const bool there = foe.front > way.foe_begin;
-      if (!there && foe.stands) continue;
+      if (foe.stands && (!there || approaches.waiting(foe.row).blocked)) continue;
       const Occupation theirs =
           occupation(type_of(model.types, scene.type[foe.row]), foe, way.foe_begin, way.foe_end,
                      top_speed(model, road, scene, foe.row));

@@ -39,6 +39,7 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.gives_way_left);
   visit(scene.keeps_clear);
   visit(scene.standing_time);
+  visit(scene.waiting_time);
   visit(scene.halted_for);
   visit(scene.halted_at);
   visit(scene.next_stop);
@@ -113,6 +114,15 @@ std::uint64_t hash_state(const Scene& scene, std::uint64_t hash) {
     add_double(scene.steering[row]);
   }
   return hash;
+}
+
+void count_standing(double dt, Scene& scene, std::size_t row) {
+  constexpr double kStands = 0.3, kCreeps = 1.0;  // [m/s]
+  constexpr double kCreepsShare = 0.3;            // of the preferred speed: people on foot
+  const double speed = scene.velocity[row].norm();
+  const double creeping = std::min(kCreeps, kCreepsShare * scene.preferred_speed[row]);
+  scene.standing_time[row] = speed < kStands ? scene.standing_time[row] + dt : 0.0;
+  scene.waiting_time[row] = speed < creeping ? scene.waiting_time[row] + dt : 0.0;
 }
 
 }  // namespace sumogamma

@@ -19,9 +19,6 @@ struct AgentId {
                           const AgentId&) = default;  // NOLINT(modernize-use-nullptr): 14's own bug
 };
 
-/// Agents whose ground differs by more than this don't meet: one is on a bridge [m].
-inline constexpr double kStorey = 2.5;
-
 /// Where an agent is on the lane network.
 struct LanePosition {
   LaneId lane = kNoLane;
@@ -67,9 +64,10 @@ struct Scene {
                                    ///< bodies
   std::vector<double> backing_left;      ///< [s] for which it still backs out
   std::vector<double> gives_way_left;    ///< [s] for which it lets others go first after that
-  std::vector<double> keeps_clear;       ///< [s] for which it has stood before a junction because
-                                         ///< there is no room behind it
+  std::vector<double> keeps_clear;       ///< [s] for which it has stood because there is no room
+                                         ///< behind a junction, or for others to turn
   std::vector<double> standing_time;     ///< [s] since it was last faster than 0.3 m/s
+  std::vector<double> waiting_time;      ///< [s] since it last got on: creeping is none
   std::vector<ConnectionId> halted_for;  ///< link before which it last came to a halt
   std::vector<double> halted_at;         ///< when it did [s]
   std::vector<std::int32_t> next_stop;   ///< index of the path's next planned halt
@@ -81,15 +79,8 @@ struct Scene {
   std::size_t size() const { return id.size(); }
 };
 
-/// Are two agents above one another, on a bridge and under it? Never on one lane, however steep it
-/// is. Lanes that they are on, and the ground under them [m].
-inline bool on_other_storey(LaneId lane_a, double height_a, LaneId lane_b, double height_b) {
-  const bool same_lane = lane_a == lane_b && lane_a != kNoLane;
-  return !same_lane && std::abs(height_a - height_b) > kStorey;
-}
-inline bool on_other_storey(const Scene& scene, std::size_t a, std::size_t b) {
-  return on_other_storey(scene.lane[a].lane, scene.height[a], scene.lane[b].lane, scene.height[b]);
-}
+/// Counts once a tick for how long a row has stood, and for how long it has not got on.
+void count_standing(double dt, Scene& scene, std::size_t row);
 
 /// One agent as a row to append. Everything that has a natural default has it.
 struct AgentState {

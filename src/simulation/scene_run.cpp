@@ -89,7 +89,7 @@ void move_rows(const std::vector<BodyState>& commands, double dt, Scene& scene, 
       scene.velocity[row] = body.velocity;
       scene.speed[row] = body.speed;
       scene.steering[row] = body.steering;
-      scene.standing_time[row] = body.speed < 0.3 ? scene.standing_time[row] + dt : 0.0;
+      count_standing(dt, scene, row);
     }
   });
   scene.tick += 1;

@@ -106,8 +106,7 @@ void tick(Simulation& sim, World& world) {
       apply(sim.commands[row], sim.dt, scene, row);
       ++sim.times.agent_steps;
     }
-    scene.standing_time[row] =
-        scene.velocity[row].norm() < 0.3 ? scene.standing_time[row] + sim.dt : 0.0;
+    count_standing(sim.dt, scene, row);
     update_wedge(sim.dt, scene, row);
     update_backing(sim.dt, scene, row);
   }

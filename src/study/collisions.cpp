@@ -32,16 +32,17 @@ void CollisionMonitor::prepare(const Scene& scene) {
     return a.left != b.left ? a.left < b.left : a.row < b.row;
   });
   if (!has_heights_) return;
-  height_.resize(count);
+  ground_.resize(count);
   for (std::size_t row = 0; row < count; ++row) {
     const LanePosition& place = scene.lane[row];
     // an agent off every lane is taken to be on the ground
-    height_[row] = place.lane == kNoLane ? 0.0 : elevation_at(road_->lane(place.lane), place.along);
+    ground_[row] = {
+        place.lane, place.along,
+        place.lane == kNoLane ? 0.0 : elevation_at(road_->lane(place.lane), place.along)};
   }
 }
 
 void CollisionMonitor::add(const Scene& scene, const AgentTypeTable& types) {
-  new_events_.clear();
   prepare(scene);
   for (std::size_t i = 0; i < intervals_.size(); ++i) {
     const std::size_t a = intervals_[i].row;
@@ -50,7 +51,7 @@ void CollisionMonitor::add(const Scene& scene, const AgentTypeTable& types) {
       const std::size_t b = intervals_[j].row;
       const double reach = scene.footprint[a].radius + scene.footprint[b].radius;
       if (std::abs(scene.position[a].y() - scene.position[b].y()) >= reach) continue;
-      if (has_heights_ && std::abs(height_[a] - height_[b]) > kStorey) continue;
+      if (has_heights_ && on_other_storey(*road_, ground_[a], ground_[b])) continue;
       meet(scene, types, std::min(a, b), std::max(a, b));
     }
   }
@@ -65,12 +66,15 @@ void CollisionMonitor::meet(const Scene& scene, const AgentTypeTable& types, std
       overlap_depth(outlines_[a], outlines_[b], scene.position[b] - scene.position[a]);
   if (!(depth > kContact)) return;
   overlapping_[a] = overlapping_[b] = true;
-  worst_ = std::max(worst_, depth);
-  const std::pair<std::uint32_t, std::uint32_t> pair(scene.id[a].value, scene.id[b].value);
-  if (depth > kDeep) deep_pairs_.insert(pair);
-  if (!pairs_.insert(pair).second) return;
-  new_events_.push_back(
-      {scene.time, scene.id[a], scene.id[b], 0.5 * (scene.position[a] + scene.position[b]), depth});
+  const auto [found, first] =
+      index_.try_emplace({scene.id[a].value, scene.id[b].value}, pairs_.size());
+  if (first)
+    pairs_.push_back({scene.time, scene.id[a], scene.id[b], scene.type[a], scene.type[b],
+                      0.5 * (scene.position[a] + scene.position[b]), 0.0, 0.0});
+  CollisionPair& pair = pairs_[found->second];
+  pair.depth = std::max(pair.depth, depth);
+  pair.duration += step_;
+  if (!first) return;
   const std::string &one = type_of(types, scene.type[a]).name,
                     &other = type_of(types, scene.type[b]).name;
   ++by_types_[std::min(one, other) + "-" + std::max(one, other)];
@@ -79,9 +83,11 @@ void CollisionMonitor::meet(const Scene& scene, const AgentTypeTable& types, std
 CollisionResult CollisionMonitor::result() const {
   CollisionResult result;
   result.unique_pairs = pairs_.size();
-  result.deep_pairs = deep_pairs_.size();
+  for (const CollisionPair& pair : pairs_) {
+    if (pair.depth > kDeep) ++result.deep_pairs;
+    result.worst_penetration_m = std::max(result.worst_penetration_m, pair.depth);
+  }
   result.by_types = by_types_;
-  result.worst_penetration_m = worst_;
   result.agent_hours = static_cast<double>(agent_steps_) * step_ / 3600.0;
   if (agent_steps_ > 0) {
     result.unique_pairs_per_agent_hour = static_cast<double>(pairs_.size()) / result.agent_hours;

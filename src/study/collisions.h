@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "road/road_network.h"
 #include "scene/agent_type.h"
 #include "scene/scene.h"
+#include "scene/storey.h"
 
 namespace sumogamma {
 
@@ -26,23 +26,24 @@ struct CollisionResult {
   double agent_hours = 0;          ///< time that agents were alive, summed [h]
 };
 
-/// A pair that overlaps for the first time.
-struct CollisionEvent {
-  double time = 0;               ///< [s]
-  AgentId a, b;                  ///< a < b
-  Vec2 position = Vec2::Zero();  ///< midway between the two centres [m]
-  double penetration = 0;        ///< at that tick [m]
+/// A pair that overlapped, from the first time on: where to look when a count surprises.
+struct CollisionPair {
+  double since = 0;  ///< [s]
+  AgentId a, b;      ///< a < b
+  AgentTypeId type_a{}, type_b{};
+  Vec2 position = Vec2::Zero();  ///< midway between the two centres, the first time [m]
+  double depth = 0;              ///< the deepest [m]
+  double duration = 0;           ///< of all ticks with an overlap [s]
 };
 
 /// Tests the oriented footprints of all agents alive, whoever drives them, against each other every
-/// tick: sweep over x, then the separating axis theorem. Agents more than kStorey apart in height
-/// (bridges) don't meet.
+/// tick: sweep over x, then the separating axis theorem. Agents above one another
+/// (on_other_storey(), bridges) don't meet.
 class CollisionMonitor {
  public:
   static constexpr double kContact =
       1e-3;  ///< an overlap counts from this depth: poses are exact to far less [m]
-  static constexpr double kDeep = 0.1;    ///< [m]
-  static constexpr double kStorey = 2.5;  ///< [m]
+  static constexpr double kDeep = 0.1;  ///< [m]
 
   /// `step`: time between two calls of add [s]. `road`: for heights, or null; must outlive the
   /// monitor.
@@ -51,8 +52,8 @@ class CollisionMonitor {
   void add(const Scene& scene, const AgentTypeTable& types);
 
   CollisionResult result() const;
-  /// Pairs that began with the last add.
-  const std::vector<CollisionEvent>& new_events() const { return new_events_; }
+  /// In the order in which they began.
+  const std::vector<CollisionPair>& pairs() const { return pairs_; }
   /// By row of the last scene: true where the agent overlaps another.
   const std::vector<bool>& overlapping() const { return overlapping_; }
 
@@ -67,16 +68,15 @@ class CollisionMonitor {
   double step_;
   bool has_heights_ = false;
   const RoadNetwork* road_;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs_, deep_pairs_;
+  std::vector<CollisionPair> pairs_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> index_;  ///< into pairs_, by ids
   std::map<std::string, std::uint64_t> by_types_;
   std::uint64_t agent_steps_ = 0, overlap_steps_ = 0;
-  double worst_ = 0;
-  std::vector<CollisionEvent> new_events_;
 
   // scratch of one tick
   std::vector<Interval> intervals_;
   std::vector<ConvexPolygon> outlines_;
-  std::vector<double> height_;
+  std::vector<Ground> ground_;
   std::vector<bool> overlapping_;
 };
 

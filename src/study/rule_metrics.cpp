@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "scene/storey.h"
 
 namespace sumogamma {
 
@@ -87,9 +88,12 @@ void RuleMonitor::find_lanes(const Row& agent, const Vec2& point,
   locator_.find_containing(point, hits);
   const LanePosition& own = agent.scene.lane[agent.row];
   if (!has_heights_ || own.lane == kNoLane) return;
-  const double height = elevation_at(network_.lane(own.lane), own.along);
+  auto ground_at = [&](LaneId lane, double along) {
+    return Ground{lane, along, elevation_at(network_.lane(lane), along)};
+  };
+  const Ground ground = ground_at(own.lane, own.along);
   std::erase_if(hits, [&](const LaneHit& hit) {
-    return std::abs(elevation_at(network_.lane(hit.lane), hit.along) - height) > kStorey;
+    return on_other_storey(network_, ground, ground_at(hit.lane, hit.along));
   });
 }
 

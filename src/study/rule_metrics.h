@@ -63,7 +63,7 @@ struct RedLightEvent {
 /// is on an edge that one of them leads to. Red light, pedestrians: the centre gets kEntered deep
 /// into a signalled crossing that showed red already when it was stepped on. Wrong way: faster than
 /// kMoving, on a normal lane, off junctions, more than 120 degrees from every lane of the place
-/// that vehicles may use. Lanes more than a storey above or below one's own don't count (bridges).
+/// that vehicles may use. Lanes on another storey than one's own don't count (bridges).
 ///
 /// A red light is met by a vehicle slower than kSlow whose front is within kMeets before the end of
 /// a lane all of whose links show red, with nobody between it and that end; by somebody on foot who
@@ -77,7 +77,6 @@ class RuleMonitor {
   static constexpr double kStands = 0.2;   ///< [m/s]
   static constexpr double kMoving = 0.5;   ///< [m/s]
   static constexpr double kEntered = 0.5;  ///< [m]
-  static constexpr double kStorey = 2.5;   ///< [m]
   static constexpr double kPause = 1.0;    ///< [s]
   static constexpr double kJudgement =
       30.0;  ///< a mixed stop line is dropped unjudged after so long [s]

@@ -55,13 +55,16 @@ bool needs_care(const Model& model, const PathLink& link) {
                      [](const ConflictZone& zone) { return zone.yields || zone.foe_is_crossing; });
 }
 
+// cosine from which somebody goes the same way
+constexpr double kSameWay = 0.95;
+
 /// Least gap to others with which people start in a crowd [m].
 constexpr double kCrowd = 0.15;
 
 }  // namespace
 
 std::optional<double> entry_speed(const Model& model, const Path& path, const AgentState& agent,
-                                  double ground, const Scene& scene) {
+                                  const Ground& ground, const Scene& scene) {
   const AgentType& type = type_of(model.types, agent.type);
   const bool on_foot = type.kinematics == Kinematics::Holonomic;
   const Vec2 direction = path.line.direction_at(0.0);
@@ -87,14 +90,16 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const Vec2 relative = to_body(scene.position[row] - agent.position, direction);
     if (std::abs(relative.x()) > 80.0 || std::abs(relative.y()) > 30.0) continue;
-    if (std::abs(scene.height[row] - ground) > kStorey) continue;
+    if (on_other_storey(model.road, ground, ground_of(scene, row))) continue;
     const Box other = box_of(scene, row);
     if (overlap(wanted, other)) return std::nullopt;
-    // nor does anybody start before somebody who comes across or towards it
+    // nor does anybody start before somebody who comes from aside or towards it, or on foot before
+    // who drives
     const Vec2 velocity = scene.velocity[row];
-    const bool other_way = velocity.dot(direction) < 0.3 * velocity.norm();
-    if (other_way && !on_foot &&
-        overlap(wanted, covered(other, type_of(model.types, scene.type[row]), velocity.norm())))
+    const AgentType& kind = type_of(model.types, scene.type[row]);
+    const bool drives = kind.kinematics != Kinematics::Holonomic;
+    const bool from_aside = velocity.dot(direction) < kSameWay * velocity.norm();
+    if ((on_foot ? drives : from_aside) && overlap(wanted, covered(other, kind, velocity.norm())))
       return std::nullopt;
     // who is ahead and not quite in this lane may be on its way into it, and is if it says so
     const LaneId lane = path.stretches.front().lane;

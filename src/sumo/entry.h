@@ -5,15 +5,16 @@
 
 #include "model/model.h"
 #include "road/path.h"
+#include "scene/storey.h"
 
 namespace sumogamma {
 
 /// Speed [m/s] with which `agent` may start now where it stands, at the start of `path`, or nothing
 /// where its place isn't free: it must not touch anybody, be able to stop behind whoever is ahead
 /// and before the first line where something may have to be waited for, and force nobody behind it
-/// to brake hard. `ground`: height there [m].
+/// to brake hard. `ground`: there.
 std::optional<double> entry_speed(const Model& model, const Path& path, const AgentState& agent,
-                                  double ground, const Scene& scene);
+                                  const Ground& ground, const Scene& scene);
 
 /// Where beside the start of its path somebody on foot may start [m, positive left]: at `liked` and
 /// then, nearest first, aside of it within [`most_right`, `most_left`] and on the same side of the

@@ -289,7 +289,8 @@ bool SumoWorld::insert_on(const Pending& pending, const std::shared_ptr<const Pa
   const AgentId id{static_cast<std::uint32_t>(known_.size())};
   AgentState agent = newcomer(pending, *path, id);
   const PathStretch& stretch = path->stretches.front();
-  const double ground = elevation_at(model_.road.lane(stretch.lane), stretch.lane_from);
+  const Ground ground{stretch.lane, stretch.lane_from,
+                      elevation_at(model_.road.lane(stretch.lane), stretch.lane_from)};
   std::optional<double> speed;
   if (details.is_person) {
     const Vec2 left = left_of(path->line.direction_at(0.0)), middle = path->line.point_at(0.0);
@@ -319,7 +320,7 @@ bool SumoWorld::insert_on(const Pending& pending, const std::shared_ptr<const Pa
   road.paths.resize(known_.size());
   road.paths[id.value] = path;
   append_agent(scene, agent);
-  scene.height.back() = ground;
+  scene.height.back() = ground.height;
   ++life_cycle_.by_type[type_of(model_.types, pending.type).name].inserted;
   // spread over the run, a few ghosts at a time are read back
   if (written_.size() < options_.watched) {

@@ -114,6 +114,7 @@ class RunTest : public ::testing::Test {
     EXPECT_THAT(content(out(output) / "stuck.csv"), HasSubstr("agent,type"));
     EXPECT_THAT(content(out(output) / "trips.csv"), HasSubstr("agent,type,departed_s"));
     EXPECT_THAT(content(out(output) / "offences.csv"), HasSubstr("agent,type"));
+    EXPECT_THAT(content(out(output) / "collisions.csv"), HasSubstr("agent,type,other"));
   }
   /// Exit code 2 and one line that says what is wrong; no output folder.
   void expect_refused(const ProcessResult& result, const std::string& words) const {

@@ -144,7 +144,7 @@ TEST(GammaLaws, FindsTheNeighboursOfABruteForceSearch) {
     for (std::size_t row = 0; row < scene.size(); ++row) {
       const AgentGeometry& own = geometry.agent[row];
       const Vec2 preferred(draw(seed, 77, -3, 3), draw(seed, 78, -3, 3));
-      find_neighbours(geometry, row, own.attention, preferred, 3.0, neighbours);
+      find_neighbours(model.road, geometry, row, own.attention, preferred, 3.0, neighbours);
       std::vector<std::uint32_t> near = neighbours.near, near_expected, expected;
       for (std::uint32_t other = 0; other < scene.size(); ++other) {
         if (other == row) continue;

@@ -150,5 +150,20 @@ TEST_F(Results, StuckAgentsAsCsv) {
   EXPECT_NE(csv.find("\nv4,bus,,1.50,-2.00,10.00,75.25,no,leader,v9\n"), std::string::npos) << csv;
 }
 
+TEST_F(Results, CollisionsAsCsv) {
+  const AgentTypeTable types = default_agent_types();
+  const CollisionPair pair{12.5,
+                           AgentId{2},
+                           AgentId{7},
+                           find_agent_type(types, "bus"),
+                           find_agent_type(types, "car"),
+                           {1, -2.5},
+                           0.125,
+                           3};
+  const std::string csv =
+      collisions_csv({pair}, types, [](AgentId id) { return "v" + std::to_string(id.value); });
+  EXPECT_NE(csv.find("\nv2,bus,v7,car,1.00,-2.50,12.50,3.00,0.125\n"), std::string::npos) << csv;
+}
+
 }  // namespace
 }  // namespace sumogamma

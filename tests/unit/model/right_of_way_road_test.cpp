@@ -120,10 +120,10 @@ TEST_F(PriorityTest, WhoTurnsInWaitsForWhoWouldHaveToBrakeHard) {
   EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
   EXPECT_EQ(here_.context(minor).foe, here_.scene.id[major].value);
   // who has waited for a minute asks for more
-  here_.scene.standing_time[minor] = 60;
+  here_.scene.waiting_time[minor] = 60;
   here_.update();
   EXPECT_EQ(here_.context(minor).reason, LimitReason::None);
-  here_.scene.standing_time[minor] = 0;
+  here_.scene.waiting_time[minor] = 0;
   here_.move(major, line - 110);
   here_.update();
   EXPECT_EQ(here_.context(minor).reason, LimitReason::None);
@@ -184,8 +184,8 @@ TEST_F(PriorityTest, OfTwoThatWaitForEachOtherOneGoes) {
     here_.scene.context[row].reason = LimitReason::Yield;
     here_.scene.context[row].foe = here_.scene.id[row == a ? b : a].value;
   }
-  here_.scene.standing_time[a] = 20;
-  here_.scene.standing_time[b] = 10;
+  here_.scene.waiting_time[a] = 20;
+  here_.scene.waiting_time[b] = 10;
   here_.update();
   const bool first_goes = here_.context(a).reason != LimitReason::Yield;
   const bool second_goes = here_.context(b).reason != LimitReason::Yield;
@@ -232,6 +232,58 @@ TEST_F(PriorityTest, NobodyWaitsForWhoIsHeldByBodiesAlone) {
   here_.scene.standing_time[major] = 10;
   here_.update();
   EXPECT_NE(here_.context(minor).reason, LimitReason::Yield);
+}
+
+// who rolls over the junction and halts there is not gone when its speed says so
+TEST_F(PriorityTest, NobodySetsOutForAPlaceInWhichSomebodyWillHalt) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 10, 0, -1, "WC_0");
+  here_.move(own, here_.path(own).links.front().stop_line - 35);
+  const std::size_t foe = here_.add("car", {"SC", "CN"}, 0, 7);
+  here_.move(foe, here_.path(foe).line.project(Vec2(0, -4)).along);
+  here_.update();
+  EXPECT_NE(here_.context(own).reason, LimitReason::Yield) << "it will be gone";
+  here_.scene.context[foe].to_halt = 2.5;
+  here_.update();
+  EXPECT_EQ(here_.context(own).reason, LimitReason::Yield);
+  EXPECT_EQ(here_.context(own).foe, here_.scene.id[foe].value);
+}
+
+// a left turn waits for oncoming traffic on the junction, but not where others are about to cross
+TEST_F(PriorityTest, WhoWaitsOnTheJunctionLeavesTheWaysOfOthersFree) {
+  const std::size_t own = here_.add("car", {"WC", "CN"}, 0, 2);
+  here_.move(own, here_.path(own).links.front().stop_line + 0.5 - 2.25);
+  const std::size_t oncoming = here_.add("car", {"EC", "CW"}, 0, 12);
+  here_.move(oncoming, here_.path(oncoming).links.front().stop_line - 15);
+  here_.update();
+  ASSERT_EQ(here_.context(own).reason, LimitReason::Yield);
+  const double alone = here_.context(own).to_halt;
+  const std::size_t crossing = here_.add("car", {"NC", "CS"}, 0, 6);
+  here_.move(crossing, here_.path(crossing).links.front().stop_line - 12);
+  here_.update();
+  ASSERT_EQ(here_.context(own).foe, here_.scene.id[oncoming].value);
+  EXPECT_LT(here_.context(own).to_halt, alone - 1.0);
+  // not for ever
+  here_.scene.waiting_time[own] = 30.0;
+  here_.update();
+  EXPECT_EQ(here_.context(own).to_halt, alone);
+}
+
+// two that took each other for somebody who stands met nose to nose
+TEST_F(PriorityTest, WhoCreepsOnTheJunctionIsNotTakenForSomebodyWhoStands) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  here_.move(own, here_.path(own).links.front().stop_line - 1.0);
+  const std::size_t foe = here_.add("car", {"SC", "CN"}, 0, 0);
+  here_.move(foe, here_.path(foe).links.front().stop_line - 1.0);
+  auto decide = [&](double speed) {
+    here_.set_speed(foe, speed);
+    here_.scene.waiting_time[own] = here_.scene.waiting_time[foe] = 6.0;
+    here_.scene.context[foe].reason = LimitReason::Yield;
+    here_.scene.context[foe].foe = 77;
+    here_.update();
+    return here_.context(own).reason;
+  };
+  EXPECT_NE(decide(0.0), LimitReason::Yield);
+  EXPECT_EQ(decide(0.4), LimitReason::Yield);
 }
 
 TEST_F(PriorityTest, WhoHasBackedOutLetsTheOthersPast) {

@@ -78,7 +78,7 @@ TEST(StoppingGuard, AdmitsBrakingWhereverEverybodyCanBrake) {
     for (int k = 0; k < 60; ++k) {
       prepare_tick(model, scene, workers, geometry);
       for (std::size_t row = 0; row < scene.size(); ++row) {
-        find_neighbours(geometry, row, {5, 2}, Vec2(0, 0), 3, neighbours);
+        find_neighbours(model.road, geometry, row, {5, 2}, Vec2(0, 0), 3, neighbours);
         guard.prepare(model, scene, geometry, row, neighbours.near);
         EXPECT_TRUE(guard.admits(Vec2(0, 0))) << "seed " << seed << " tick " << k << " row " << row;
       }

@@ -114,6 +114,31 @@ TEST(HashState, SeesEveryBitOfTheStateAndNothingElse) {
   EXPECT_NE(hash_state(scene, 1), hash_state(scene));
 }
 
+// a vehicle that creeps from zone to zone has not got on
+TEST(CountStanding, CreepingIsStillWaiting) {
+  Scene scene;
+  AgentState car, walker;
+  car.id = {1};
+  walker.id = {2};
+  car.preferred_speed = 13.0;
+  walker.preferred_speed = 1.3;
+  append_agent(scene, car);
+  append_agent(scene, walker);
+  auto tick = [&](double speed) {
+    for (std::size_t row = 0; row < scene.size(); ++row) {
+      scene.velocity[row] = {speed, 0};
+      count_standing(0.5, scene, row);
+    }
+  };
+  tick(0.0);
+  tick(0.5);
+  EXPECT_EQ(scene.standing_time[0], 0.0);
+  EXPECT_EQ(scene.waiting_time[0], 1.0);
+  EXPECT_EQ(scene.waiting_time[1], 0.0) << "on foot this is walking";
+  tick(1.5);
+  EXPECT_EQ(scene.waiting_time[0], 0.0);
+}
+
 TEST(Footprint, ABoxIsCounterClockwiseAboutItsCentre) {
   const Footprint box = box_footprint(4, 2);
   ASSERT_EQ(box.outline().size(), 4u);

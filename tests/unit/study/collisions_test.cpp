@@ -79,18 +79,23 @@ TEST_F(Collisions, CountsAPairOnceAndItsTimeEveryTick) {
   EXPECT_DOUBLE_EQ(result.unique_pairs_per_agent_hour, 1.0 / result.agent_hours);
 }
 
-TEST_F(Collisions, ReportsBeginningsOnce) {
+TEST_F(Collisions, ReportsAPairFromItsBeginning) {
   add("car", {0, 0});
-  add("car", {3, 0});
+  add("car", {4, 0});
   CollisionMonitor monitor(0.05);
   monitor.add(scene_, types_);
-  ASSERT_EQ(monitor.new_events().size(), 1u);
-  EXPECT_EQ(monitor.new_events()[0].a.value, 0u);
-  EXPECT_EQ(monitor.new_events()[0].b.value, 1u);
-  EXPECT_NEAR((monitor.new_events()[0].position - Vec2(1.5, 0)).norm(), 0, 1e-12);
   EXPECT_TRUE(monitor.overlapping()[0] && monitor.overlapping()[1]);
+  scene_.position[1] = {3.5, 0};
   monitor.add(scene_, types_);
-  EXPECT_TRUE(monitor.new_events().empty());
+  scene_.position[1] = {3.8, 0};
+  monitor.add(scene_, types_);
+  ASSERT_EQ(monitor.pairs().size(), 1u);
+  const CollisionPair& pair = monitor.pairs()[0];
+  EXPECT_EQ(pair.a.value, 0u);
+  EXPECT_EQ(pair.b.value, 1u);
+  EXPECT_NEAR((pair.position - Vec2(2, 0)).norm(), 0, 1e-12) << "where it began";
+  EXPECT_NEAR(pair.depth, 4.5 - 3.5, 1e-9) << "the deepest";
+  EXPECT_NEAR(pair.duration, 0.15, 1e-12);
 }
 
 TEST_F(Collisions, BridgesKeepAgentsApart) {

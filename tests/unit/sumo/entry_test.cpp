@@ -48,7 +48,7 @@ class EntryTest : public ::testing::Test {
     agent.position = path.line.point_at(0.0);
     agent.heading = heading_of(path.line.direction_at(0.0));
     agent.preferred_speed = 13.0;
-    return entry_speed(here_.model, path, agent, 0.0, here_.scene);
+    return entry_speed(here_.model, path, agent, Ground{}, here_.scene);
   }
   testing::RoadScene here_{testing::small_net()};
   std::size_t first_ = here_.add("car", {"in", "out"}, 120, 10);
@@ -69,6 +69,37 @@ TEST_F(EntryTest, NobodyStartsInFrontOfWhoComesAcross) {
   here_.scene.heading[other] = 0.5 * kPi;
   here_.set_speed(other, 7.0);
   EXPECT_TRUE(speed_of_newcomer()) << "it goes away";
+}
+
+// who turns into the lane from a junction comes at an angle: a motorcycle began beside its nose
+TEST_F(EntryTest, NorInFrontOfWhoTurnsIn) {
+  const std::size_t other = here_.add("car", {"in", "out"}, 0, 0);
+  const Vec2 start = here_.path(first_).line.point_at(0.0);
+  here_.scene.position[other] = start + Vec2(-6.0, 3.5);
+  here_.scene.heading[other] = -0.5;
+  here_.set_speed(other, 5.0);
+  EXPECT_FALSE(speed_of_newcomer());
+  here_.scene.heading[other] = 0.5;
+  here_.set_speed(other, 5.0);
+  EXPECT_TRUE(speed_of_newcomer()) << "it turns away";
+}
+
+TEST_F(EntryTest, NobodyOnFootStartsBeforeWhoDrives) {
+  const std::size_t walker = here_.add("pedestrian", {"in"}, 10, 0);
+  const Path& path = here_.path(walker);
+  AgentState agent;
+  agent.type = here_.scene.type[walker];
+  agent.footprint = here_.scene.footprint[walker];
+  agent.position = path.line.point_at(0.0);
+  agent.heading = heading_of(path.line.direction_at(0.0));
+  agent.preferred_speed = 1.3;
+  const std::size_t bicycle = here_.add("bicycle", {"in", "out"}, 0, 0);
+  here_.scene.position[bicycle] = agent.position - 8.0 * direction_of(agent.heading);
+  here_.scene.heading[bicycle] = agent.heading;
+  here_.set_speed(bicycle, 6.0);
+  EXPECT_FALSE(entry_speed(here_.model, path, agent, Ground{}, here_.scene));
+  here_.set_speed(bicycle, 0.0);
+  EXPECT_TRUE(entry_speed(here_.model, path, agent, Ground{}, here_.scene)) << "it stands";
 }
 
 TEST_F(EntryTest, WhoChangesIntoTheLaneAheadIsFollowed) {

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "road/road_network.h"
+#include "scene/scene.h"
+
+namespace sumogamma {
+
+/// A place on the network and how high the ground is there.
+struct Ground {
+  LaneId lane = kNoLane;
+  double along = 0;   ///< the lane's centerline [m]
+  double height = 0;  ///< [m]
+};
+
+inline Ground ground_of(const Scene& scene, std::size_t row) {
+  return {scene.lane[row].lane, scene.lane[row].along, scene.height[row]};
+}
+
+/// Ground that differs by more is on another storey, unless the road joins it [m].
+inline constexpr double kStorey = 2.5;
+/// Ground that differs by less is never taken for another storey, whatever the lanes do [m].
+inline constexpr double kLeastStorey = 1.5;
+
+/// on_other_storey() for ground that differs by more than kLeastStorey.
+bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Ground& b);
+
+/// Are two places above one another, on a bridge and under it? Heights alone don't tell: at a
+/// junction netconvert may join lanes whose heights differ by metres, and a ramp crosses a tunnel
+/// where it has hardly begun to rise. So places that a few metres of road join are on one storey;
+/// others are not if their ground differs by more than kStorey; where their lanes cross, it's the
+/// ground at the crossing that counts, by kLeastStorey.
+inline bool on_other_storey(const RoadNetwork& network, const Ground& a, const Ground& b) {
+  return std::abs(a.height - b.height) > kLeastStorey && lies_above_or_below(network, a, b);
+}
+inline bool on_other_storey(const RoadNetwork& network, const Scene& scene, std::size_t a,
+                            std::size_t b) {
+  return std::abs(scene.height[a] - scene.height[b]) > kLeastStorey &&
+         lies_above_or_below(network, ground_of(scene, a), ground_of(scene, b));
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,51 @@
+#include "scene/storey.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "support/small_net.h"
+
+namespace sumogamma {
+namespace {
+
+class StoreyTest : public ::testing::Test {
+ protected:
+  Ground at(const char* lane, double along, double height) const {
+    return {net_.lane_by_name.at(lane), along, height};
+  }
+  bool apart(const Ground& a, const Ground& b) const {
+    EXPECT_EQ(on_other_storey(net_, a, b), on_other_storey(net_, b, a));
+    return on_other_storey(net_, a, b);
+  }
+  RoadNetwork net_ = testing::small_net();
+};
+
+TEST_F(StoreyTest, ABridgeIsAboveWhatItCrosses) {
+  EXPECT_TRUE(apart(at("in_1", 50, 0), at("bridge_0", 60, 6)));
+}
+
+// netconvert joins lanes of a junction whose heights differ by metres: no road climbs like that
+TEST_F(StoreyTest, LanesThatAFewMetresOfRoadJoinAreNot) {
+  EXPECT_FALSE(apart(at("in_1", 90, 0), at(":C_0_0", 5, 4)));
+  EXPECT_FALSE(apart(at("in_1", 90, 0), at("out_0", 10, 4)));
+  EXPECT_FALSE(apart(at("in_0", 80, 0), at("in_1", 85, 4))) << "of one edge";
+  EXPECT_TRUE(apart(at("in_1", 20, 0), at("out_0", 60, 4))) << "a way of 140 m";
+}
+
+TEST_F(StoreyTest, WhereLanesCrossTheHeightThereCounts) {
+  // on a ramp to the bridge, hardly above the road yet
+  EXPECT_TRUE(apart(at("in_1", 50, 0), at("bridge_0", 45, 2)));
+  for (double& height : net_.lanes[index_of(net_.lane_by_name.at("bridge_0"))].elevation)
+    height = 0.5;
+  EXPECT_FALSE(apart(at("in_1", 50, 0), at("bridge_0", 20, 3))) << "it comes down to the road";
+}
+
+TEST_F(StoreyTest, OffEveryLaneTheGroundDecides) {
+  const Ground nowhere{kNoLane, 0, 0};
+  EXPECT_TRUE(apart(nowhere, at("bridge_0", 60, 6)));
+  EXPECT_FALSE(apart(nowhere, at("bridge_0", 60, 2)));
+}
+
+}  // namespace
+}  // namespace sumogamma
