@@ -110,6 +110,26 @@ double passing_speed(const Passed& passed, const AgentType& type) {
   return passed.speed + std::min(far, std::max(least, steady));
 }
 
+namespace {
+
+/// Who is about to turn filters beside its lane only on the side to which it turns: on the other
+/// one the way of the lane beside, or of who goes straight on from its own, crosses its way, and
+/// the two press against each other on the junction.
+void keep_to_turning_side(const RoadNetwork& network, const Path& path, const Surroundings& around,
+                          double& most_left, double& most_right) {
+  constexpr double kBefore = 40.0;  // [m]
+  const auto link = std::lower_bound(path.links.begin(), path.links.end(), around.along,
+                                     [](const PathLink& l, double along) { return l.end < along; });
+  if (link == path.links.end() || link->stop_line - around.along > kBefore) return;
+  const char turn = network.connection(link->connection).direction;
+  const Lane& lane = network.lane(path.stretch_at(around.along).lane);
+  const double within = std::max(0.5 * lane.width - around.half_width, 0.0);
+  if (turn == 'r' || turn == 'R') most_left = std::min(most_left, within);
+  if (turn == 'l' || turn == 'L' || turn == 't') most_right = std::max(most_right, -within);
+}
+
+}  // namespace
+
 double passing_offset(const Model& model, const Path& path, const Scene& scene,
                       const Surroundings& around, std::size_t row) {
   const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
@@ -117,8 +137,9 @@ double passing_offset(const Model& model, const Path& path, const Scene& scene,
   const double half = around.half_width;
   const double over = scene.overtaking_room[row];
   const double over_left = model.road.left_hand ? 0.0 : over, over_right = over - over_left;
-  const double most_left = std::max(here.room_left + over_left - half - 0.15, 0.0);
-  const double most_right = std::min(half + 0.15 - here.room_right - over_right, 0.0);
+  double most_left = std::max(here.room_left + over_left - half - 0.15, 0.0);
+  double most_right = std::min(half + 0.15 - here.room_right - over_right, 0.0);
+  keep_to_turning_side(model.road, path, around, most_left, most_right);
   const double liked = std::clamp(scene.path_offset[row], most_right, most_left);
   const bool narrow = is_narrow(2.0 * half);
   const auto hope = [&](double offset, double margin) {

@@ -93,5 +93,25 @@ TEST_F(Filtering, WhoIsAheadOnTheWayIntoTheGapGoesFirst) {
   EXPECT_NE(cap(other).second, static_cast<std::int64_t>(here_.scene.id[rider_].value));
 }
 
+// who filtered to the left of a bus and then turned right, across its way, was pressed against it
+TEST(FilteringBeforeAJunction, IsOnTheSideOfTheTurn) {
+  const RoadNetwork network = testing::read_plain_net(testing::crossroads("priority"));
+  auto place = [&](const std::string& to) {
+    RoadScene here(network);
+    const double line = here.path(here.add("car", {"WC", "CE"}, 0, 0)).links.front().stop_line;
+    here.move(0, 20.0);
+    for (const char* lane : {"WC_0", "WC_1"})
+      for (const double before : {4.0, 11.0})
+        here.add("car", {"WC", "CE"}, line - before, 0, 0, -1, lane);
+    const std::size_t rider = here.add("motorcycle", {"WC", to}, line - 22.0, 5, 0, -1, "WC_0");
+    here.update();
+    Surroundings around;
+    look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
+    return passing_offset(here.model, here.path(rider), here.scene, around, rider);
+  };
+  EXPECT_NEAR(place("CE"), 1.6, 0.2) << "straight on: between the queues";
+  EXPECT_LT(place("CS"), 1.3) << "to the right: within its lane";
+}
+
 }  // namespace
 }  // namespace sumogamma
