@@ -20,8 +20,8 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
   constexpr double kPatience = 3.0;  // [s]
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const RoadContext& context = scene.context[row];
-    waiting_[row] = {context.reason, context.foe, scene.halted_for[row], scene.halted_at[row],
-                     context.to_halt,  scene.blocked_time[row] > kPatience};
+    waiting_[row] = {context.reason,       context.foe,     scene.halted_for[row],
+                     scene.halted_at[row], context.to_halt, scene.blocked_time[row] > kPatience};
   }
 
   for (std::size_t row = 0; row < scene.size(); ++row) {

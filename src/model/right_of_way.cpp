@@ -141,8 +141,7 @@ struct Judge {
         waiting.reason == LimitReason::GivesWay || waiting.reason == LimitReason::TurningRoom;
     if (foe.stands && lets_past) return Verdict::Held;
     if (foe.stands && waiting.blocked && (!foe_inside || on_junction())) return Verdict::Held;
-    const bool waits_for_us =
-        foe.stands && approaches.waiting(foe.row).foe == scene.id[traveller.row].value;
+    const bool waits_for_us = foe.stands && waiting.foe == scene.id[traveller.row].value;
     // all-way stop: who has halted goes in the order in which they came
     if (!foe_inside && model.road.connection(link.connection).state == 'w') {
       if (past_line(zone)) return Verdict::Free;
@@ -159,8 +158,7 @@ struct Judge {
       if (has_begun(-to_line(), traveller.speed) && may_wait(foe.front, foe.speed, foe_type))
         return Verdict::Free;
     }
-    if (waits_for_us && !zone.yields && !foe_inside) return Verdict::Held;
-    if (waits_for_us) return waiting_verdict(foe);
+    if (waits_for_us) return !zone.yields && !foe_inside ? Verdict::Held : waiting_verdict(foe);
     // on foot one walks round what stands on the crossing, on wheels past what stands beside the
     // way
     if (foe_inside && foe.stands && waits_behind(foe) &&

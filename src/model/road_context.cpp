@@ -96,8 +96,8 @@ constexpr double kKeepsClear = 40.0, kGoesOn = 10.0;
 /// Counts for how long the agent has kept a junction, or the room that others need to turn, clear.
 void note_keeping_clear(const Course& course, const RoadContext& context, double dt, Scene& scene) {
   double& kept = scene.keeps_clear[course.row];
-  const bool for_others = context.reason == LimitReason::BlockedJunction ||
-                          context.reason == LimitReason::TurningRoom;
+  const bool for_others =
+      context.reason == LimitReason::BlockedJunction || context.reason == LimitReason::TurningRoom;
   if (for_others && course.speed < 0.3) {
     kept += dt;
     if (kept > kKeepsClear) kept = kKeepsClear + kGoesOn;
