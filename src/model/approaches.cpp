@@ -33,8 +33,7 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
     const double speed = std::max(0.0, scene.velocity[row].dot(tangent));
     // far enough for the slowest foe to find its gap: ten seconds at the present speed
     const double reach = std::max(path->walking ? 8.0 : 30.0, 10.0 * speed);
-    auto link = std::lower_bound(path->links.begin(), path->links.end(), along - half_length,
-                                 [](const PathLink& l, double value) { return l.end < value; });
+    auto link = path->link_from(along - half_length);
     for (; link != path->links.end() && link->stop_line < along + half_length + reach; ++link) {
       approaches_.push_back({link->connection, static_cast<std::uint32_t>(row),
                              along + half_length - link->stop_line, 2.0 * half_length, speed,

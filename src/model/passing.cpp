@@ -118,8 +118,7 @@ namespace {
 void keep_to_turning_side(const RoadNetwork& network, const Path& path, const Surroundings& around,
                           double& most_left, double& most_right) {
   constexpr double kBefore = 40.0;  // [m]
-  const auto link = std::lower_bound(path.links.begin(), path.links.end(), around.along,
-                                     [](const PathLink& l, double along) { return l.end < along; });
+  const auto link = path.link_from(around.along);
   if (link == path.links.end() || link->stop_line - around.along > kBefore) return;
   const char turn = network.connection(link->connection).direction;
   const Lane& lane = network.lane(path.stretch_at(around.along).lane);

@@ -210,11 +210,9 @@ struct Judge {
   }
   /// Is some of the traveller's body on a junction, this one or one before?
   bool on_junction() const {
-    const std::vector<PathLink>& links = road.path(scene.path[traveller.row])->links;
-    const auto first =
-        std::lower_bound(links.begin(), links.end(), traveller.front - traveller.length,
-                         [](const PathLink& l, double rear) { return l.end < rear; });
-    return first != links.end() && first->stop_line + 0.3 < traveller.front;
+    const Path& path = *road.path(scene.path[traveller.row]);
+    const auto first = path.link_from(traveller.front - traveller.length);
+    return first != path.links.end() && first->stop_line + 0.3 < traveller.front;
   }
   /// Have both stood on the junction for long? Conflict zones are wider than bodies: of those who
   /// wait for each other in a ring, whoever isn't waited for by rule alone tries.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -93,6 +94,11 @@ struct Path {
 
   /// Stretch that holds `along` (clamped). Precondition: not empty.
   const PathStretch& stretch_at(double along) const;
+  /// First link that doesn't end before `along`, or the end of links.
+  std::vector<PathLink>::const_iterator link_from(double along) const {
+    return std::lower_bound(links.begin(), links.end(), along,
+                            [](const PathLink& link, double value) { return link.end < value; });
+  }
   /// Speed that bends and limits leave at `along`, interpolated [m/s].
   double profile_at(double along) const;
 };

@@ -92,6 +92,17 @@ class RoadScene {
     }
   }
 
+  /// Seconds out of `duration` [s] for which a row is held by a reason, while nobody moves.
+  double held_for(std::size_t row, LimitReason reason, double duration) {
+    constexpr double kStep = 0.5;  // [s]
+    double held = 0;
+    for (double time = 0; time < duration; time += kStep) {
+      update(1, kStep);
+      if (context(row).reason == reason) held += kStep;
+    }
+    return held;
+  }
+
   const Path& path(std::size_t row) const { return *road.path(scene.path[row]); }
   const RoadContext& context(std::size_t row) const { return scene.context[row]; }
   /// Front of a row past a link's stop line [m].

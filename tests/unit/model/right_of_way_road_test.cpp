@@ -211,13 +211,8 @@ TEST_F(PriorityTest, WhoHasKeptAJunctionClearForLongGoesOnForAWhile) {
   here_.move(own, here_.path(own).links.front().stop_line - 2.25 - 0.6);
   const std::size_t queue = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
   here_.move(queue, end + 2.25 + 1.0);
-  double blocked = 0, went_on = 0;
-  constexpr double kStep = 0.5;
-  for (double time = 0; time < 60; time += kStep) {
-    here_.update(1, kStep);
-    (here_.context(own).reason == LimitReason::BlockedJunction ? blocked : went_on) += kStep;
-  }
-  EXPECT_NEAR(went_on, 10.0, 1.5);
+  const double blocked = here_.held_for(own, LimitReason::BlockedJunction, 60.0);
+  EXPECT_NEAR(60.0 - blocked, 10.0, 1.5);
   EXPECT_GT(blocked, 40.0);
 }
 

@@ -71,13 +71,8 @@ TEST_F(TurningRoomTest, ABusThatHasLetOthersPastForLongGoesOnForAWhile) {
   here_.move(bus, here_.path(bus).links.front().stop_line - 6.0 - 0.7);
   here_.set_speed(bus, 0.0);
   add_waiting(0.6, 0.0);
-  double waited = 0, went_on = 0;
-  constexpr double kStep = 0.5;
-  for (double time = 0; time < 60; time += kStep) {
-    here_.update(1, kStep);
-    (here_.context(bus).reason == LimitReason::TurningRoom ? waited : went_on) += kStep;
-  }
-  EXPECT_NEAR(went_on, 10.0, 1.5);
+  const double waited = here_.held_for(bus, LimitReason::TurningRoom, 60.0);
+  EXPECT_NEAR(60.0 - waited, 10.0, 1.5);
   EXPECT_GT(waited, 40.0);
 }
 

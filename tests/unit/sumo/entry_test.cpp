@@ -40,14 +40,16 @@ TEST(Entry, NobodyStartsInAWall) {
 
 class EntryTest : public ::testing::Test {
  protected:
-  std::optional<double> speed_of_newcomer() {
-    const Path& path = here_.path(first_);
+  std::optional<double> speed_of_newcomer() { return speed_of_newcomer_like(first_, 13.0); }
+  /// Somebody who starts on the path of a row and is of its kind.
+  std::optional<double> speed_of_newcomer_like(std::size_t row, double preferred) {
+    const Path& path = here_.path(row);
     AgentState agent;
-    agent.type = here_.scene.type[first_];
-    agent.footprint = here_.scene.footprint[first_];
+    agent.type = here_.scene.type[row];
+    agent.footprint = here_.scene.footprint[row];
     agent.position = path.line.point_at(0.0);
     agent.heading = heading_of(path.line.direction_at(0.0));
-    agent.preferred_speed = 13.0;
+    agent.preferred_speed = preferred;
     return entry_speed(here_.model, path, agent, Ground{}, here_.scene);
   }
   testing::RoadScene here_{testing::small_net()};
@@ -86,20 +88,14 @@ TEST_F(EntryTest, NorInFrontOfWhoTurnsIn) {
 
 TEST_F(EntryTest, NobodyOnFootStartsBeforeWhoDrives) {
   const std::size_t walker = here_.add("pedestrian", {"in"}, 10, 0);
-  const Path& path = here_.path(walker);
-  AgentState agent;
-  agent.type = here_.scene.type[walker];
-  agent.footprint = here_.scene.footprint[walker];
-  agent.position = path.line.point_at(0.0);
-  agent.heading = heading_of(path.line.direction_at(0.0));
-  agent.preferred_speed = 1.3;
+  const Polyline& way = here_.path(walker).line;
   const std::size_t bicycle = here_.add("bicycle", {"in", "out"}, 0, 0);
-  here_.scene.position[bicycle] = agent.position - 8.0 * direction_of(agent.heading);
-  here_.scene.heading[bicycle] = agent.heading;
+  here_.scene.position[bicycle] = way.point_at(0.0) - 8.0 * way.direction_at(0.0);
+  here_.scene.heading[bicycle] = heading_of(way.direction_at(0.0));
   here_.set_speed(bicycle, 6.0);
-  EXPECT_FALSE(entry_speed(here_.model, path, agent, Ground{}, here_.scene));
+  EXPECT_FALSE(speed_of_newcomer_like(walker, 1.3));
   here_.set_speed(bicycle, 0.0);
-  EXPECT_TRUE(entry_speed(here_.model, path, agent, Ground{}, here_.scene)) << "it stands";
+  EXPECT_TRUE(speed_of_newcomer_like(walker, 1.3)) << "it stands";
 }
 
 TEST_F(EntryTest, WhoChangesIntoTheLaneAheadIsFollowed) {
