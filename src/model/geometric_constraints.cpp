@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "model/bending.h"
 #include "model/velocity_obstacle.h"
 
 namespace sumogamma {
@@ -88,6 +89,21 @@ struct Pair {
         own().on_wheels != their().on_wheels && way > context.to_halt && gap() > context.to_halt;
     return halts ? Vec2(velocity * (context.to_halt / way)) : velocity;
   }
+  /// Do both bend with their paths, and stay apart as they do, at the present speed and at the one
+  /// preferred? Bodies that turn take less room where the other comes by than the present outline
+  /// moved along would.
+  bool bend_past_each_other() const {
+    constexpr double kClose = 1.0;  // [m]
+    constexpr double kFast = 5.0;   // bodies that crawl keep out of each other's way as they are
+    const RoadContext &here = scene.context[row], &there = scene.context[other];
+    if (!here.active || !there.active || horizon <= kLeader || !own().on_wheels ||
+        !their().on_wheels || std::max(own().speed, their().speed) < kFast || gap() < kClose ||
+        own().forward.dot(their().forward) > kAbreast)
+      return false;
+    const Arc mine(own(), here.bend), theirs(their(), there.bend);
+    return bend_past(mine, own().speed, theirs, their().speed, horizon) &&
+           bend_past(mine, preferred.norm(), theirs, their().speed, horizon);
+  }
   Vec2 their_velocity() const { return on_course(other, their().velocity); }
   Vec2 relative() const { return on_course(row, own().velocity) - their_velocity(); }
   /// How soon the two are to be apart [s].
@@ -117,6 +133,7 @@ std::optional<Escape> escape_of(const Pair& pair) {
     if (difference.stays_apart(pair.relative(), pair.horizon, kSideStep) &&
         difference.stays_apart(preferred, pair.horizon, kSideStep))
       return std::nullopt;
+    if (pair.bend_past_each_other()) return std::nullopt;
     const NearSide near = difference.near_side();
     if (near.inside)
       return overlap_escape(difference.polygon(), pair.relative(), pair.separation_time());

@@ -127,6 +127,23 @@ void keep_to_turning_side(const RoadNetwork& network, const Path& path, const Su
   if (turn == 'l' || turn == 'L' || turn == 't') most_right = std::max(most_right, -within);
 }
 
+/// Before a signal who filters stays over the edge of its own lane, whose light it goes by: the one
+/// of the lane beside may be red when its own is green.
+void keep_to_light(const RoadNetwork& network, const Path& path, const Surroundings& around,
+                   double& most_left, double& most_right) {
+  constexpr double kBefore = 40.0;  // [m]
+  constexpr double kReaches = 0.5;  // of half the body, into the own lane
+  auto link = path.link_from(around.along);
+  if (link != path.links.end() && link->stop_line < around.along) ++link;
+  if (link == path.links.end() || link->stop_line - around.along > kBefore) return;
+  const Connection& connection = network.connection(link->connection);
+  if (connection.signal == kNoSignal) return;
+  const double within =
+      0.5 * network.lane(connection.from).width + (1.0 - kReaches) * around.half_width;
+  most_left = std::min(most_left, within);
+  most_right = std::max(most_right, -within);
+}
+
 }  // namespace
 
 double passing_offset(const Model& model, const Path& path, const Scene& scene,
@@ -139,6 +156,7 @@ double passing_offset(const Model& model, const Path& path, const Scene& scene,
   double most_left = std::max(here.room_left + over_left - half - 0.15, 0.0);
   double most_right = std::min(half + 0.15 - here.room_right - over_right, 0.0);
   keep_to_turning_side(model.road, path, around, most_left, most_right);
+  if (over == 0.0) keep_to_light(model.road, path, around, most_left, most_right);
   const double liked = std::clamp(scene.path_offset[row], most_right, most_left);
   const bool narrow = is_narrow(2.0 * half);
   const auto hope = [&](double offset, double margin) {

@@ -173,6 +173,7 @@ struct Judge {
       return blocks_if(theirs.begin < ours.begin ||
                        (theirs.begin == ours.begin && scene.id[foe.row] < scene.id[traveller.row]));
     if (!zone.yields) {
+      if (comes_out(zone, foe, theirs) && theirs.begin < ours.begin) return Verdict::Blocks;
       // right of way, but nobody steps in front of a vehicle that can no longer stop
       const bool vulnerable = own_type.kinematics == Kinematics::Holonomic;
       const bool unstoppable = deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) >
@@ -245,6 +246,15 @@ struct Judge {
       if (away.norm() < own_half + kSide) return false;
     }
     return true;
+  }
+  /// Is a foe that has to yield past its line already and, as things are, on its way into the zone?
+  /// Whoever sees that brakes at ease now, not hard once it is there.
+  bool comes_out(const ConflictZone& zone, const Approach& foe, const Occupation& theirs) const {
+    constexpr double kPast = 0.5;  // [m]
+    constexpr double kSoon = 4.0;  // [s]
+    const double rest = foe.front + approaches.waiting(foe.row).to_halt;
+    return foe.front > kPast && !foe.stands && rest > zone.foe_begin && theirs.begin < kSoon &&
+           !on_foot(traveller.row) && !on_foot(foe.row);
   }
   double to_line() const { return link.stop_line - traveller.front; }
   /// From 0 to 1 while the traveller waits.

@@ -24,8 +24,9 @@ struct View {
   const ApproachTable& approaches;
 };
 
-constexpr double kStart = 0.6;     // [m/s]
-constexpr double kCourtesy = 2.0;  // braking for somebody who has to change lanes [m/s^2]
+constexpr double kStart = 0.6;             // [m/s]
+constexpr double kKeepsClearAtEase = 1.4;  // of the comfortable deceleration
+constexpr double kCourtesy = 2.0;          // braking for somebody who has to change lanes [m/s^2]
 
 /// Tightens the context's acceleration for something to stop for or to follow.
 void limit(double acceleration, LimitReason reason, std::int64_t foe, double& binding,
@@ -158,12 +159,12 @@ double eased(const Scene& scene, const Course& course, double acceleration, doub
   return std::min(acceleration, std::max(now, kBraked) + kJerk * dt);
 }
 
-/// Stop lines of neighbouring lanes need not be level: who filters between two lanes halts a little
-/// before its own [m].
+/// Stop lines of neighbouring lanes need not be level: who reaches over the edge of its lane halts
+/// a little before its own [m].
 double beside_lane(const Model& model, const Course& course) {
   constexpr double kEarlier = 0.6;  // [m]
   const Lane& lane = model.road.lane(course.path.stretch_at(course.along).lane);
-  const bool beside = lane.kind == LaneKind::Normal && is_narrow(course.type.width) &&
+  const bool beside = lane.kind == LaneKind::Normal &&
                       std::abs(course.offset) + 0.5 * course.type.width > 0.5 * lane.width;
   return beside ? kEarlier : 0.0;
 }
@@ -242,8 +243,11 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
     if (!decision.must_stop) continue;
     const double gap = decision.stop_at - traveller.front + type.min_gap;
     context.to_halt = std::max(decision.stop_at - traveller.front, 0.0);
-    limit(following_acceleration(type, course.speed, free_speed, gap, 0.0), decision.reason,
-          decision.foe, binding, context);
+    double halting = following_acceleration(type, course.speed, free_speed, gap, 0.0);
+    // a junction is kept clear at ease or not at all
+    if (decision.reason == LimitReason::BlockedJunction)
+      halting = std::max(halting, -kKeepsClearAtEase * type.comfortable_deceleration);
+    limit(halting, decision.reason, decision.foe, binding, context);
     break;
   }
   if (std::isfinite(scene.gate[course.row])) {
@@ -301,7 +305,7 @@ void follow_on_foot(const View& view, const Course& course, RoadContext& context
 
 /// Where somebody on foot waits for a crossing [m along its path]: where its way off the road ends,
 /// or before its place beside the path gets onto the crossing, as inside the corner in which the
-/// way turns there.
+/// way turns there; behind the crossing before.
 double kerb_halt(const Model& model, const Course& course, const PathLink& link) {
   constexpr double kFarthest = 4.0, kStep = 0.2, kOnIt = 0.2;  // [m]
   const Polyline& line = course.path.line;
@@ -310,8 +314,11 @@ double kerb_halt(const Model& model, const Course& course, const PathLink& link)
   const Vec2 across = way.normalized();
   const LaneId crossing = course.path.stretch_at(0.5 * (link.stop_line + link.end)).lane;
   const double half_width = 0.5 * model.road.lane(crossing).width;
+  double least = link.stop_line - kFarthest;
+  for (const PathLink& before : course.path.links)
+    if (before.stop_line < link.stop_line) least = std::max(least, before.end + kStep);
   double halt = link.halt;
-  for (double along = link.stop_line; along > link.stop_line - kFarthest; along -= kStep) {
+  for (double along = link.stop_line; along > least; along -= kStep) {
     const Vec2 beside = course.offset * left_of(line.direction_at(along));
     const Vec2 place = line.point_at(along) + beside - begin;
     if (place.dot(across) > kOnIt && std::abs(cross(across, place)) < half_width)
@@ -322,21 +329,28 @@ double kerb_halt(const Model& model, const Course& course, const PathLink& link)
 
 /// Walkers stop dead at a kerb, and otherwise leave each other to avoidance.
 void set_walker_limit(const View& view, const Course& course, RoadContext& context) {
-  constexpr double kStep = 0.4;  // [m]
+  constexpr double kStep = 0.4;     // [m]
+  constexpr double kOnIt = 0.5;     // who is further past the line crosses [m]
+  constexpr double kPressed = 3.0;  // likewise who waited for the light, and was pressed on [m]
+  const bool was_held = view.scene.context[course.row].reason == LimitReason::Signal;
   const double front = course.along + course.half_length;
   const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed,
                             context.speed_limit};
   for (PathLink link : course.path.links) {
-    if (link.end < course.along || link.stop_line < front - 0.5) continue;
+    const double past = front - link.stop_line;
+    if (link.end < course.along || past > (was_held ? kPressed : kOnIt)) continue;
     if (link.halt > front + 8.0) break;
     link.halt = kerb_halt(view.model, course, link);
     if (link.halt > front + 4.0) continue;
+    Traveller waiting = traveller;
+    waiting.front = std::min(front, link.stop_line + kOnIt);
     const LinkDecision decision =
-        decide_link(view.model, view.road, view.scene, view.approaches, traveller, link);
+        decide_link(view.model, view.road, view.scene, view.approaches, waiting, link);
     if (!decision.must_stop) continue;
+    if (past > kOnIt && decision.reason != LimitReason::Signal) continue;
     const double beyond = front - (link.halt - kStopMargin);
-    if (link.halt < link.stop_line && beyond > kStep) {
-      // on the road already when the light changed: back to where nobody drives
+    if (beyond > (link.halt < link.stop_line ? kStep : 1.0)) {
+      // on the road already when the light changed, or pressed on: back to where nobody drives
       context.sub_goal = course.path.line.point_at(course.along - beyond);
       context.allowed_speed = std::min(beyond / 0.7, 1.0);
     } else {

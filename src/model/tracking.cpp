@@ -49,7 +49,10 @@ struct Steering {
 
 /// The angle of a tangent, or what the type's limits of angle and grip leave of it.
 Steering within_limits(const AgentType& type, double speed, double lock) {
-  const double grip = type.max_lateral_acceleration * type.wheelbase, square = speed * speed;
+  constexpr double kGrip =
+      1.6;  // of what is comfortable: paths are planned for the comfortable mean
+  const double grip = kGrip * type.max_lateral_acceleration * type.wheelbase;
+  const double square = speed * speed;
   if (square * std::abs(lock) > grip) lock = std::copysign(grip / square, lock);
   const double angle = std::atan(lock), most = std::min(type.max_steering, kMostSteering);
   if (std::abs(angle) <= most) return {angle, lock};

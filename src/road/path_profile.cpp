@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -13,24 +14,56 @@ double menger_curvature(const Vec2& a, const Vec2& b, const Vec2& c) {
   const double product = (b - a).norm() * (c - b).norm() * (c - a).norm();
   return product > 1e-9 ? 2.0 * std::abs(cross(b - a, c - b)) / product : 0.0;
 }
+
+/// By how much [rad] a line turns at places `step` [m] apart, to whatever side, summed from its
+/// begin on: two bends one after the other don't cancel each other out.
+std::vector<double> turning_sums(const Polyline& line, double step, std::size_t count) {
+  std::vector<double> sums(count + 1, 0.0);
+  const auto place = [&](std::size_t i) { return line.point_at(static_cast<double>(i) * step); };
+  for (std::size_t i = 0; i < count; ++i) {
+    double turn = 0.0;
+    if (i > 0 && i + 1 < count) {
+      const Vec2 in = place(i) - place(i - 1), out = place(i + 1) - place(i);
+      turn = std::abs(std::atan2(cross(in, out), in.dot(out)));
+    }
+    sums[i + 1] = sums[i] + turn;
+  }
+  return sums;
+}
+
+/// Speed [m/s] that the bend at place i leaves: the lateral acceleration is the comfortable one on
+/// the mean over the way that the vehicle covers at that speed while it steers into the bend and
+/// out of it, since a driver spreads what a map draws as a kink.
+double speed_in_bend(const std::vector<double>& sums, double step, std::size_t i,
+                     double lateral_acceleration) {
+  constexpr std::size_t kWidest = 6;  // places to each side
+  constexpr double kSteers = 0.6;     // [s] to each side
+  const std::size_t widest = std::min({kWidest, i, sums.size() - 2 - i});
+  for (std::size_t k = widest; k > 0; --k) {
+    const double reach = (static_cast<double>(k) + 0.5) * step;
+    const double curvature = (sums[i + k + 1] - sums[i - k]) / (2.0 * reach);
+    const double comfortable = std::sqrt(lateral_acceleration / std::max(curvature, 1e-4));
+    // who is slower than it takes to cover this way spreads the bend over a shorter one
+    const bool covers = comfortable * kSteers > reach - step;
+    if (covers || k == 1) return k < widest ? std::min(comfortable, reach / kSteers) : comfortable;
+  }
+  return std::numeric_limits<double>::infinity();
+}
 }  // namespace
 
 void compute_speed_profile(const PathRequest& request, Path& path) {
-  constexpr double kReach = 4.0;
   const double length = path.line.length();
   const auto samples = static_cast<std::size_t>(std::ceil(length / Path::kProfileStep)) + 1;
   path.speed_profile.resize(samples);
+  const std::vector<double> turning =
+      path.walking ? std::vector<double>{} : turning_sums(path.line, Path::kProfileStep, samples);
   for (std::size_t i = 0; i < samples; ++i) {
     const double along = std::min(static_cast<double>(i) * Path::kProfileStep, length);
     double speed =
         std::min(path.stretch_at(along).speed_limit * request.speed_factor, request.max_speed);
-    if (!path.walking && along > kReach && along < length - kReach) {
-      const double curvature =
-          menger_curvature(path.line.point_at(along - kReach), path.line.point_at(along),
-                           path.line.point_at(along + kReach));
-      if (curvature > 1e-4)
-        speed = std::min(speed, std::sqrt(request.max_lateral_acceleration / curvature));
-    }
+    if (!path.walking)
+      speed = std::min(
+          speed, speed_in_bend(turning, Path::kProfileStep, i, request.max_lateral_acceleration));
     path.speed_profile[i] = std::max(speed, 1.5);
   }
   if (path.walking) return;

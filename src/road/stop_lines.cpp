@@ -46,12 +46,14 @@ std::vector<Polyline> driven_ways(const RoadNetwork& network, const Junction& ju
   return ways;
 }
 
-/// Where on a walk, at `along` or so far before it as it takes, nobody drives.
-double off_the_road(const Path& path, double along, const std::vector<Polyline>& ways) {
+/// Where on a walk, at `along` or so far before it as it takes, nobody drives; no further back than
+/// `least` [m].
+double off_the_road(const Path& path, double along, double least,
+                    const std::vector<Polyline>& ways) {
   constexpr double kWalkerRoom = 1.55;  // between the middles of a vehicle and a walker [m]
   constexpr double kMost = 10.0;        // [m]
   constexpr double kWalkerStep = 0.4;   // [m]
-  for (double back = 0.0; back <= std::min(kMost, along); back += kWalkerStep) {
+  for (double back = 0.0; back <= std::min(kMost, along - least); back += kWalkerStep) {
     const Vec2 place = path.line.point_at(along - back);
     const bool driven = std::any_of(ways.begin(), ways.end(), [&](const Polyline& way) {
       return way.project(place).distance < kWalkerRoom;
@@ -67,12 +69,14 @@ void halt_off_the_road(const RoadNetwork& network, Path& path) {
   // the crossings of one junction follow each other
   JunctionId last = kNoJunction;
   std::vector<Polyline> ways;
+  double crossed = 0.0;  // nobody goes back over a crossing to wait for the next one
   for (PathLink& link : path.links) {
     const JunctionId junction = network.connection(link.connection).junction;
     if (junction == kNoJunction) continue;
     if (junction != last) ways = driven_ways(network, network.junction(junction));
     last = junction;
-    link.halt = off_the_road(path, link.stop_line, ways);
+    link.halt = off_the_road(path, link.stop_line, crossed, ways);
+    crossed = link.end;
   }
 }
 

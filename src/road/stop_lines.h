@@ -12,8 +12,8 @@ namespace sumogamma {
 void set_back_stop_lines(RoadNetwork& network);
 
 /// Moves PathLink::halt of every crossing on a walk back to where nobody drives: SUMO's walking
-/// areas, and so the ends of its crossings, may lie on the ways that vehicles take. Up to 10 m;
-/// where that does not help the halt stays as it is.
+/// areas, and so the ends of its crossings, may lie on the ways that vehicles take. Up to 10 m, and
+/// not over the crossing before; where that does not help the halt stays as it is.
 void halt_off_the_road(const RoadNetwork& network, Path& path);
 
 }  // namespace sumogamma

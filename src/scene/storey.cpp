@@ -60,6 +60,14 @@ bool joined(const RoadNetwork& network, const Ground& a, const Ground& b) {
   return false;
 }
 
+/// Does a share of the piece from point i on lie on the line? Its ends reach a little further: from
+/// one lane to the next there may be a gap.
+bool lies_on(const std::vector<Vec2>& line, std::size_t i, double share) {
+  constexpr double kGap = 1.0;  // [m]
+  const double gap = kGap / std::max((line[i + 1] - line[i]).norm(), 1e-3);
+  return share >= (i == 0 ? -gap : 0.0) && share <= (i + 2 == line.size() ? 1.0 + gap : 1.0);
+}
+
 /// Difference in height where the centerlines of two lanes cross, if they do [m].
 std::optional<double> rise_at_crossing(const Lane& one, const Lane& other) {
   const std::vector<Vec2>&a = one.centerline.points(), &b = other.centerline.points();
@@ -70,12 +78,58 @@ std::optional<double> rise_at_crossing(const Lane& one, const Lane& other) {
       const double area = cross(along, across);
       if (area == 0.0) continue;
       const double s = cross(between, across) / area, t = cross(between, along) / area;
-      if (s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0) continue;
+      if (!lies_on(a, i, s) || !lies_on(b, j, t)) continue;
       return elevation_at(one, one.centerline.along_of_vertex(i) + s * along.norm()) -
              elevation_at(other, other.centerline.along_of_vertex(j) + t * across.norm());
     }
   }
   return std::nullopt;
+}
+
+/// Where a place's lane begins or ends nearby the crossing may be on the one before or behind [m].
+constexpr double kSeam = 12.0;
+
+void go_on(const RoadNetwork& network, LaneId id, double left, std::vector<LaneId>& lanes) {
+  if (id == kNoLane || left < 0.0) return;
+  if (std::find(lanes.begin(), lanes.end(), id) != lanes.end()) return;
+  lanes.push_back(id);
+  left -= network.lane(id).centerline.length();
+  if (left < 0.0) return;
+  for (const ConnectionId next : network.lane(id).outgoing) {
+    const Connection& link = network.connection(next);
+    go_on(network, link.via != kNoLane ? link.via : link.to, left, lanes);
+  }
+}
+
+/// The lane of a place and those that it leads into or comes from within kSeam.
+std::vector<LaneId> lanes_about(const RoadNetwork& network, const Ground& place) {
+  const Lane& lane = network.lane(place.lane);
+  std::vector<LaneId> lanes{place.lane};
+  const double behind = kSeam - place.along;
+  for (const ConnectionId id : lane.incoming)
+    if (behind > 0.0) go_on(network, network.connection(id).from, 0.0, lanes);
+  if (lane.kind == LaneKind::Internal && lane.junction != kNoJunction && behind > 0.0)
+    for (const ConnectionId id : network.junction(lane.junction).links)
+      if (id != kNoConnection && network.connection(id).via == place.lane)
+        go_on(network, network.connection(id).from, 0.0, lanes);
+  const double ahead = kSeam - (lane.centerline.length() - place.along);
+  for (const ConnectionId id : lane.outgoing) {
+    const Connection& link = network.connection(id);
+    go_on(network, link.via != kNoLane ? link.via : link.to, ahead, lanes);
+  }
+  return lanes;
+}
+
+/// Does the road of one place, with what it leads into and comes from, cross that of the other
+/// above or below?
+bool crosses_nearby(const RoadNetwork& network, const Ground& a, const Ground& b) {
+  const std::vector<LaneId> others = lanes_about(network, b);
+  for (const LaneId one : lanes_about(network, a))
+    for (const LaneId other : others) {
+      const auto rise = rise_at_crossing(network.lane(one), network.lane(other));
+      if (rise && std::abs(*rise) > kLeastStorey) return true;
+    }
+  return false;
 }
 
 }  // namespace
@@ -86,7 +140,8 @@ bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Grou
   if (a.lane == kNoLane || b.lane == kNoLane) return rise > kStorey;
   if (joined(network, a, b)) return false;
   const auto at_crossing = rise_at_crossing(network.lane(a.lane), network.lane(b.lane));
-  return at_crossing ? std::abs(*at_crossing) > kLeastStorey : rise > kStorey;
+  if (at_crossing) return std::abs(*at_crossing) > kLeastStorey;
+  return rise > kStorey || crosses_nearby(network, a, b);
 }
 
 }  // namespace sumogamma

@@ -30,8 +30,9 @@ bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Grou
 /// Are two places above one another, on a bridge and under it? Heights alone don't tell: at a
 /// junction netconvert may join lanes whose heights differ by metres, and a ramp crosses a tunnel
 /// where it has hardly begun to rise. So places that a few metres of road join are on one storey;
-/// others are not if their ground differs by more than kStorey; where their lanes cross, it's the
-/// ground at the crossing that counts, by kLeastStorey.
+/// others are not if their ground differs by more than kStorey; where their lanes cross, or those
+/// that they lead into or come from a few metres away, it's the ground at the crossing that counts,
+/// by kLeastStorey.
 inline bool on_other_storey(const RoadNetwork& network, const Ground& a, const Ground& b) {
   return std::abs(a.height - b.height) > kLeastStorey && lies_above_or_below(network, a, b);
 }

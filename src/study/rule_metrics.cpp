@@ -278,7 +278,9 @@ void RuleMonitor::judge_crossing(const Row& agent, State& state, const RoadState
   const Vec2& center = agent.scene.position[agent.row];
   find_lanes(agent, center, hits_);
   const bool stands = agent.scene.velocity[agent.row].norm() < kStands;
+  constexpr double kNearEnd = 1.0;  // [m]
   LaneId on = kNoLane, at_end_of = kNoLane;
+  bool amid = false;
   for (const LaneHit& hit : hits_) {
     const Lane& lane = network_.lane(hit.lane);
     if (lane.kind != LaneKind::Crossing) continue;
@@ -291,6 +293,7 @@ void RuleMonitor::judge_crossing(const Row& agent, State& state, const RoadState
       continue;
     }
     on = hit.lane;
+    amid = hit.along > kNearEnd && hit.along < lane.centerline.length() - kNearEnd;
     if (on == state.on_crossing) break;
   }
   if (on != kNoLane && on != state.on_crossing) {
@@ -312,7 +315,13 @@ void RuleMonitor::judge_crossing(const Row& agent, State& state, const RoadState
     state.red_crossings.clear();
   }
   state.at_end_of = at_end_of;
-  state.on_crossing = on;
+  const double now = agent.scene.time;
+  if (on != kNoLane) {
+    state.amid = amid;
+    state.last_on = now;
+  }
+  const bool beside = on == kNoLane && state.amid && now - state.last_on <= kAside;
+  if (!beside) state.on_crossing = on;
   if (on == kNoLane && stands) note_waiting(state, road);
 }
 

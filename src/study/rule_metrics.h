@@ -61,7 +61,8 @@ struct RedLightEvent {
 /// it then takes showed red before and after that step (so a light that changes within the step is
 /// nobody's fault). Where the lane's links don't show the same, judgement waits until the vehicle
 /// is on an edge that one of them leads to. Red light, pedestrians: the centre gets kEntered deep
-/// into a signalled crossing that showed red already when it was stepped on. Wrong way: faster than
+/// into a signalled crossing that showed red already when it was stepped on; who is pressed off it
+/// sideways and comes back within kAside is still on it. Wrong way: faster than
 /// kMoving, on a normal lane, off junctions, more than 120 degrees from every lane of the place
 /// that vehicles may use. Lanes on another storey than one's own don't count (bridges).
 ///
@@ -77,6 +78,7 @@ class RuleMonitor {
   static constexpr double kStands = 0.2;   ///< [m/s]
   static constexpr double kMoving = 0.5;   ///< [m/s]
   static constexpr double kEntered = 0.5;  ///< [m]
+  static constexpr double kAside = 10.0;   ///< [s]
   static constexpr double kPause = 1.0;    ///< [s]
   static constexpr double kJudgement =
       30.0;  ///< a mixed stop line is dropped unjudged after so long [s]
@@ -97,7 +99,9 @@ class RuleMonitor {
   struct State {
     bool known = false;
     Vec2 front = Vec2::Zero(), center = Vec2::Zero();
-    LaneId on_crossing = kNoLane;  ///< pedestrians: the signalled crossing they are on
+    LaneId on_crossing = kNoLane;  ///< pedestrians: the signalled crossing they are on, or beside
+    bool amid = false;             ///< not near an end of it when they last were on it
+    double last_on = 0;            ///< when that was [s]
     EdgeId red_met = kNoEdge;      ///< vehicles: the edge at whose end they met a red light
     LaneId at_end_of = kNoLane;    ///< pedestrians: the crossing on whose first half metre they are
     bool stepped_on_red = false;   ///< that it showed red when they came there

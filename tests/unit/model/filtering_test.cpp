@@ -113,5 +113,24 @@ TEST(FilteringBeforeAJunction, IsOnTheSideOfTheTurn) {
   EXPECT_LT(place("CS"), 1.3) << "to the right: within its lane";
 }
 
+// one that filtered in the middle of the lane beside passed that lane's red light at its own green
+TEST(FilteringBeforeAJunction, StaysOverTheEdgeOfItsLaneBeforeASignal) {
+  auto place = [&](const char* junction) {
+    const RoadNetwork network = testing::read_plain_net(testing::crossroads(junction));
+    RoadScene here(network);
+    const double line = here.path(here.add("car", {"WC", "CE"}, 0, 0)).links.front().stop_line;
+    here.move(0, 20.0);
+    here.add("car", {"WC", "CE"}, line - 4.0, 0, 0, -1, "WC_1");
+    const std::size_t rider = here.add("motorcycle", {"WC", "CE"}, line - 14.0, 5, 0, -1, "WC_1");
+    here.update();
+    Surroundings around;
+    look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
+    return std::abs(passing_offset(here.model, here.path(rider), here.scene, around, rider));
+  };
+  const double lane_and_quarter = 1.6 + 0.25 * 0.9 + 1e-9;
+  EXPECT_GT(place("priority"), lane_and_quarter);
+  EXPECT_LE(place("traffic_light"), lane_and_quarter);
+}
+
 }  // namespace
 }  // namespace sumogamma

@@ -507,6 +507,40 @@ TEST(WalkersAtRed, WhoIsAtTheKerbHaltsThoughNotAtEaseAndWhoIsOnTheCrossingGoesOn
   EXPECT_FALSE(is_held(1.0));
 }
 
+// in a crowd at the kerb: who was pressed onto the road took itself for somebody who crosses
+TEST(WalkersAtRed, WhoWaitsForTheLightAndIsPressedOnStepsBack) {
+  RoadScene here{
+      read_plain_net(crossroads("traffic_light", {"--sidewalks.guess", "--crossings.guess"}))};
+  for (std::string& states : here.road.signal_states) states = std::string(100, 'r');
+  const std::size_t walker = here.add("pedestrian", {"WC", "CW"}, 0, 0.1, 195, 5);
+  const double kerb = here.path(walker).links.at(0).stop_line;
+  auto steps_back = [&](double front) {
+    here.move(walker, kerb + front - 0.2);
+    here.update();
+    const Vec2 way = here.context(walker).sub_goal - here.scene.position[walker];
+    return way.dot(here.path(walker).line.direction_at(kerb)) < 0.0;
+  };
+  EXPECT_FALSE(steps_back(2.0)) << "it crosses";
+  steps_back(-0.1);
+  ASSERT_EQ(here.context(walker).reason, LimitReason::Signal);
+  EXPECT_TRUE(steps_back(2.0)) << "it waited";
+}
+
+// a driver with the right of way braked with 8 m/s2 for who had come out over the line when it got
+// there, not before
+TEST_F(PriorityTest, WhoComesOutFirstIsSeenBeforeItIsInTheWay) {
+  const std::size_t minor = here_.add("car", {"NC", "CE"}, 0, 2.5);
+  const std::size_t major = here_.add("car", {"WC", "CE"}, 0, 13, 0, -1, "WC_1");
+  here_.move(major, here_.path(major).links.front().stop_line - 30);
+  auto held_with_front_at = [&](double past) {
+    here_.move(minor, here_.path(minor).links.front().stop_line + past - 2.25);
+    here_.update();
+    return here_.context(major).foe == static_cast<std::int64_t>(here_.scene.id[minor].value);
+  };
+  EXPECT_FALSE(held_with_front_at(-0.5)) << "it waits yet";
+  EXPECT_TRUE(held_with_front_at(5.0));
+}
+
 TEST_F(PriorityTest, WhoTurnsIntoTheOtherLaneHoldsNobodyUp) {
   // it heads for the eastbound car's lane now, but its way bends before
   const std::size_t turning = here_.add("car", {"NC", "CW"}, 0, 4);

@@ -433,6 +433,40 @@ TEST(SpeedProfile, TakesAnArcAtTheComfortLimit) {
   EXPECT_NEAR(path.profile_at(path.line.length()), 25, 1e-9);
 }
 
+/// Speed that the bends of a line leave, halfway along it [m/s].
+double speed_halfway(std::vector<Vec2> points) {
+  Path path;
+  path.line = Polyline(std::move(points));
+  path.stretches.push_back({});
+  path.stretches.back().to = path.line.length();
+  path.stretches.back().speed_limit = 25;
+  PathRequest request;
+  request.max_lateral_acceleration = 2.0;
+  request.comfortable_deceleration = 100.0;
+  compute_speed_profile(request, path);
+  return path.profile_at(0.5 * path.line.length());
+}
+
+// a vertex of a map is no corner: at 0.2 rad over the 13 m of 0.6 s to each side, not over 6 m
+TEST(SpeedProfile, SpreadsAKinkOverTheTimeThatSteeringTakes) {
+  const Vec2 turned = direction_of(0.2);
+  const double at_kink = speed_halfway({{-100, 0}, {0, 0}, 100 * turned});
+  EXPECT_NEAR(at_kink, std::sqrt(2.0 * 18.0 / 0.2), 1.5);
+  EXPECT_GT(at_kink, std::sqrt(2.0 * 6.0 / 0.2) + 2.0);
+}
+
+TEST(SpeedProfile, BendsOneAfterTheOtherDontCancelEachOtherOut) {
+  constexpr double kRadius = 10;
+  std::vector<Vec2> points;
+  for (int degrees = 60; degrees >= 0; degrees -= 2)
+    points.push_back(
+        {-kRadius * std::sin(radians(degrees)), -kRadius + kRadius * std::cos(radians(degrees))});
+  for (int degrees = 2; degrees <= 60; degrees += 2)
+    points.push_back(
+        {kRadius * std::sin(radians(degrees)), kRadius - kRadius * std::cos(radians(degrees))});
+  EXPECT_LT(speed_halfway(points), std::sqrt(2.0 * kRadius) + 0.7);
+}
+
 TEST_F(Crossroads, TheProfileKnowsLimitsFactorsAndTopSpeed) {
   const std::vector<EdgeId> route = route_of(right(), {"WC", "CE"});
   PathRequest request = request_of(route);

@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "road/path.h"
+#include "road/stop_lines.h"
 #include "support/plain_net.h"
 
 namespace sumogamma {
@@ -196,6 +197,21 @@ TEST_P(WalkingPath, WaitsWhereNobodyDrives) {
       }
     }
   }
+}
+
+// who had crossed one half of a road went back over it to wait for the other half
+TEST_P(WalkingPath, NobodyGoesBackOverACrossingToWaitForTheNext) {
+  std::string why;
+  auto path = walk({"SC", "CN"}, why);
+  ASSERT_TRUE(path) << why;
+  ASSERT_GE(path->links.size(), 1u);
+  // the second half begins where the first ends, amid the road
+  PathLink first = path->links.front(), second = first;
+  first.end = second.stop_line = 0.5 * (first.stop_line + first.end);
+  path->links = {first, second};
+  halt_off_the_road(network(), *path);
+  EXPECT_LT(path->links[0].halt, first.stop_line + 1e-9);
+  EXPECT_GE(path->links[1].halt, first.end);
 }
 
 TEST_P(WalkingPath, AnEmptyWalkSaysWhy) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "support/small_net.h"
@@ -39,6 +40,26 @@ TEST_F(StoreyTest, WhereLanesCrossTheHeightThereCounts) {
   for (double& height : net_.lanes[index_of(net_.lane_by_name.at("bridge_0"))].elevation)
     height = 0.5;
   EXPECT_FALSE(apart(at("in_1", 50, 0), at("bridge_0", 20, 3))) << "it comes down to the road";
+}
+
+// a ramp that ends over a tunnel, at a seam of two lanes: the crossing is on one of them only
+TEST_F(StoreyTest, ACrossingBehindTheEndOfTheLaneCounts) {
+  const Lane& bridge = net_.lane(net_.lane_by_name.at("bridge_0"));
+  Lane& road = net_.lanes[index_of(net_.lane_by_name.at("in_1"))];
+  const ConnectionId onward = road.outgoing.front();
+  LaneId next = net_.connection(onward).via;
+  if (next == kNoLane) next = net_.connection(onward).to;
+  Lane& behind = net_.lanes[index_of(next)];
+  const double x = bridge.centerline.points().front().x();
+  const double over = bridge.centerline.project({x, 0}).along;
+  const Ground above{net_.lane_by_name.at("bridge_0"), over, 2};
+  behind.elevation = {0, 0};
+  // what the road leads into passes below the bridge, or begins there, with a gap
+  for (const double begin : {x - 2.0, x + 0.1}) {
+    road.centerline = Polyline({{0, 0}, {std::min(begin, x - 0.1), 0}});
+    behind.centerline = Polyline({{begin, 0}, {x + 8, 0}});
+    EXPECT_TRUE(apart(at("in_1", x - 4, 0), above)) << begin;
+  }
 }
 
 TEST_F(StoreyTest, OffEveryLaneTheGroundDecides) {

@@ -218,6 +218,25 @@ TEST_F(Rules, WhoSteppedOnAtGreenHasNotCrossedAtRed) {
   EXPECT_EQ(counts().red_light_crossings, 0u);
 }
 
+TEST_F(Rules, WhoIsPressedOffACrossingAndComesBackIsStillOnIt) {
+  road_.signal_states = {"rG"};
+  add("pedestrian", {101, 2.6}, {0, -1.3});
+  run(3);
+  road_.signal_states = {"rr"};
+  for (const double sideways : {1.0, -1.0}) {
+    scene_.velocity[0] = Vec2(sideways, 0);
+    run(3);
+  }
+  EXPECT_EQ(counts().signal_crossings, 1u);
+  EXPECT_EQ(counts().red_light_crossings, 0u);
+  // who has reached the kerb and steps on again has not
+  for (const double across : {1.3, -1.3}) {
+    scene_.velocity[0] = Vec2(0, across);
+    run(4);
+  }
+  EXPECT_EQ(counts().red_light_crossings, 1u);
+}
+
 TEST_F(Rules, PedestrianGrazingTheCornerOfACrossing) {
   add("pedestrian", {98, 1.8}, {1.3, 0});
   run(4);

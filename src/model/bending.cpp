@@ -1,0 +1,29 @@
+#include "model/bending.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/vec2.h"
+
+namespace sumogamma {
+
+Arc::Arc(const AgentGeometry& who, const Vec2& bend)
+    // the chord of an arc points along half of its turn
+    : agent(who), curvature(2.0 * heading_of(bend) / std::max(kBendTime * who.speed, 0.5)) {}
+
+OrientedBox Arc::body_after(double way) const {
+  const double half_turn = 0.5 * curvature * way;
+  const double chord = std::abs(half_turn) > 1e-6 ? way * std::sin(half_turn) / half_turn : way;
+  const Vec2 position = agent.position + chord * from_body(direction_of(half_turn), agent.forward);
+  const Vec2 forward = from_body(direction_of(2.0 * half_turn), agent.forward);
+  return {position + agent.guarded_shift * forward, forward, agent.guarded_half};
+}
+
+bool bend_past(const Arc& a, double speed_a, const Arc& b, double speed_b, double time) {
+  constexpr double kStep = 0.15;  // [s]
+  for (double at = kStep; at < time + 0.5 * kStep; at += kStep)
+    if (separation(a.body_after(speed_a * at), b.body_after(speed_b * at)) <= 0.0) return false;
+  return true;
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,59 @@
+#include "model/bending.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/units.h"
+
+namespace sumogamma {
+namespace {
+
+/// A car of 4.5 m x 1.8 m.
+AgentGeometry car(const Vec2& position, double heading, double speed) {
+  AgentGeometry agent;
+  agent.position = position;
+  agent.forward = direction_of(heading);
+  agent.guarded_half = Vec2(2.25, 0.9);
+  agent.speed = speed;
+  agent.velocity = speed * agent.forward;
+  return agent;
+}
+
+/// RoadContext::bend of somebody who turns with a radius [m, positive left].
+Vec2 bend_with(double radius, double speed) {
+  const double half_turn = 0.5 * kBendTime * speed / radius;
+  return std::sin(half_turn) / half_turn * direction_of(half_turn);
+}
+
+TEST(Arc, EndsWhereAQuarterCircleDoes) {
+  const AgentGeometry agent = car({0, 0}, 0, 4);
+  const Arc arc(agent, bend_with(10, 4));
+  EXPECT_NEAR(arc.curvature, 0.1, 1e-9);
+  const OrientedBox body = arc.body_after(0.5 * kPi * 10);
+  EXPECT_NEAR(body.center.x(), 10, 1e-9);
+  EXPECT_NEAR(body.center.y(), 10, 1e-9);
+  EXPECT_NEAR(body.forward.y(), 1, 1e-9);
+}
+
+TEST(Arc, IsALineWithoutABend) {
+  const AgentGeometry agent = car({1, 2}, 0.5 * kPi, 4);
+  const OrientedBox body = Arc(agent, Vec2(1, 0)).body_after(6);
+  EXPECT_NEAR(body.center.x(), 1, 1e-9);
+  EXPECT_NEAR(body.center.y(), 8, 1e-9);
+}
+
+// Somebody turns right into the near lane of a road; on the far one another comes towards it.
+//
+//        <------- other            the outline as it stands now, moved along the chord, would
+//      ,-------->                  reach into the far lane
+//      |  own
+TEST(BendPast, WhoTurnsIntoItsOwnLaneIsInNobodysWay) {
+  const AgentGeometry own = car({0, -6}, 0.5 * kPi, 4), other = car({22, 2.2}, kPi, 13);
+  const Arc straight(other, Vec2(1, 0));
+  EXPECT_TRUE(bend_past(Arc(own, bend_with(-6, 4)), 4, straight, 13, kBendTime));
+  EXPECT_FALSE(bend_past(Arc(own, Vec2(1, 0)), 4, straight, 13, kBendTime)) << "straight on";
+}
+
+}  // namespace
+}  // namespace sumogamma
