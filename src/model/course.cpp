@@ -19,14 +19,14 @@ double look_ahead(const Course& course) {
 }
 
 /// See RoadContext::bend. Not amid a lane change, which may be given up.
-Vec2 bend_of(const Course& course) {
+Vec2 bend_of(const Course& course, double heading) {
   const double end = course.along + std::max(kBendTime * course.speed, 0.5);
   const Polyline& line = course.path.line;
   if (end > line.length() || course.path.stretch_at(course.along).changing ||
       course.path.stretch_at(end).changing)
     return {1, 0};
   const Vec2 chord = line.point_at(end) - line.point_at(course.along);
-  return to_body(chord / (end - course.along), line.direction_at(course.along));
+  return to_body(chord / (end - course.along), direction_of(heading));
 }
 
 /// Mean direction of the path between two places.
@@ -104,7 +104,7 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
     const double curvature = curvature_of(course);
     offset += lean_of(course, curvature, model.road.left_hand);
     context.tangent = direction_to_steer(course, curvature);
-    context.bend = bend_of(course);
+    context.bend = bend_of(course, scene.heading[course.row]);
     context.sub_goal = scene.position[course.row] + look_ahead(course) * context.tangent +
                        (offset - course.offset) * left_of(context.tangent);
   }

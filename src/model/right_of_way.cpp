@@ -223,7 +223,10 @@ struct Judge {
     if (!on_junction() || std::min(own, other) < kLong) return false;
     const LimitReason reason = approaches.waiting(foe.row).reason;
     const bool yields = reason == LimitReason::Yield || reason == LimitReason::Crossing;
-    return !yields || own > other || (own == other && scene.id[traveller.row] < scene.id[foe.row]);
+    // who isn't held by a rule and moves has begun to try
+    return (!yields && foe.speed < kCreeps) ||
+           (yields &&
+            (own > other || (own == other && scene.id[traveller.row] < scene.id[foe.row])));
   }
   /// Will a foe, as things are, come to rest in the zone?
   bool rests_in(const ConflictZone& zone, const Approach& foe) const {
