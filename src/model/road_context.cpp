@@ -130,7 +130,7 @@ LinkDecision decide_beyond(const View& view, const Course& course, const Travell
                            const PathLink& link) {
   constexpr double kPatience = 20.0;  // [s]
   constexpr double kFarthest = 20.0;  // [m]
-  if (view.scene.standing_time[course.row] > kPatience) return {};
+  if (view.scene.waiting_time[course.row] > kPatience) return {};
   const PathLink* last = &link;
   for (const PathLink& next : course.path.links) {
     // who waits with its rear on a junction already goes as far as it can
