@@ -216,6 +216,40 @@ TEST_F(PriorityTest, WhoHasKeptAJunctionClearForLongGoesOnForAWhile) {
   EXPECT_GT(blocked, 40.0);
 }
 
+// A bicycle that rolled on by centimetres before the first of two junctions waited for ever.
+//
+//                N
+//        |       |        eight metres between A and B: who waits before B has its rear on A
+//    W --A-------B--- E
+//        |       |
+//                S
+TEST(JunctionsThatFollowClosely, AreKeptClearForSomeTimeThoughSomebodyCreeps) {
+  testing::PlainNet plain;
+  plain.nodes = R"(<node id='W' x='-100' y='0'/><node id='A' x='0' y='0' type='priority'/>
+    <node id='B' x='16' y='0' type='priority'/><node id='E' x='120' y='0'/>
+    <node id='NA' x='0' y='100'/><node id='SA' x='0' y='-100'/>
+    <node id='N' x='16' y='100'/><node id='S' x='16' y='-100'/>)";
+  for (const char* ends : {"W A", "A B", "B E"})
+    plain.edges += std::string("<edge id='") + ends[0] + ends[2] + "' from='" + ends[0] + "' to='" +
+                   ends[2] + "' priority='1' speed='13'/>";
+  plain.edges +=
+      "<edge id='NAA' from='NA' to='A' priority='1' speed='13'/>"
+      "<edge id='ASA' from='A' to='SA' priority='1' speed='13'/>"
+      "<edge id='NB' from='N' to='B' priority='9' speed='13'/>"
+      "<edge id='BS' from='B' to='S' priority='9' speed='13'/>";
+  RoadScene here(read_plain_net(plain));
+  const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
+  here.move(own, here.path(own).links.at(0).stop_line - 2.25 - 0.6);
+  const std::size_t foe = here.add("car", {"NB", "BS"}, 0, 10);
+  here.move(foe, here.path(foe).links.at(0).stop_line - 25);
+  here.update();
+  EXPECT_EQ(here.context(own).foe, here.scene.id[foe].value);
+  here.scene.standing_time[own] = 0.5;
+  here.scene.waiting_time[own] = 25;
+  here.update();
+  EXPECT_GT(here.context(own).allowed_speed, 0.3) << "it goes as far as B";
+}
+
 TEST_F(PriorityTest, NobodyWaitsForWhoIsHeldByBodiesAlone) {
   const std::size_t minor = here_.add("car", {"SC", "CN"}, 0, 0);
   here_.move(minor, here_.path(minor).links.front().stop_line - 2.25 - 0.6);
