@@ -250,6 +250,24 @@ TEST(JunctionsThatFollowClosely, AreKeptClearForSomeTimeThoughSomebodyCreeps) {
   EXPECT_GT(here.context(own).allowed_speed, 0.3) << "it goes as far as B";
 }
 
+// a bus and a car had both waited on a junction for long, both tried, and met nose to nose
+TEST_F(PriorityTest, OfTwoWhoHaveWaitedOnAJunctionForLongNobodyTriesWhileTheOtherDoes) {
+  const std::size_t own = here_.add("car", {"SC", "CN"}, 0, 0.3);
+  const PathLink& own_link = here_.path(own).links.front();
+  here_.move(own, own_link.stop_line + 0.5);
+  const std::size_t foe = here_.add("bus", {"WC", "CE"}, 0, 0.5, 0, -1, "WC_1");
+  const PathLink& foe_link = here_.path(foe).links.front();
+  here_.move(foe, foe_link.end - 3.0);
+  here_.scene.waiting_time[own] = here_.scene.waiting_time[foe] = 10;
+  here_.update();
+  EXPECT_EQ(here_.context(own).foe, here_.scene.id[foe].value) << "it creeps on";
+  here_.set_speed(foe, 0);
+  here_.scene.waiting_time[own] = here_.scene.waiting_time[foe] = 10;
+  here_.scene.context[foe] = {};
+  here_.update();
+  EXPECT_NE(here_.context(own).foe, here_.scene.id[foe].value) << "it stands, held by nothing";
+}
+
 TEST_F(PriorityTest, NobodyWaitsForWhoIsHeldByBodiesAlone) {
   const std::size_t minor = here_.add("car", {"SC", "CN"}, 0, 0);
   here_.move(minor, here_.path(minor).links.front().stop_line - 2.25 - 0.6);
