@@ -17,6 +17,7 @@ enum class Draw : std::uint32_t {
   Headway,
   Jaywalking,
   Yielding,
+  MidBlock,
 };
 
 /// 64 well-mixed bits: a pure function of its arguments (splitmix64 finaliser, applied a word at a

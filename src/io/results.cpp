@@ -71,6 +71,7 @@ Json rule_counts_json(const RuleCounts& counts) {
   return {{"red_light_crossings", counts.red_light_crossings},
           {"signal_crossings", counts.signal_crossings},
           {"red_lights_met", counts.red_lights_met},
+          {"mid_block_crossings", counts.mid_block_crossings},
           {"wrong_way_s", counts.wrong_way_s},
           {"off_road_s", counts.off_road_s},
           {"sidewalk_by_vehicle_s", counts.sidewalk_by_vehicle_s}};

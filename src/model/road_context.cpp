@@ -4,6 +4,7 @@
 
 #include "model/course.h"
 #include "model/following.h"
+#include "model/jaywalking.h"
 #include "model/leader.h"
 #include "model/locate.h"
 #include "model/passing.h"
@@ -336,6 +337,16 @@ void set_walker_limit(const View& view, const Course& course, RoadContext& conte
   const double front = course.along + course.half_length;
   const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed,
                             context.speed_limit};
+  auto halt = [&](const LinkDecision& decision) {
+    const double allowed = std::max(0.0, (decision.stop_at - front) / 0.7);
+    context.to_halt = std::max(decision.stop_at - front, 0.0);
+    context.allowed_speed = std::min(context.allowed_speed, allowed);
+    context.reason = decision.reason;
+    context.foe = decision.foe;
+  };
+  const LinkDecision at_kerb =
+      decide_at_kerb(view.model, view.road, view.scene, view.grid, traveller);
+  if (at_kerb.must_stop) return halt(at_kerb);
   for (PathLink link : course.path.links) {
     const double past = front - link.stop_line;
     if (link.end < course.along || past > (was_held ? kPressed : kOnIt)) continue;
@@ -349,15 +360,10 @@ void set_walker_limit(const View& view, const Course& course, RoadContext& conte
     if (!decision.must_stop) continue;
     if (past > kOnIt && decision.reason != LimitReason::Signal) continue;
     const double beyond = front - (link.halt - kStopMargin);
-    if (beyond > (link.halt < link.stop_line ? kStep : 1.0)) {
-      // on the road already when the light changed, or pressed on: back to where nobody drives
-      context.sub_goal = course.path.line.point_at(course.along - beyond);
-      context.allowed_speed = std::min(beyond / 0.7, 1.0);
-    } else {
-      const double allowed = std::max(0.0, (decision.stop_at - front) / 0.7);
-      context.to_halt = std::max(decision.stop_at - front, 0.0);
-      context.allowed_speed = std::min(context.allowed_speed, allowed);
-    }
+    if (beyond <= (link.halt < link.stop_line ? kStep : 1.0)) return halt(decision);
+    // on the road already when the light changed, or pressed on: back to where nobody drives
+    context.sub_goal = course.path.line.point_at(course.along - beyond);
+    context.allowed_speed = std::min(beyond / 0.7, 1.0);
     context.reason = decision.reason;
     context.foe = decision.foe;
     return;

@@ -41,6 +41,11 @@ struct PathStop {
   double duration = 0;  ///< [s]
 };
 
+/// Where a walk leads straight over a road between junctions, from kerb to kerb.
+struct RoadCrossing {
+  double begin = 0, end = 0;  ///< along the path: where the sidewalks' edges are [m]
+};
+
 /// What a path is made from.
 struct PathRequest {
   std::span<const EdgeId> route;
@@ -53,7 +58,9 @@ struct PathRequest {
   double max_speed = 50;                  ///< [m/s]
   double speed_factor = 1;                ///< of the lane limits
   double turning_radius =
-      0;  ///< tightest that the body can drive [m]; bends are rounded to about it
+      0;                  ///< tightest that the body can drive [m]; bends are rounded to about it
+  double mid_block = -1;  ///< in [0, 1): on foot crosses between junctions, that share of the way
+                          ///< to the junction ahead; negative: on crossings alone
 };
 
 /// One lane of one edge of a route and the cheapest way on from it.
@@ -81,9 +88,10 @@ struct Trip {
 /// need to know along it.
 struct Path {
   Polyline line;
-  std::vector<PathStretch> stretches;  ///< in order, gapless
-  std::vector<PathLink> links;         ///< in order of stop_line
-  std::vector<PathStop> stops;         ///< in order
+  std::vector<PathStretch> stretches;   ///< in order, gapless
+  std::vector<PathLink> links;          ///< in order of stop_line
+  std::vector<PathStop> stops;          ///< in order
+  std::vector<RoadCrossing> over_road;  ///< in order; on foot
   std::vector<double>
       speed_profile;   ///< [m/s] every kProfileStep along: bends and limits with braking ahead
   double arrival = 0;  ///< along, where the trip ends [m]
@@ -139,7 +147,8 @@ std::optional<Path> take_route(const RoadNetwork& network, const Path& path, dou
 
 /// Path of a pedestrian along the edges of a walk: sidewalks in either direction, walking areas and
 /// crossings between them found by least distance. nullopt with `why` set where the walk can't be
-/// connected.
+/// connected. Who crosses between junctions (`mid_block`) does where that saves the crossing of the
+/// road it walks along.
 std::optional<Path> build_walking_path(const RoadNetwork& network, const PathRequest& request,
                                        std::string& why);
 

@@ -19,7 +19,7 @@ void round_corners(double turning_radius, Path& path);
 void move_stop_lines(const RoadNetwork& network, Path& path);
 
 /// Calls carry(along) for every place on a path that moves with its line: ends of stretches, links,
-/// halts.
+/// halts, pieces over roads.
 template <typename Carry>
 void carry_places(Path& path, Carry&& carry) {
   for (PathStretch& stretch : path.stretches) {
@@ -33,6 +33,10 @@ void carry_places(Path& path, Carry&& carry) {
     carry(link.inside);
   }
   for (PathStop& stop : path.stops) carry(stop.along);
+  for (RoadCrossing& piece : path.over_road) {
+    carry(piece.begin);
+    carry(piece.end);
+  }
 }
 
 /// Appends the points of a line between two places on it [m], ends included; reversed where to <

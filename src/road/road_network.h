@@ -156,6 +156,13 @@ struct RoadNetwork {
   const Junction& junction(JunctionId id) const { return junctions[index_of(id)]; }
 };
 
+/// The lane of an edge on which pedestrians walk: the lowest index that admits them, as in SUMO.
+inline LaneId walking_lane(const RoadNetwork& network, EdgeId edge) {
+  for (const LaneId id : network.edge(edge).lanes)
+    if (network.lane(id).allowed & vehicle_class::kPedestrian) return id;
+  return kNoLane;
+}
+
 /// May who takes a connection wait on the junction, where its first internal lane ends?
 inline bool may_stop_inside(const RoadNetwork& network, const Connection& connection) {
   if (connection.junction == kNoJunction || connection.junction_link < 0) return false;

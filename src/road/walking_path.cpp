@@ -3,6 +3,7 @@
 #include <map>
 #include <queue>
 
+#include "road/mid_block.h"
 #include "road/path.h"
 #include "road/path_profile.h"
 #include "road/stop_lines.h"
@@ -16,14 +17,6 @@ namespace {
 constexpr double kLeastRoom = 0.75;
 /// Beside crossings, and beside lanes that vehicles use, too [m].
 constexpr double kVerge = 0.5;
-constexpr VehicleClassMask kOnFootOrBicycle = vehicle_class::kPedestrian | vehicle_class::kBicycle;
-
-/// The lane of an edge on which pedestrians walk: the lowest index that admits them, as in SUMO.
-LaneId walking_lane(const RoadNetwork& network, EdgeId edge) {
-  for (const LaneId id : network.edge(edge).lanes)
-    if (network.lane(id).allowed & vehicle_class::kPedestrian) return id;
-  return kNoLane;
-}
 
 /// Lanes reached from one lane on foot: connections count in both directions.
 void for_each_walking_neighbour(const RoadNetwork& network, LaneId id, auto&& visit) {
@@ -158,6 +151,28 @@ class Walk {
     }
   }
 
+  /// Along a sidewalk to where the road is crossed, and straight over to the next one.
+  void over_road(LaneId sidewalk, double from, const MidBlock& over) {
+    along_lane(sidewalk, from, over.leave);
+    const Lane &here = network_.lane(sidewalk), &there = network_.lane(over.across);
+    const Vec2 kerb = here.centerline.point_at(over.leave);
+    const Vec2 way = there.centerline.point_at(over.enter) - kerb;
+    const double begin = length(), gap = way.norm();
+    // lanes for who is on the road are those of the sidewalks, half of the way each
+    PathStretch half;
+    half.speed_limit = std::max(here.speed_limit, 1.0);
+    half.room_left = half.room_right = std::numeric_limits<double>::infinity();
+    half.lane = sidewalk;
+    half.from = begin;
+    half.lane_from = over.leave;
+    path_.stretches.push_back(half);
+    half.lane = over.across;
+    half.from = connect_to(kerb + 0.5 * way);
+    half.lane_from = over.enter - 0.5 * gap;
+    path_.stretches.push_back(half);
+    path_.over_road.push_back({begin + 0.5 * here.width, begin + gap - 0.5 * there.width});
+  }
+
   /// Free walking over an area to where the next lane begins: the stretch is closed by the next
   /// along_lane.
   void over_area(LaneId id) {
@@ -265,6 +280,54 @@ Passage find_passage(const RoadNetwork& network, const PathRequest& request,
   return best;
 }
 
+bool crosses_road(const RoadNetwork& network, const std::vector<LaneId>& passage, EdgeId edge) {
+  return std::any_of(passage.begin(), passage.end(), [&](LaneId id) {
+    const Lane& lane = network.lane(id);
+    if (lane.kind != LaneKind::Crossing) return false;
+    const auto& crossed = network.edge(lane.edge).crossing_edges;
+    return std::find(crossed.begin(), crossed.end(), edge) != crossed.end();
+  });
+}
+
+/// Where the road beside sidewalk i is crossed between its junctions: because the walk goes on
+/// across it, or to save the crossing that `passage`, taken from `from` on, would lead over. The
+/// sidewalk across is added to the list after i where it isn't there already. nullopt where that is
+/// not possible or saves no crossing.
+std::optional<MidBlock> find_shortcut(const RoadNetwork& network, const PathRequest& request,
+                                      std::vector<LaneId>& sidewalks, std::size_t i, double from,
+                                      const Passage& passage) {
+  constexpr double kSoon = 20.0;   // who arrives across and behind crosses within [m]
+  constexpr double kDetour = 5.0;  // at most [m]
+  const LaneId across = sidewalk_across(network, sidewalks[i]);
+  if (across == kNoLane) return std::nullopt;
+  const EdgeId edge = network.lane(sidewalks[i]).edge, twin = network.lane(across).edge;
+  auto saves = [&](const Passage& other) {
+    return crosses_road(network, other.lanes, edge) || crosses_road(network, other.lanes, twin);
+  };
+  const Polyline& line = network.lane(sidewalks[i]).centerline;
+  double to = passage.leave;
+  if (sidewalks[i + 1] == across) {
+    // nobody walks on beyond where it arrives
+    if (i + 2 == sidewalks.size() && request.arrival_position >= 0.0) {
+      const Polyline& other = network.lane(across).centerline;
+      const double arrival = line.project(other.point_at(request.arrival_position)).along;
+      to = to < from ? std::max(to, std::min(arrival, from - kSoon))
+                     : std::min(to, std::max(arrival, from + kSoon));
+    }
+    return find_mid_block(network, sidewalks[i], across, from, to, request.mid_block);
+  }
+  if (!saves(passage)) return std::nullopt;
+  const auto over = find_mid_block(network, sidewalks[i], across, from, to, request.mid_block);
+  if (!over) return std::nullopt;
+  std::vector<LaneId> longer = sidewalks;
+  longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(i) + 1, across);
+  const Passage after = find_passage(network, request, longer, i + 1, over->enter);
+  const double way = std::abs(over->leave - from) + over->width + after.cost;
+  if (saves(after) || way > passage.cost + kDetour) return std::nullopt;
+  sidewalks = std::move(longer);
+  return over;
+}
+
 /// The sidewalks of a walk in order; empty with `why` set where an edge has none.
 std::vector<LaneId> sidewalks_of(const RoadNetwork& network, std::span<const EdgeId> route,
                                  std::string& why) {
@@ -288,7 +351,7 @@ std::vector<LaneId> sidewalks_of(const RoadNetwork& network, std::span<const Edg
 
 std::optional<Path> build_walking_path(const RoadNetwork& network, const PathRequest& request,
                                        std::string& why) {
-  const std::vector<LaneId> sidewalks = sidewalks_of(network, request.route, why);
+  std::vector<LaneId> sidewalks = sidewalks_of(network, request.route, why);
   if (sidewalks.empty()) return std::nullopt;
   auto line_of = [&](std::size_t i) -> const Polyline& {
     return network.lane(sidewalks[i]).centerline;
@@ -302,6 +365,14 @@ std::optional<Path> build_walking_path(const RoadNetwork& network, const PathReq
       why = "no way on foot from edge '" + network.edge(network.lane(sidewalks[i]).edge).name +
             "' to edge '" + network.edge(network.lane(sidewalks[i + 1]).edge).name + "'";
       return std::nullopt;
+    }
+    const auto shortcut = request.mid_block < 0.0
+                              ? std::nullopt
+                              : find_shortcut(network, request, sidewalks, i, from, passage);
+    if (shortcut) {
+      walk.over_road(sidewalks[i], from, *shortcut);
+      from = shortcut->enter;
+      continue;
     }
     walk.along_lane(sidewalks[i], from, passage.leave);
     Vec2 here = line_of(i).point_at(passage.leave);

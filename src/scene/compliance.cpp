@@ -30,6 +30,11 @@ double draw_speed_factor(const Compliance& compliance, std::uint64_t seed, std::
                      Draw::DesiredSpeed);
 }
 
+double draw_mid_block(const Compliance& compliance, std::uint64_t seed, std::uint64_t id) {
+  const double draw = random_uniform(seed, id, 0, Draw::MidBlock);
+  return draw < compliance.jaywalking_rate ? draw / compliance.jaywalking_rate : -1.0;
+}
+
 bool runs_red_light(const Compliance& compliance, const Manners& manners, std::uint64_t place) {
   return manners.key != 0 &&
          random_uniform(manners.key, place, 0, Draw::Compliance) < compliance.red_light_running;

@@ -12,7 +12,7 @@ struct Compliance {
   double yielding_rate = 1;      ///< share of drivers that let people go first who wait at an
                                  ///< unsignalled crossing
   double jaywalking_rate = 0;    ///< share of people on foot that, meeting a red light, cross where
-                                 ///< the way is free
+                                 ///< the way is free; and that cross roads between junctions
   double speed_factor = 0;  ///< mean of the desired speed over the limit (on foot and on bicycles:
                             ///< over the usual speed); 0: what SUMO drew from its vType
   double speed_factor_deviation = 0;
@@ -33,6 +33,10 @@ Manners draw_manners(const Compliance& compliance, std::uint64_t seed, std::uint
 /// Factor on the desired speed of an agent whose type has one of its own (speed_factor > 0):
 /// normal, cut off at twice the deviation, at least 0.2. A pure function of seed and id.
 double draw_speed_factor(const Compliance& compliance, std::uint64_t seed, std::uint64_t id);
+
+/// For the share `jaywalking_rate` of all ids, who cross roads between junctions, a number in [0,
+/// 1) that says where; -1 for the others. A pure function of seed and id.
+double draw_mid_block(const Compliance& compliance, std::uint64_t seed, std::uint64_t id);
 
 /// Draws an encounter: true for the share `rate` of all (agent, place) pairs, and always the same
 /// for one pair.

@@ -70,6 +70,7 @@ void RuleMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
       state = State{};
     if (type.kinematics == Kinematics::Holonomic) {
       judge_crossing(agent, state, road);
+      judge_mid_block(agent, state, road);
     } else {
       judge_ground(agent, state);
       if (state.known) judge_stop_line(agent, state, front, road);
@@ -325,6 +326,17 @@ void RuleMonitor::judge_crossing(const Row& agent, State& state, const RoadState
   if (on == kNoLane && stands) note_waiting(state, road);
 }
 
+void RuleMonitor::judge_mid_block(const Row& agent, State& state, const RoadState& road) {
+  const Path* path = road.path(agent.scene.path[agent.row]);
+  if (path == nullptr) return;
+  const double along = agent.scene.path_along[agent.row];
+  if (state.known)
+    for (const RoadCrossing& piece : path->over_road)
+      if (state.along < piece.end && along >= piece.end && state.along > piece.begin)
+        ++agent.counts.mid_block_crossings;
+  state.along = along;
+}
+
 void RuleMonitor::note_waiting(State& state, const RoadState& road) {
   // judge_crossing has just found the lanes of the centre
   bool red = false;
@@ -354,6 +366,7 @@ RuleResult RuleMonitor::result(const AgentTypeTable& types) const {
     result.all.red_light_crossings += counts.red_light_crossings;
     result.all.signal_crossings += counts.signal_crossings;
     result.all.red_lights_met += counts.red_lights_met;
+    result.all.mid_block_crossings += counts.mid_block_crossings;
     result.all.wrong_way_s += counts.wrong_way_s;
     result.all.off_road_s += counts.off_road_s;
     result.all.sidewalk_by_vehicle_s += counts.sidewalk_by_vehicle_s;

@@ -22,9 +22,10 @@ struct RuleCounts {
       0;  ///< all signalled stop lines or crossings entered, whatever they showed
   std::uint64_t red_lights_met =
       0;  ///< encounters of an agent that could go with a red light: the base of a rate of running
-  double wrong_way_s = 0;            ///< against every lane of the place
-  double off_road_s = 0;             ///< on no lane and no junction
-  double sidewalk_by_vehicle_s = 0;  ///< motor vehicles on ground for people on foot
+  std::uint64_t mid_block_crossings = 0;  ///< roads crossed on foot between junctions
+  double wrong_way_s = 0;                 ///< against every lane of the place
+  double off_road_s = 0;                  ///< on no lane and no junction
+  double sidewalk_by_vehicle_s = 0;       ///< motor vehicles on ground for people on foot
 };
 
 /// Keys of `rules` in results.json.
@@ -66,6 +67,9 @@ struct RedLightEvent {
 /// kMoving, on a normal lane, off junctions, more than 120 degrees from every lane of the place
 /// that vehicles may use. Lanes on another storey than one's own don't count (bridges).
 ///
+/// Roads crossed between junctions: the pieces of a walk over a road (Path::over_road) that were
+/// walked to their end. Only a path says what somebody means: plain SUMO's people have none.
+///
 /// A red light is met by a vehicle slower than kSlow whose front is within kMeets before the end of
 /// a lane all of whose links show red, with nobody between it and that end; by somebody on foot who
 /// enters a crossing after a second of standing beside it while it showed red; and by all who run
@@ -100,6 +104,7 @@ class RuleMonitor {
     bool known = false;
     Vec2 front = Vec2::Zero(), center = Vec2::Zero();
     LaneId on_crossing = kNoLane;  ///< pedestrians: the signalled crossing they are on, or beside
+    double along = 0;              ///< pedestrians: on their path [m]
     bool amid = false;             ///< not near an end of it when they last were on it
     double last_on = 0;            ///< when that was [s]
     EdgeId red_met = kNoEdge;      ///< vehicles: the edge at whose end they met a red light
@@ -124,6 +129,7 @@ class RuleMonitor {
   void judge_stop_line(const Row& agent, State& state, const Vec2& front, const RoadState& road);
   void judge_turn(const Row& agent, State& state);
   void judge_crossing(const Row& agent, State& state, const RoadState& road);
+  void judge_mid_block(const Row& agent, State& state, const RoadState& road);
   void find_lanes(const Row& agent, const Vec2& point, std::vector<LaneHit>& hits) const;
   bool shows_red(const Lane& crossing, const RoadState& road) const;
   bool was_and_is_red(const Connection& connection, const RoadState& road) const;

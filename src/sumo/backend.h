@@ -42,6 +42,7 @@ struct SumoAgentDetails {
   std::vector<std::string>
       route;  ///< edges: the vehicle's whole route, or the edges of the person's current walk
   double arrival_position = -1;  ///< along the last edge [m], < 0: its end
+  double mid_block = -1;         ///< as PathRequest::mid_block; not SUMO's
   struct Stop {
     std::string lane;
     double start = 0, end = 0, duration = 0;

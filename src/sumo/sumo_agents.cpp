@@ -7,6 +7,18 @@
 
 namespace sumogamma {
 
+namespace {
+
+/// FNV-1a of SUMO's id: ours is given at insertion alone, after the path was made.
+std::uint64_t number_of(const std::string& sumo_id) {
+  std::uint64_t number = 0xcbf29ce484222325ULL;
+  for (const char letter : sumo_id)
+    number = (number ^ static_cast<unsigned char>(letter)) * 0x100000001b3ULL;
+  return number;
+}
+
+}  // namespace
+
 std::optional<AgentTypeId> agent_type_of(const AgentTypeTable& types,
                                          const SumoAgentDetails& details) {
   for (std::size_t row = 0; row < types.size(); ++row)
@@ -58,6 +70,7 @@ std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& detail
   request.route = route;
   request.vehicle_class = vehicle_class_from_name(details.vehicle_class);
   request.arrival_position = details.arrival_position;
+  request.mid_block = details.mid_block;
   request.max_lateral_acceleration = type.max_lateral_acceleration;
   request.comfortable_deceleration = type.comfortable_deceleration;
   request.max_speed =
@@ -113,15 +126,16 @@ std::vector<std::shared_ptr<const Path>> paths_besides(const Model& model,
 
 void choose_speed_factor(const AgentType& type, std::uint64_t seed, SumoAgentDetails& details) {
   if (type.compliance.speed_factor <= 0.0) return;
-  // FNV-1a of SUMO's id: ours is given at insertion alone, after the path was made
-  std::uint64_t id = 0xcbf29ce484222325ULL;
-  for (const char letter : details.id)
-    id = (id ^ static_cast<unsigned char>(letter)) * 0x100000001b3ULL;
-  const double factor = draw_speed_factor(type.compliance, seed, id);
+  const double factor = draw_speed_factor(type.compliance, seed, number_of(details.id));
   // SUMO's maximum speed of who rides at a pace of its own holds its factor already
   if (details.vehicle_class == "bicycle" && details.speed_factor > 0.0)
     details.max_speed *= factor / details.speed_factor;
   details.speed_factor = factor;
+}
+
+void choose_mid_block(const AgentType& type, std::uint64_t seed, SumoAgentDetails& details) {
+  if (details.is_person)
+    details.mid_block = draw_mid_block(type.compliance, seed, number_of(details.id));
 }
 
 BehaviorState draw_behavior(const AgentType& type, std::uint64_t seed, AgentId id) {

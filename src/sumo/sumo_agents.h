@@ -28,6 +28,10 @@ std::vector<std::shared_ptr<const Path>> paths_besides(const Model& model,
 /// type has one of its own (Compliance::speed_factor): a pure function of seed and SUMO's id.
 void choose_speed_factor(const AgentType& type, std::uint64_t seed, SumoAgentDetails& details);
 
+/// Draws whether, and where, somebody on foot crosses roads between junctions
+/// (Compliance::jaywalking_rate): a pure function of seed and SUMO's id.
+void choose_mid_block(const AgentType& type, std::uint64_t seed, SumoAgentDetails& details);
+
 /// Behaviour drawn for one agent (responsibility, attention; intention is its path): a pure
 /// function of seed and id.
 BehaviorState draw_behavior(const AgentType& type, std::uint64_t seed, AgentId id);

@@ -103,6 +103,7 @@ void SumoWorld::take_departed(Scene&) {
     bool driven = options_.control.any() && wants_control(pending.details, *type);
     if (driven || options_.control.has_region)
       choose_speed_factor(type_of(model_.types, *type), options_.seed, pending.details);
+    if (driven) choose_mid_block(type_of(model_.types, *type), options_.seed, pending.details);
     if (options_.control.any()) {
       std::string why = "a person who does not walk";
       if (!pending.details.route.empty())
@@ -189,9 +190,11 @@ void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
         const std::string one[] = {known.sumo_id};
         auto details = backend_.details({}, one);
         std::string why = "it is gone";
-        if (!details.empty())
-          choose_speed_factor(type_of(model_.types, scene.type[row]), options_.seed,
-                              details.front());
+        if (!details.empty()) {
+          const AgentType& type = type_of(model_.types, scene.type[row]);
+          choose_speed_factor(type, options_.seed, details.front());
+          choose_mid_block(type, options_.seed, details.front());
+        }
         auto next_path =
             details.empty() ? nullptr : path_of(model_, details.front(), scene.type[row], why);
         if (next_path) {

@@ -45,7 +45,7 @@ TEST_F(Results, EveryKeyIsThereInAnEmptyRun) {
        {"mean_speed", "distance_km", "stuck_agents", "longest_standstill_s",
         "waiting_time_mean_s"}},
       {"rules",
-       {"red_light_crossings", "red_lights_met", "wrong_way_s", "off_road_s",
+       {"red_light_crossings", "red_lights_met", "mid_block_crossings", "wrong_way_s", "off_road_s",
         "sidewalk_by_vehicle_s", "by_types"}},
       {"smoothness", {"accel_p95", "jerk_p95", "yaw_rate_p95", "lateral_slip_p95", "reversals"}},
       {"coupling",

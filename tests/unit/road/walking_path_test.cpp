@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/units.h"
@@ -26,7 +27,7 @@ class WalkingPath : public ::testing::TestWithParam<bool> {
     return GetParam() ? left : right;
   }
   std::optional<Path> walk(const std::vector<std::string>& names, std::string& why,
-                           double start = 0, double arrival = -1) const {
+                           double start = 0, double arrival = -1, double mid_block = -1) const {
     const std::vector<EdgeId> route = route_of(network(), names);
     PathRequest request;
     request.route = route;
@@ -34,6 +35,7 @@ class WalkingPath : public ::testing::TestWithParam<bool> {
     request.start_along = start;
     request.arrival_position = arrival;
     request.max_speed = 3;
+    request.mid_block = mid_block;
     return build_walking_path(network(), request, why);
   }
   const Lane& lane_at(const Path& path, double along) const {
@@ -212,6 +214,92 @@ TEST_P(WalkingPath, NobodyGoesBackOverACrossingToWaitForTheNext) {
   halt_off_the_road(network(), *path);
   EXPECT_LT(path->links[0].halt, first.stop_line + 1e-9);
   EXPECT_GE(path->links[1].halt, first.end);
+}
+
+/// How far from the sidewalk's middle a place of a path is [m].
+double off_sidewalk(const RoadNetwork& network, const std::string& lane, const Path& path,
+                    double along) {
+  return network.lane(network.lane_by_name.at(lane))
+      .centerline.project(path.line.point_at(along))
+      .distance;
+}
+
+TEST_P(WalkingPath, WhoCrossesBetweenJunctionsIsOnTheOtherSidewalkThen) {
+  for (const double draw : {0.0, 0.3, 0.99}) {
+    // two crossings away, or across the road that they walk along
+    for (const std::string to : {"CN", "CS", "CE", "CW"}) {
+      std::string why;
+      const auto path = walk({"WC", to}, why, 20, 150, draw), kept = walk({"WC", to}, why, 20, 150);
+      ASSERT_TRUE(path && kept) << to << why;
+      EXPECT_TRUE(kept->over_road.empty());
+      const bool needs_it =
+          std::any_of(kept->stretches.begin(), kept->stretches.end(), [&](const PathStretch& s) {
+            const auto& crossed = network().edge(network().lane(s.lane).edge).crossing_edges;
+            return std::find(crossed.begin(), crossed.end(), network().edge_by_name.at("WC")) !=
+                   crossed.end();
+          });
+      ASSERT_EQ(path->over_road.size(), needs_it ? 1u : 0u) << to << " " << draw;
+      if (!needs_it) {
+        EXPECT_EQ(path->line.points(), kept->line.points());
+        continue;
+      }
+      const RoadCrossing& over = path->over_road.front();
+      const Vec2 begin = path->line.point_at(over.begin), end = path->line.point_at(over.end);
+      // far from the ends, straight over the road from edge to edge
+      EXPECT_GT(begin.x(), -200 + 15 - 1e-6);
+      EXPECT_LT(begin.x(), -15);
+      EXPECT_NEAR(begin.x(), end.x(), 1e-6);
+      EXPECT_NEAR((end - begin).norm(), over.end - over.begin, 1e-6);
+      EXPECT_NEAR(off_sidewalk(network(), "WC_0", *path, over.begin), 1.0, 1e-6);
+      EXPECT_NEAR(off_sidewalk(network(), "CW_0", *path, over.end), 1.0, 1e-6);
+      EXPECT_NEAR(off_sidewalk(network(), "CW_0", *path, over.end + 2.0), 0.0, 1e-6);
+      EXPECT_LT(path->line.length(), kept->line.length() + 5.0) << to;
+      EXPECT_EQ(path->links.size() + 1, kept->links.size()) << to << " saves one crossing";
+      for (std::size_t i = 0; i + 1 < path->stretches.size(); ++i)
+        EXPECT_NEAR(path->stretches[i].to, path->stretches[i + 1].from, 1e-6);
+      // who is on the road is on the one sidewalk or the other for those who ask for its lane
+      EXPECT_EQ(lane_at(*path, over.begin + 0.5).name, "WC_0");
+      EXPECT_EQ(lane_at(*path, over.end - 0.5).name, "CW_0");
+    }
+  }
+}
+
+TEST_P(WalkingPath, WhereToCrossBetweenJunctionsIsDrawn) {
+  std::string why;
+  const auto soon = walk({"WC", "CW"}, why, 20, 5, 0.0), late = walk({"WC", "CW"}, why, 20, 5, 0.9);
+  ASSERT_TRUE(soon && late) << why;
+  ASSERT_EQ(soon->over_road.size() * late->over_road.size(), 1u);
+  EXPECT_LT(soon->over_road.front().begin + 50, late->over_road.front().begin);
+}
+
+TEST_P(WalkingPath, NobodyWalksOnBeyondWhereItArrivesAcross) {
+  std::string why;
+  // across is 30 m further on, and 60 m back
+  for (const auto& [arrival, most] : {std::pair{200.0 - 130.0, 70.0}, {200.0 - 40.0, 120.0}}) {
+    const auto path = walk({"WC", "CW"}, why, 100, arrival, 0.99);
+    ASSERT_TRUE(path) << why;
+    ASSERT_EQ(path->over_road.size(), 1u) << arrival;
+    EXPECT_LT(path->line.length(), most) << arrival;
+  }
+}
+
+TEST_P(WalkingPath, NobodyCrossesNearAJunctionOrThroughAFence) {
+  std::string why;
+  const double end = network().lane(network().lane_by_name.at("WC_0")).centerline.length();
+  const auto late = walk({"WC", "CW"}, why, end - 16, 5, 0.5);
+  ASSERT_TRUE(late) << why;
+  EXPECT_TRUE(late->over_road.empty());
+  RoadNetwork fenced = network();
+  fenced.obstacles.push_back({ObstacleKind::Barrier, {Vec2(-200, 0), Vec2(-10, 0)}});
+  PathRequest request;
+  const std::vector<EdgeId> route = route_of(fenced, {"WC", "CW"});
+  request.route = route;
+  request.vehicle_class = vehicle_class::kPedestrian;
+  request.arrival_position = 5;
+  request.mid_block = 0.5;
+  const auto kept = build_walking_path(fenced, request, why);
+  ASSERT_TRUE(kept) << why;
+  EXPECT_TRUE(kept->over_road.empty());
 }
 
 TEST_P(WalkingPath, AnEmptyWalkSaysWhy) {

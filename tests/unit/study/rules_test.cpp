@@ -316,6 +316,26 @@ constexpr const char* kFork = R"xml(<net version="1.9">
   <connection from="a" to="c" fromLane="0" toLane="0" via=":J_1_0" tl="J" linkIndex="1" dir="r" state="o"/>
 </net>)xml";
 
+TEST_F(Rules, ARoadCrossedBetweenJunctionsCountsOnceAtItsFarSide) {
+  auto path = std::make_shared<Path>();
+  path->line = Polyline({Vec2(70, -20), Vec2(70, 20)});
+  path->over_road = {{15, 25}};
+  road_.paths = {path};
+  add("pedestrian", {70, -20}, {0, 1.3});
+  scene_.path[0] = static_cast<PathId>(0);
+  auto walk = [&](double seconds) {
+    for (double time = 0; time < seconds; time += kStep) {
+      run(kStep);
+      scene_.path_along[0] = scene_.position[0].y() + 20;
+    }
+  };
+  walk(18);
+  EXPECT_EQ(counts().mid_block_crossings, 0u);
+  walk(10);
+  EXPECT_EQ(counts().mid_block_crossings, 1u);
+  EXPECT_EQ(monitor_.result(types_).by_type.at("pedestrian").mid_block_crossings, 1u);
+}
+
 class Fork : public ::testing::TestWithParam<bool> {};
 
 TEST_P(Fork, MixedLightsAreJudgedByTheTurnTaken) {

@@ -153,6 +153,32 @@ TEST(ChooseSpeedFactor, SumosStaysUnlessTheTypeHasOne) {
   EXPECT_NE(details.speed_factor, first);
 }
 
+TEST(ChooseMidBlock, IsDrawnForPeopleAtTheRateOfTheirType) {
+  AgentTypeTable types = default_agent_types();
+  AgentType person = type_of(types, find_agent_type(types, "pedestrian"));
+  SumoAgentDetails details;
+  details.is_person = true;
+  double crossing = 0, sum = 0;
+  for (int k = 0; k < 2000; ++k) {
+    details.id = "person." + std::to_string(k);
+    person.compliance.jaywalking_rate = 0;
+    choose_mid_block(person, 1, details);
+    EXPECT_LT(details.mid_block, 0.0);
+    person.compliance.jaywalking_rate = 0.3;
+    choose_mid_block(person, 1, details);
+    EXPECT_LT(details.mid_block, 1.0);
+    if (details.mid_block < 0.0) continue;
+    ++crossing;
+    sum += details.mid_block;
+  }
+  EXPECT_NEAR(crossing / 2000, 0.3, 0.04);
+  EXPECT_NEAR(sum / crossing, 0.5, 0.05);
+  SumoAgentDetails car;
+  person.compliance.jaywalking_rate = 1;
+  choose_mid_block(person, 1, car);
+  EXPECT_LT(car.mid_block, 0.0);
+}
+
 TEST(DrawPathOffset, TheSlowKeepToTheKerb) {
   Model model = small_model();
   for (const bool left_hand : {false, true}) {

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "geometry/spatial_grid.h"
+#include "model/right_of_way.h"
+
+namespace sumogamma {
+
+/// Must somebody on foot wait at the kerb before the next piece of its path over a road between
+/// junctions? Nobody yields to it there, so it goes where no vehicle that it sees come gets to its
+/// way before it is past, or where that is gone first. Bodies that stand clear of the way are let
+/// be. The spare time shrinks while it waits; in the end it goes where nobody has to brake hard.
+/// Once on the road it goes on: the rest is avoidance's, and the drivers'.
+LinkDecision decide_at_kerb(const Model& model, const RoadState& road, const Scene& scene,
+                            const SpatialGrid& grid, const Traveller& walker);
+
+}  // namespace sumogamma
