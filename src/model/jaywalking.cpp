@@ -12,14 +12,15 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kNear = 4.0;       ///< before the kerb the road is looked at from here on [m]
-constexpr double kOnIt = 0.3;       ///< who is further past the kerb crosses [m]
-constexpr double kBefore = 0.2;     ///< a waiting front halts so far before the kerb [m]
-constexpr double kBeside = 0.5;     ///< kept to bodies [m]
-constexpr double kSetsOut = 0.5;    ///< it takes to get going [s]
-constexpr double kMargin = 2.0;     ///< to whoever comes next [s]
-constexpr double kLeast = 0.5;      ///< likewise after kPatience [s]
-constexpr double kPatience = 45.0;  ///< [s]
+constexpr double kNear = 4.0;     ///< before the kerb the road is looked at from here on [m]
+constexpr double kOnIt = 0.3;     ///< who is further past the kerb crosses [m]
+constexpr double kSetOut = 1.0;   ///< who walks so far before the kerb, or further, keeps to it [m]
+constexpr double kBefore = 0.2;   ///< a waiting front halts so far before the kerb [m]
+constexpr double kBeside = 0.5;   ///< kept to bodies [m]
+constexpr double kSetsOut = 0.5;  ///< it takes to get going [s]
+constexpr double kMargin = 2.0;   ///< to whoever comes next [s]
+constexpr double kLeast = 0.5;    ///< likewise after kPatience [s]
+constexpr double kPatience = 45.0;              ///< [s]
 constexpr double kStands = 0.3, kCrawls = 1.0;  ///< [m/s]
 
 /// The piece over a road that somebody on foot has before it.
@@ -117,6 +118,10 @@ LinkDecision decide_at_kerb(const Model& model, const RoadState& road, const Sce
   for (const RoadCrossing& over : path.over_road) {
     if (walker.front > over.begin + kOnIt) continue;
     if (walker.front < over.begin - kNear) break;
+    // who was let go keeps to it: its patience is gone with its first step
+    const RoadContext& before = scene.context[walker.row];
+    const bool let_go = before.active && before.reason != LimitReason::Crossing;
+    if (let_go && walker.front > over.begin - kSetOut) break;
     const Piece piece{path.line.point_at(over.begin),
                       path.line.point_at(over.end),
                       walker.front - over.begin,

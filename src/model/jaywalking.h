@@ -9,7 +9,7 @@ namespace sumogamma {
 /// junctions? Nobody yields to it there, so it goes where no vehicle that it sees come gets to its
 /// way before it is past, or where that is gone first. Bodies that stand clear of the way are let
 /// be. The spare time shrinks while it waits; in the end it goes where nobody has to brake hard.
-/// Once on the road it goes on: the rest is avoidance's, and the drivers'.
+/// Who has set out goes on: the rest is avoidance's, and the drivers'.
 LinkDecision decide_at_kerb(const Model& model, const RoadState& road, const Scene& scene,
                             const SpatialGrid& grid, const Traveller& walker);
 

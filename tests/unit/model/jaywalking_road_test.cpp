@@ -101,12 +101,21 @@ TEST_F(JaywalkingTest, WaitsForABodyThatStandsInTheWayButNotForEver) {
 }
 
 TEST_F(JaywalkingTest, WhoHasWaitedForLongGoesWhereNobodyBrakesHard) {
-  const std::size_t car = add_car(70, 12);
+  const std::size_t car = add_car(35, 12);
+  here_.scene.waiting_time[walker_] = 61;
+  EXPECT_TRUE(waits_for(car));
+  here_.move(car, here_.scene.path_along[car] - 20);
+  EXPECT_TRUE(goes());
+}
+
+// with the first step the patience was gone, and the walker halted again, over and over
+TEST_F(JaywalkingTest, WhoHasSetOutKeepsToIt) {
+  const std::size_t car = add_car(55, 12);
   EXPECT_TRUE(waits_for(car));
   here_.scene.waiting_time[walker_] = 61;
   EXPECT_TRUE(goes());
-  here_.move(car, here_.scene.path_along[car] + 35);
-  EXPECT_TRUE(waits_for(car));
+  here_.scene.waiting_time[walker_] = 0;
+  EXPECT_TRUE(goes());
 }
 
 TEST_F(JaywalkingTest, WhoIsOnTheRoadGoesOnAndIsWaitedFor) {
