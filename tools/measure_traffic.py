@@ -219,19 +219,39 @@ def roundabout(tracks):
                 if any(on_ring(s) for s in t.samples))}
 
 
-def zebra(tracks):
-    people = [t for t in tracks.values() if t.kind == "pedestrian"]
-    cars = vehicles(tracks)
-    road = 3.2  # half width of the carriageway [m]
-    waits, crossed = [], 0
+def over_road(people, road):
+    """Of each who steps on the carriageway of the road along y = 0, `road` [m] wide to either side: wait at the kerb
+    before that [s], where [m], whether it was on both sides."""
+    found = []
     for track in people:
         # the last stay at the kerb before the carriageway was stepped on
         step = next((i for i, s in enumerate(track.samples) if abs(s.y) < road), None)
         if step is None:
             continue
-        crossed += min(s.y for s in track.samples) < -road and max(s.y for s in track.samples) > road
-        waits.append(sum(b.time - a.time for a, b in zip(track.samples[:step], track.samples[1:step + 1])
-                         if a.speed < 0.3 and abs(a.y) < road + 2.5))
+        crossed = min(s.y for s in track.samples) < -road and max(s.y for s in track.samples) > road
+        wait = sum(b.time - a.time for a, b in zip(track.samples[:step], track.samples[1:step + 1])
+                   if a.speed < 0.3 and abs(a.y) < road + 2.5)
+        found.append((wait, track[step].x, crossed))
+    return found
+
+
+def mid_block(tracks):
+    people = [t for t in tracks.values() if t.kind == "pedestrian"]
+    found = over_road(people, 3.2)
+    waits = [wait for wait, _, _ in found]
+    return {"people_crossed": sum(crossed for _, _, crossed in found),
+            "on_the_crossing": sum(abs(x) < 10.0 for _, x, _ in found),
+            "mean_wait_at_kerb": mean(waits), "longest_wait_at_kerb": max(waits, default=None),
+            "mean_car_delay": mean(c.duration() - 520 / 13.89 for c in vehicles(tracks)),
+            "hardest_braking": max(map(hardest, vehicles(tracks)))}
+
+
+def zebra(tracks):
+    people = [t for t in tracks.values() if t.kind == "pedestrian"]
+    cars = vehicles(tracks)
+    road = 3.2  # half width of the carriageway [m]
+    found = over_road(people, road)
+    waits, crossed = [wait for wait, _, _ in found], sum(crossed for _, _, crossed in found)
     cut_off, passed = 0, 0
     for car in cars:
         way = 1 if car[-1].x > car[0].x else -1
@@ -449,8 +469,8 @@ def platoon(tracks):
     return {"roads": roads}
 
 
-MEASURES = {f.__name__: f for f in (saturation, two_way_stop, all_way_stop, roundabout, zebra, bicycle_overtaken,
-                                    bus_stop, mixed_queue, sidewalk_counterflow, lane_drop, platoon)}
+MEASURES = {f.__name__: f for f in (saturation, two_way_stop, all_way_stop, roundabout, zebra, mid_block,
+                                    bicycle_overtaken, bus_stop, mixed_queue, sidewalk_counterflow, lane_drop, platoon)}
 
 
 def common(results, tracks):
@@ -492,6 +512,9 @@ HEADLINES = {
                    ("slowest lap", "slowest_lap_speed", "m/s", 1)],
     "zebra": [("people cut off", "cars_that_cut_off", "", 0), ("wait at the kerb", "mean_wait_at_kerb", "s", 1),
               ("delay of cars", "mean_car_delay", "s", 1), ("hardest braking", "hardest_braking", "m/s²", 1)],
+    "mid_block": [("crossed", "people_crossed", "", 0), ("on the crossing", "on_the_crossing", "", 0),
+                  ("wait at the kerb", "mean_wait_at_kerb", "s", 1), ("the longest", "longest_wait_at_kerb", "s", 1),
+                  ("hardest braking", "hardest_braking", "m/s²", 1)],
     "bicycle_overtaken": [("overtaken, two lanes", "two_lanes.overtakings", "", 0),
                           ("least gap", "two_lanes.least_gap", "m", 1),
                           ("overtaken over the middle", "one_lane.overtakings", "", 0),

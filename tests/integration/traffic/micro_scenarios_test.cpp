@@ -83,6 +83,17 @@ TEST_P(MicroScenarios, DriversYieldAtAZebraAndGetAcrossThemselves) {
   EXPECT_LE(figures["mean_car_delay"], 15.0) << figures;
 }
 
+TEST_P(MicroScenarios, PeopleCrossBetweenJunctionsWhereTheWayIsFree) {
+  const json figures = run("mid_block");
+  expect_sound(figures);
+  expect_all_arrive(figures, 132);
+  EXPECT_EQ(figures["people_crossed"], 60);
+  EXPECT_EQ(figures["on_the_crossing"], 0) << figures;
+  EXPECT_LE(figures["mean_wait_at_kerb"], 20.0) << figures;
+  EXPECT_LE(figures["hardest_braking"], 6.0) << figures;
+  EXPECT_LE(figures["mean_car_delay"], 5.0) << figures;
+}
+
 TEST_P(MicroScenarios, BicyclesAreOvertakenWithAGapAndNobodyMeetsWhoComesTowardsThem) {
   const json figures = run("bicycle_overtaken");
   expect_sound(figures, true);
