@@ -52,7 +52,7 @@ bool shuffles_before(const Scene& scene, std::size_t vehicle, std::size_t walker
   constexpr double kShuffles = 0.5;  // [m/s]
   const LimitReason reason = scene.context[vehicle].reason;
   const bool no_rule = reason == LimitReason::Leader || reason == LimitReason::None;
-  return no_rule && scene.standing_time[vehicle] > 2.0 * kPatience &&
+  return no_rule && scene.waiting_time[vehicle] > 2.0 * kPatience &&
          scene.velocity[walker].norm() < kShuffles;
 }
 

@@ -111,6 +111,19 @@ TEST_F(LeaderTest, PeopleOnFootCountOnceNear) {
   EXPECT_NEAR(leader.speed, 0.0, 1e-9);
 }
 
+// a van went on by centimetres before somebody on foot who came towards it, and waited anew each
+// time
+TEST_F(LeaderTest, SomebodyOnFootWhoShufflesBeforeAVehicleIsWaitedForForSomeTime) {
+  const std::size_t van = here_.add("van", {"in", "out"}, 25, 0.05);
+  const std::size_t walker = here_.add("pedestrian", {"in"}, 30, 0.1);
+  here_.scene.position[walker] = {30, 0};
+  here_.scene.heading[walker] = kPi;
+  here_.scene.waiting_time[van] = 5;
+  EXPECT_EQ(leader_of(van).id, 1);
+  here_.scene.waiting_time[van] = 15;
+  EXPECT_EQ(leader_of(van).id, -1);
+}
+
 TEST_F(LeaderTest, TrafficOnABridgeIsNotInTheWay) {
   const std::size_t own = here_.add("car", {"in", "out"}, 20, 10);
   const std::size_t above = here_.add("car", {"bridge"}, 60, 0);
