@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <optional>
 
 namespace sumogamma {
 
@@ -28,6 +29,17 @@ inline Vec2 from_body(const Vec2& v, const Vec2& forward) {
 /// World vector v expressed in axes whose x points along `forward` (unit).
 inline Vec2 to_body(const Vec2& v, const Vec2& forward) {
   return {forward.dot(v), cross(forward, v)};
+}
+
+/// Where the lines through a along `along` and through b along `across` cross: shares of the two
+/// pieces (x of the first, y of the second), in [0, 1] where that lies on them. nullopt where they
+/// are parallel.
+inline std::optional<Vec2> crossing_shares(const Vec2& a, const Vec2& along, const Vec2& b,
+                                           const Vec2& across) {
+  const double area = cross(along, across);
+  if (area == 0.0) return std::nullopt;
+  const Vec2 between = b - a;
+  return Vec2(cross(between, across) / area, cross(between, along) / area);
 }
 
 }  // namespace sumogamma

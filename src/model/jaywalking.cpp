@@ -45,12 +45,11 @@ std::optional<Meeting> find_meeting(const Polyline& line, double along, double b
   const Vec2 over = piece.end - piece.begin;
   for (std::size_t i = line.segment_at(along - back); i + 1 < points.size(); ++i) {
     if (line.along_of_vertex(i) > along + reach) break;
-    const Vec2 driven = points[i + 1] - points[i], between = piece.begin - points[i];
-    const double area = cross(driven, over);
-    if (area == 0.0) continue;
-    const double share = cross(between, over) / area, place = cross(between, driven) / area;
-    if (share < 0.0 || share > 1.0 || place < 0.0 || place > 1.0) continue;
-    return Meeting{line.along_of_vertex(i) + share * driven.norm() - along, place * over.norm()};
+    const Vec2 driven = points[i + 1] - points[i];
+    const auto share = crossing_shares(points[i], driven, piece.begin, over);
+    if (!share || share->minCoeff() < 0.0 || share->maxCoeff() > 1.0) continue;
+    return Meeting{line.along_of_vertex(i) + share->x() * driven.norm() - along,
+                   share->y() * over.norm()};
   }
   return std::nullopt;
 }

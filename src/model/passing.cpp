@@ -112,14 +112,15 @@ double passing_speed(const Passed& passed, const AgentType& type) {
 
 namespace {
 
+constexpr double kBeforeJunction = 40.0;  ///< from here on it says where to filter [m]
+
 /// Who is about to turn filters beside its lane only on the side to which it turns: on the other
 /// one the way of the lane beside, or of who goes straight on from its own, crosses its way, and
 /// the two press against each other on the junction.
 void keep_to_turning_side(const RoadNetwork& network, const Path& path, const Surroundings& around,
                           double& most_left, double& most_right) {
-  constexpr double kBefore = 40.0;  // [m]
   const auto link = path.link_from(around.along);
-  if (link == path.links.end() || link->stop_line - around.along > kBefore) return;
+  if (link == path.links.end() || link->stop_line - around.along > kBeforeJunction) return;
   const char turn = network.connection(link->connection).direction;
   const Lane& lane = network.lane(path.stretch_at(around.along).lane);
   const double within = std::max(0.5 * lane.width - around.half_width, 0.0);
@@ -131,11 +132,10 @@ void keep_to_turning_side(const RoadNetwork& network, const Path& path, const Su
 /// of the lane beside may be red when its own is green.
 void keep_to_light(const RoadNetwork& network, const Path& path, const Surroundings& around,
                    double& most_left, double& most_right) {
-  constexpr double kBefore = 40.0;  // [m]
   constexpr double kReaches = 0.5;  // of half the body, into the own lane
   auto link = path.link_from(around.along);
   if (link != path.links.end() && link->stop_line < around.along) ++link;
-  if (link == path.links.end() || link->stop_line - around.along > kBefore) return;
+  if (link == path.links.end() || link->stop_line - around.along > kBeforeJunction) return;
   const Connection& connection = network.connection(link->connection);
   if (connection.signal == kNoSignal) return;
   const double within =

@@ -38,6 +38,12 @@ Piece as_travelled(const Path& path, double link_begin, double begin, double end
   return {length - end, length - begin};
 }
 
+/// Has a row waited for longer than another? The smaller id where they began together.
+bool has_waited_longer(const Scene& scene, std::size_t row, std::size_t other) {
+  const double own = scene.waiting_time[row], their = scene.waiting_time[other];
+  return own > their || (own == their && scene.id[row] < scene.id[other]);
+}
+
 /// True where a foe that stands and waits lets `row` go first: it waits for a signal or in a queue,
 /// for this very agent, or it came later. Of two that wait for each other exactly one goes: who is
 /// on foot, else who has stood longer.
@@ -67,7 +73,7 @@ bool lets_go_first(const Model& model, const Scene& scene, const ApproachTable& 
   const double own = scene.waiting_time[row], other = scene.waiting_time[foe.row];
   // it has waited long for a third one and so have we: of two that stand for nothing one goes
   if (waiting.foe != scene.id[row].value && std::min(own, other) > kPatience) return true;
-  return own > other || (own == other && scene.id[row] < scene.id[foe.row]);
+  return has_waited_longer(scene, row, foe.row);
 }
 
 /// Where a front waits for a zone of a link [m along its path]: before the stop line, or on the
@@ -219,18 +225,20 @@ struct Judge {
   /// wait for each other in a ring, whoever isn't waited for by rule alone tries.
   bool in_deadlock(const Approach& foe) const {
     constexpr double kLong = 8.0;  // [s]
-    const double own = scene.waiting_time[traveller.row], other = scene.waiting_time[foe.row];
-    if (!on_junction() || std::min(own, other) < kLong) return false;
+    const double both = std::min(scene.waiting_time[traveller.row], scene.waiting_time[foe.row]);
+    if (!on_junction() || both < kLong) return false;
     const LimitReason reason = approaches.waiting(foe.row).reason;
     const bool yields = reason == LimitReason::Yield || reason == LimitReason::Crossing;
     // who isn't held by a rule and moves has begun to try
-    return (!yields && foe.speed < kCreeps) ||
-           (yields &&
-            (own > other || (own == other && scene.id[traveller.row] < scene.id[foe.row])));
+    return yields ? has_waited_longer(scene, traveller.row, foe.row) : foe.speed < kCreeps;
+  }
+  /// Where a foe's front comes to rest, as things are [m past its link's begin].
+  double rest_of(const Approach& foe) const {
+    return foe.front + approaches.waiting(foe.row).to_halt;
   }
   /// Will a foe, as things are, come to rest in the zone?
   bool rests_in(const ConflictZone& zone, const Approach& foe) const {
-    const double rest = foe.front + approaches.waiting(foe.row).to_halt;
+    const double rest = rest_of(foe);
     return rest > zone.foe_begin + 0.3 && rest - foe.length < zone.foe_end;
   }
   /// Does a foe's body leave the traveller's way free? Conflict zones are wider than bodies.
@@ -255,9 +263,8 @@ struct Judge {
   bool comes_out(const ConflictZone& zone, const Approach& foe, const Occupation& theirs) const {
     constexpr double kPast = 0.5;  // [m]
     constexpr double kSoon = 4.0;  // [s]
-    const double rest = foe.front + approaches.waiting(foe.row).to_halt;
-    return foe.front > kPast && !foe.stands && rest > zone.foe_begin && theirs.begin < kSoon &&
-           !on_foot(traveller.row) && !on_foot(foe.row);
+    return foe.front > kPast && !foe.stands && rest_of(foe) > zone.foe_begin &&
+           theirs.begin < kSoon && !on_foot(traveller.row) && !on_foot(foe.row);
   }
   double to_line() const { return link.stop_line - traveller.front; }
   /// From 0 to 1 while the traveller waits.

@@ -74,13 +74,11 @@ std::optional<double> rise_at_crossing(const Lane& one, const Lane& other) {
   for (std::size_t i = 0; i + 1 < a.size(); ++i) {
     const Vec2 along = a[i + 1] - a[i];
     for (std::size_t j = 0; j + 1 < b.size(); ++j) {
-      const Vec2 across = b[j + 1] - b[j], between = b[j] - a[i];
-      const double area = cross(along, across);
-      if (area == 0.0) continue;
-      const double s = cross(between, across) / area, t = cross(between, along) / area;
-      if (!lies_on(a, i, s) || !lies_on(b, j, t)) continue;
-      return elevation_at(one, one.centerline.along_of_vertex(i) + s * along.norm()) -
-             elevation_at(other, other.centerline.along_of_vertex(j) + t * across.norm());
+      const Vec2 across = b[j + 1] - b[j];
+      const auto share = crossing_shares(a[i], along, b[j], across);
+      if (!share || !lies_on(a, i, share->x()) || !lies_on(b, j, share->y())) continue;
+      return elevation_at(one, one.centerline.along_of_vertex(i) + share->x() * along.norm()) -
+             elevation_at(other, other.centerline.along_of_vertex(j) + share->y() * across.norm());
     }
   }
   return std::nullopt;
@@ -89,12 +87,11 @@ std::optional<double> rise_at_crossing(const Lane& one, const Lane& other) {
 /// Where a place's lane begins or ends nearby the crossing may be on the one before or behind [m].
 constexpr double kSeam = 12.0;
 
+/// Adds a lane and those that it leads into over the next `left` [m].
 void go_on(const RoadNetwork& network, LaneId id, double left, std::vector<LaneId>& lanes) {
-  if (id == kNoLane || left < 0.0) return;
-  if (std::find(lanes.begin(), lanes.end(), id) != lanes.end()) return;
+  if (left < 0.0 || std::find(lanes.begin(), lanes.end(), id) != lanes.end()) return;
   lanes.push_back(id);
   left -= network.lane(id).centerline.length();
-  if (left < 0.0) return;
   for (const ConnectionId next : network.lane(id).outgoing) {
     const Connection& link = network.connection(next);
     go_on(network, link.via != kNoLane ? link.via : link.to, left, lanes);
@@ -104,19 +101,14 @@ void go_on(const RoadNetwork& network, LaneId id, double left, std::vector<LaneI
 /// The lane of a place and those that it leads into or comes from within kSeam.
 std::vector<LaneId> lanes_about(const RoadNetwork& network, const Ground& place) {
   const Lane& lane = network.lane(place.lane);
-  std::vector<LaneId> lanes{place.lane};
-  const double behind = kSeam - place.along;
-  for (const ConnectionId id : lane.incoming)
-    if (behind > 0.0) go_on(network, network.connection(id).from, 0.0, lanes);
-  if (lane.kind == LaneKind::Internal && lane.junction != kNoJunction && behind > 0.0)
+  std::vector<LaneId> lanes;
+  go_on(network, place.lane, kSeam + place.along, lanes);
+  if (place.along >= kSeam) return lanes;
+  for (const ConnectionId id : lane.incoming) lanes.push_back(network.connection(id).from);
+  if (lane.kind == LaneKind::Internal && lane.junction != kNoJunction)
     for (const ConnectionId id : network.junction(lane.junction).links)
       if (id != kNoConnection && network.connection(id).via == place.lane)
-        go_on(network, network.connection(id).from, 0.0, lanes);
-  const double ahead = kSeam - (lane.centerline.length() - place.along);
-  for (const ConnectionId id : lane.outgoing) {
-    const Connection& link = network.connection(id);
-    go_on(network, link.via != kNoLane ? link.via : link.to, ahead, lanes);
-  }
+        lanes.push_back(network.connection(id).from);
   return lanes;
 }
 

@@ -542,16 +542,25 @@ TEST_F(CrossingTest, WhoHaltsForSomebodyBrakesNoHarderForAvoidance) {
   EXPECT_LT(chosen(driver).norm(), here_.context(driver).allowed_speed - 0.3);
 }
 
-TEST(WalkersAtRed, WhoIsAtTheKerbHaltsThoughNotAtEaseAndWhoIsOnTheCrossingGoesOn) {
-  RoadScene here{
+class WalkersAtRed : public ::testing::Test {
+ protected:
+  WalkersAtRed() {
+    for (std::string& states : here_.road.signal_states) states = std::string(100, 'r');
+  }
+  void put(std::size_t walker, double front) {
+    here_.move(walker, front - 0.2);
+    here_.update();
+  }
+  RoadScene here_{
       read_plain_net(crossroads("traffic_light", {"--sidewalks.guess", "--crossings.guess"}))};
-  for (std::string& states : here.road.signal_states) states = std::string(100, 'r');
-  const std::size_t walker = here.add("pedestrian", {"WC", "CW"}, 0, 1.4, 195, 5);
-  const double kerb = here.path(walker).links.at(0).stop_line;
+};
+
+TEST_F(WalkersAtRed, WhoIsAtTheKerbHaltsThoughNotAtEaseAndWhoIsOnTheCrossingGoesOn) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 1.4, 195, 5);
+  const double kerb = here_.path(walker).links.at(0).stop_line;
   auto is_held = [&](double front) {
-    here.move(walker, kerb + front - 0.2);
-    here.update();
-    return here.context(walker).reason == LimitReason::Signal;
+    put(walker, kerb + front);
+    return here_.context(walker).reason == LimitReason::Signal;
   };
   EXPECT_TRUE(is_held(-1.0));
   EXPECT_TRUE(is_held(-0.1));
@@ -560,21 +569,17 @@ TEST(WalkersAtRed, WhoIsAtTheKerbHaltsThoughNotAtEaseAndWhoIsOnTheCrossingGoesOn
 }
 
 // in a crowd at the kerb: who was pressed onto the road took itself for somebody who crosses
-TEST(WalkersAtRed, WhoWaitsForTheLightAndIsPressedOnStepsBack) {
-  RoadScene here{
-      read_plain_net(crossroads("traffic_light", {"--sidewalks.guess", "--crossings.guess"}))};
-  for (std::string& states : here.road.signal_states) states = std::string(100, 'r');
-  const std::size_t walker = here.add("pedestrian", {"WC", "CW"}, 0, 0.1, 195, 5);
-  const double kerb = here.path(walker).links.at(0).stop_line;
+TEST_F(WalkersAtRed, WhoWaitsForTheLightAndIsPressedOnStepsBack) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.1, 195, 5);
+  const double kerb = here_.path(walker).links.at(0).stop_line;
   auto steps_back = [&](double front) {
-    here.move(walker, kerb + front - 0.2);
-    here.update();
-    const Vec2 way = here.context(walker).sub_goal - here.scene.position[walker];
-    return way.dot(here.path(walker).line.direction_at(kerb)) < 0.0;
+    put(walker, kerb + front);
+    const Vec2 way = here_.context(walker).sub_goal - here_.scene.position[walker];
+    return way.dot(here_.path(walker).line.direction_at(kerb)) < 0.0;
   };
   EXPECT_FALSE(steps_back(2.0)) << "it crosses";
   steps_back(-0.1);
-  ASSERT_EQ(here.context(walker).reason, LimitReason::Signal);
+  ASSERT_EQ(here_.context(walker).reason, LimitReason::Signal);
   EXPECT_TRUE(steps_back(2.0)) << "it waited";
 }
 
