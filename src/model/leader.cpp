@@ -195,7 +195,7 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
       if (on_its_way || rear > along + own_half_length + 1.0)
         note_merging(
             {rear, 2.0 * place.along - rear, std::max(0.0, scene.velocity[other].dot(direction)),
-             static_cast<std::int64_t>(scene.id[other].value)},
+             static_cast<std::int64_t>(scene.id[other].value), other},
             on_its_way, ahead);
       return;
     }
@@ -210,7 +210,8 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     if (on_foot && speed < kCrawl &&
         (scene.standing_time[other] > kPatience || shuffles_before(scene, row, other)))
       return;
-    if (!on_foot) ahead.add({rear, 2.0 * place.along - rear, other_speed, scene.id[other].value});
+    if (!on_foot)
+      ahead.add({rear, 2.0 * place.along - rear, other_speed, scene.id[other].value, other});
     if (gap < leader.gap || (gap == leader.gap && scene.id[other].value < leader.id))
       leader = {gap, other_speed, scene.acceleration[other].dot(direction), rear,
                 scene.id[other].value};

@@ -25,6 +25,7 @@ struct DrivingAhead {
     double rear = 0, front = 0;  ///< along the path [m]
     double speed = 0;            ///< along the path, >= 0 [m/s]
     std::int64_t id = -1;
+    std::size_t row = 0;
   };
   std::array<Vehicle, 24> vehicles;
   std::size_t count = 0;

@@ -20,7 +20,8 @@ constexpr double kTimeMargin = 1.0;  ///< left by who needn't yield to the other
 constexpr double kLeastShare = 0.4;
 // and asks this braking of who has the right of way in the lane that it joins, or at first [m/s^2]
 constexpr double kAskedMost = 3.5, kAsked = 1.5;
-constexpr double kLongWait = 60.0;  // [s]
+constexpr double kLongWait = 60.0;   // [s]
+constexpr double kLetsClear = 20.0;  // who is left on a junction, of the own green [s]
 // zones are kept free for so long at the most [s]
 constexpr double kKeepsZonesFree = 20.0;
 
@@ -164,6 +165,15 @@ struct Judge {
       if (has_begun(-to_line(), traveller.speed) && may_wait(foe.front, foe.speed, foe_type))
         return Verdict::Free;
     }
+    // who is left on the junction from an earlier phase leaves it before others come
+    const bool clears = clears_junction(traveller.row, link.connection, -to_line());
+    const bool foe_clears = clears_junction(foe.row, zone.foe, foe.front);
+    if (clears && !foe_clears && !foe_inside && may_wait(zone.foe_begin, foe, foe_type))
+      return Verdict::Free;
+    if (foe_clears && !clears && !foe_inside && may_wait(zone.begin, own, own_type) &&
+        (!foe.stands || waiting.reason == LimitReason::Yield) &&
+        scene.time - green_since() < kLetsClear)
+      return Verdict::Blocks;
     if (waits_for_us) return !zone.yields && !foe_inside ? Verdict::Held : waiting_verdict(foe);
     // on foot one walks round what stands on the crossing, on wheels past what stands beside the
     // way
@@ -173,9 +183,9 @@ struct Judge {
     if (foe_inside && in_deadlock(foe)) return Verdict::Held;
     if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
     if (waits_behind(foe)) return Verdict::Held;
-    // no rule for this pair, or past the line already: who gets there first goes first, the other
-    // waits for it
-    if (zone.unruled || past_line(zone))
+    // no rule for this pair, or whoever has to wait is past the line already: who gets there first
+    // goes first, the other waits for it
+    if (zone.unruled || (past_line(zone) && (zone.yields || is_committed(zone, foe))))
       return blocks_if(theirs.begin < ours.begin ||
                        (theirs.begin == ours.begin && scene.id[foe.row] < scene.id[traveller.row]));
     if (!zone.yields) {
@@ -214,6 +224,17 @@ struct Judge {
   bool past_line(const ConflictZone& zone) const {
     // who goes at red waits before the junction, not on it
     return traveller.front > (at_red ? link.stop_line : waiting_place(link, zone).along) + 0.3;
+  }
+  /// Is a foe past the place where it would wait for the traveller?
+  bool is_committed(const ConflictZone& zone, const Approach& foe) const {
+    const auto& links = road.path(scene.path[foe.row])->links;
+    const auto its = std::find_if(links.begin(), links.end(), [&](const PathLink& candidate) {
+      return candidate.connection == zone.foe;
+    });
+    if (its == links.end()) return true;
+    ConflictZone seen = zone;
+    seen.begin = zone.foe_begin;
+    return foe.front > waiting_place(*its, seen).along - its->stop_line + 0.3;
   }
   /// Is some of the traveller's body on a junction, this one or one before?
   bool on_junction() const {
@@ -296,6 +317,18 @@ struct Judge {
              model.road.lane(c.to).kind != LaneKind::Crossing;
     };
     return minor(own) && minor(foe_link);
+  }
+  /// Is a vehicle past the line of a link that is red by now?
+  bool clears_junction(std::size_t row, ConnectionId id, double past) const {
+    return past > 0.3 && is_red(road.signal(model.road.connection(id))) && !on_foot(row);
+  }
+  /// Since when the traveller's link shows what it shows [s].
+  double green_since() const {
+    return signal_since(road, model.road.connection(link.connection), scene.time);
+  }
+  /// Can a vehicle stop at ease before a place on its link?
+  static bool may_wait(double place, const Approach& who, const AgentType& type) {
+    return deceleration_to_stop(who.speed, place - who.front) < type.comfortable_deceleration;
   }
   static bool has_begun(double past, double speed) { return past > 0.3 && speed > 0.5; }
   static bool may_wait(double past, double speed, const AgentType& type) {
@@ -446,7 +479,9 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
                               ? place.along
                           : to_line > -0.2 ? stop_at
                                            : link.stop_line + zone.begin - kStopMargin;
-      if (deceleration_to_stop(traveller.speed, line - traveller.front) >
+      // on foot one halts at the kerb still
+      const double last = own_path.walking ? std::max(line, link.stop_line) : line;
+      if (deceleration_to_stop(traveller.speed, last - traveller.front) >
               0.8 * type.max_deceleration &&
           traveller.speed > 1.0)
         continue;

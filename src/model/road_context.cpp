@@ -68,6 +68,7 @@ std::int64_t blocks_exit(const View& view, DrivingAhead& ahead, const Course& co
                          const PathLink& link) {
   constexpr double kBraking = 3.5;   // [m/s^2]
   constexpr double kDrives = 3.0;    // [m/s]
+  constexpr double kStarts = 0.8;    // likewise of who follows those who drive [m/s]
   constexpr double kClosedUp = 1.0;  // [m]
   constexpr double kNever = std::numeric_limits<double>::infinity();
   if (ahead.count == 0) return -1;
@@ -81,7 +82,10 @@ std::int64_t blocks_exit(const View& view, DrivingAhead& ahead, const Course& co
   for (auto vehicle = begin; vehicle != end; ++vehicle) {
     // who drives and has nobody slow ahead goes on, as far as to the next place where it may have
     // to wait
-    const double alone = vehicle->speed > kDrives
+    const LimitReason why = view.approaches.waiting(vehicle->row).reason;
+    const bool starts = rest == kNever && vehicle->speed > kStarts &&
+                        (why == LimitReason::None || why == LimitReason::Leader);
+    const double alone = vehicle->speed > kDrives || starts
                              ? kNever
                              : vehicle->rear + vehicle->speed * vehicle->speed / (2.0 * kBraking);
     if (vehicle->front < head) rest = std::min(rest, head + kClosedUp);
@@ -306,7 +310,8 @@ void follow_on_foot(const View& view, const Course& course, RoadContext& context
 
 /// Where somebody on foot waits for a crossing [m along its path]: where its way off the road ends,
 /// or before its place beside the path gets onto the crossing, as inside the corner in which the
-/// way turns there; behind the crossing before.
+/// way turns there; behind the crossing before, in the middle of what is between the two where that
+/// is no deeper than a body.
 double kerb_halt(const Model& model, const Course& course, const PathLink& link) {
   constexpr double kFarthest = 4.0, kStep = 0.2, kOnIt = 0.2;  // [m]
   const Polyline& line = course.path.line;
@@ -315,9 +320,12 @@ double kerb_halt(const Model& model, const Course& course, const PathLink& link)
   const Vec2 across = way.normalized();
   const LaneId crossing = course.path.stretch_at(0.5 * (link.stop_line + link.end)).lane;
   const double half_width = 0.5 * model.road.lane(crossing).width;
-  double least = link.stop_line - kFarthest;
+  double crossed = -std::numeric_limits<double>::infinity();
   for (const PathLink& before : course.path.links)
-    if (before.stop_line < link.stop_line) least = std::max(least, before.end + kStep);
+    if (before.stop_line < link.stop_line) crossed = std::max(crossed, before.end);
+  if (link.halt - kStopMargin - 2.0 * course.half_length < crossed)
+    return 0.5 * (crossed + link.stop_line) + course.half_length + kStopMargin;
+  const double least = std::max(link.stop_line - kFarthest, crossed + kStep);
   double halt = link.halt;
   for (double along = link.stop_line; along > least; along -= kStep) {
     const Vec2 beside = course.offset * left_of(line.direction_at(along));

@@ -42,12 +42,12 @@ LinkDecision leave_turning_room(const Model& model, const RoadState& road, const
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const double front = traveller.front - link.stop_line;
   for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
-    // who is on its way goes on
-    const bool concerned =
-        way.foe_is_long ? front <= way.begin : traveller.length > kLongBody && front <= 0.2;
-    if (!concerned) continue;
+    // who is on its way goes on, a long body where it is in nobody's way yet may still halt
+    const bool before_line = !way.foe_is_long && front <= 0.2;
+    const bool may_halt = before_line || front <= way.begin;
+    if (!may_halt || (!way.foe_is_long && traveller.length <= kLongBody)) continue;
     const double line =
-        (way.foe_is_long ? link.stop_line + way.begin : std::min(link.halt, link.stop_line)) -
+        (before_line ? std::min(link.halt, link.stop_line) : link.stop_line + way.begin) -
         kStopMargin;
     const bool too_late =
         traveller.speed > 1.0 &&

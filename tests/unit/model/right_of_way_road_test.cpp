@@ -204,6 +204,22 @@ TEST_F(PriorityTest, NobodyEntersAJunctionWithoutRoomBehindIt) {
   EXPECT_EQ(here_.context(own).foe, here_.scene.id[queue].value);
 }
 
+// the second of a queue that sets out waited at the line until the first was fast
+TEST_F(PriorityTest, WhoFollowsAQueueThatSetsOutDoesNotWaitForRoom) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 1, 0, -1, "WC_0");
+  const PathLink& link = here_.path(own).links.front();
+  here_.move(own, link.stop_line - 2.25 - 1.5);
+  const std::size_t ahead = here_.add("car", {"WC", "CE"}, 0, 2, 0, -1, "WC_0");
+  here_.move(ahead, link.end - 1.0);
+  here_.scene.context[ahead] = {};
+  here_.update();
+  EXPECT_NE(here_.context(own).reason, LimitReason::BlockedJunction);
+  // it will have to halt there
+  here_.scene.context[ahead].reason = LimitReason::Yield;
+  here_.update();
+  EXPECT_EQ(here_.context(own).reason, LimitReason::BlockedJunction);
+}
+
 // Round a block whose roads are all full somebody has to lend the queue the room of a junction.
 TEST_F(PriorityTest, WhoHasKeptAJunctionClearForLongGoesOnForAWhile) {
   const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
@@ -392,6 +408,28 @@ class RedLightRunning : public ::testing::Test {
   RoadScene here_{net()};
   std::size_t own_ = 0;
 };
+
+// a bus that was left on the junction stood in everybody's way for the whole of the next green
+TEST_F(RedLightRunning, WhoIsLeftOnTheJunctionLeavesItBeforeOthersCome) {
+  const std::size_t left = here_.add("bus", {"SC", "CN"}, 0, 0);
+  here_.move(left, here_.path(left).links.front().stop_line + 0.5 - 6.0);
+  const std::size_t green = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  here_.move(green, here_.path(green).links.front().stop_line - 2.25 - 0.7);
+  for (const std::size_t row : {left, green}) {
+    here_.scene.context[row].reason = LimitReason::Yield;
+    here_.scene.context[row].foe = here_.scene.id[row == left ? green : left].value;
+    here_.scene.waiting_time[row] = 30;
+  }
+  here_.road.signal_since.assign(here_.road.signal_states.size(), here_.scene.time - 2.0);
+  here_.update();
+  EXPECT_EQ(here_.context(green).foe, here_.scene.id[left].value);
+  EXPECT_NE(here_.context(left).foe, here_.scene.id[green].value);
+  // but not for ever
+  here_.road.signal_since.assign(here_.road.signal_states.size(), here_.scene.time - 25.0);
+  here_.scene.context[left].reason = LimitReason::Leader;
+  here_.update();
+  EXPECT_NE(here_.context(green).foe, here_.scene.id[left].value);
+}
 
 TEST_F(RedLightRunning, WhoKeepsTheRuleStaysThoughTheWayIsFree) {
   here_.update();
@@ -583,6 +621,30 @@ TEST_F(WalkersAtRed, WhoWaitsForTheLightAndIsPressedOnStepsBack) {
   EXPECT_TRUE(steps_back(2.0)) << "it waited";
 }
 
+// a lorry stood a whole green before somebody who waited on an island of 0.6 m with a foot on its
+// side
+TEST_F(WalkersAtRed, OnANarrowIslandPeopleStandInItsMiddle) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.3, 195, 5);
+  Path path = here_.path(walker);
+  const PathLink whole = path.links.at(0);
+  PathLink first = whole, second = whole;
+  const double island = 0.5 * (whole.stop_line + whole.end);
+  first.end = island;
+  second.stop_line = second.halt = island + 0.6;
+  path.links = {first, second};
+  here_.road.paths[static_cast<std::size_t>(here_.scene.path[walker])] =
+      std::make_shared<const Path>(path);
+  // on its way to it, there, and a little too far
+  auto is_held = [&](double middle) {
+    put(walker, island + middle + 0.2);
+    EXPECT_EQ(here_.context(walker).reason, LimitReason::Signal);
+    return here_.context(walker).allowed_speed < 0.1;
+  };
+  EXPECT_FALSE(is_held(-0.2));
+  EXPECT_TRUE(is_held(0.3));
+  EXPECT_TRUE(is_held(0.4));
+}
+
 // a driver with the right of way braked with 8 m/s2 for who had come out over the line when it got
 // there, not before
 TEST_F(PriorityTest, WhoComesOutFirstIsSeenBeforeItIsInTheWay) {
@@ -596,6 +658,26 @@ TEST_F(PriorityTest, WhoComesOutFirstIsSeenBeforeItIsInTheWay) {
   };
   EXPECT_FALSE(held_with_front_at(-0.5)) << "it waits yet";
   EXPECT_TRUE(held_with_front_at(5.0));
+}
+
+// who had the right of way and was on the junction already slowed down for everybody who waited
+// there to turn left, because that one would have got to the place first
+TEST_F(PriorityTest, WhoWaitsOnTheJunctionSlowsNobodyDown) {
+  const std::size_t turning = here_.add("car", {"WC", "CN"}, 0, 0);
+  const PathLink& link = here_.path(turning).links.front();
+  ASSERT_GT(link.inside, link.stop_line + 1.0);
+  const std::size_t oncoming = here_.add("bus", {"EC", "CW"}, 0, 0.4);
+  here_.move(oncoming, here_.path(oncoming).links.front().stop_line + 0.5 - 6.0);
+  auto holds_with_front_at = [&](double along, double speed) {
+    here_.move(turning, along - 2.25);
+    here_.set_speed(turning, speed);
+    here_.scene.context[turning].reason = LimitReason::Yield;
+    here_.scene.context[turning].foe = 99;  // somebody before
+    here_.update();
+    return here_.context(oncoming).foe == static_cast<std::int64_t>(here_.scene.id[turning].value);
+  };
+  EXPECT_FALSE(holds_with_front_at(link.inside - 0.3, 0));
+  EXPECT_TRUE(holds_with_front_at(link.inside + 1.0, 4)) << "it has set out";
 }
 
 TEST_F(PriorityTest, WhoTurnsIntoTheOtherLaneHoldsNobodyUp) {

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "model/turning_room.h"
 #include "support/road_scene.h"
 
@@ -84,6 +86,28 @@ TEST_F(TurningRoomTest, NobodyWaitsForABusThatLetsItPast) {
   here_.update(2);
   EXPECT_EQ(here_.context(bus).reason, LimitReason::TurningRoom);
   EXPECT_NE(here_.context(car).foe, here_.scene.id[bus].value);
+}
+
+// on its way already, but in nobody's yet: a bus and a lorry met in the bend and stood there for
+// good
+TEST_F(TurningRoomTest, ABusMayHaltOnTheJunctionWhereItIsInNobodysWay) {
+  const std::size_t bus = add_bus();
+  const ConnectionId link = here_.path(bus).links.front().connection;
+  const std::size_t car = add_waiting(0.6, 0.0);
+  const ConnectionId foe = here_.path(car).links.front().connection;
+  const auto& ways = here_.model.swept_ways[index_of(link)];
+  const auto way =
+      std::find_if(ways.begin(), ways.end(), [&](const SweptWay& each) { return each.foe == foe; });
+  ASSERT_NE(way, ways.end());
+  ASSERT_GT(way->begin, 1.0);
+  auto waits_with_front_at = [&](double past) {
+    here_.move(bus, here_.path(bus).links.front().stop_line + past - 6.0);
+    here_.set_speed(bus, 0.5);
+    here_.update();
+    return here_.context(bus).reason == LimitReason::TurningRoom;
+  };
+  EXPECT_TRUE(waits_with_front_at(way->begin - 0.8));
+  EXPECT_FALSE(waits_with_front_at(way->begin + 0.5)) << "there already";
 }
 
 }  // namespace
