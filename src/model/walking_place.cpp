@@ -10,6 +10,7 @@ namespace {
 constexpr double kStep = 0.25;      ///< between the places that are weighed [m]
 constexpr double kFarthest = 1.5;   ///< from the path where nothing bounds the way [m]
 constexpr double kRound = 4.0;      ///< likewise round a vehicle that stands in it [m]
+constexpr double kPatience = 4.0;   ///< before who stands in the way [s]
 constexpr double kReach = 1.5;      ///< aside from where the body is [m]
 constexpr double kMargin = 0.06;    ///< kept to the sides [m]
 constexpr double kStepCost = 0.15;  ///< of a place away from the body [m/s a m]
@@ -49,6 +50,19 @@ double hoped_pace(const Surroundings& around, double place, double free_speed) {
   return hoped;
 }
 
+/// Who gets to where it may have to wait for a crossing keeps to the side where it is off the ways
+/// of those who drive.
+void keep_to_waiting_room(const Path& path, double along, double& most_left, double& most_right) {
+  constexpr double kBefore = 6.0;  // [m]
+  for (const PathLink& link : path.links) {
+    if (along > link.halt) continue;
+    if (along < link.halt - kBefore) return;
+    most_left = std::clamp(link.halt_left, most_right, most_left);
+    most_right = std::clamp(link.halt_right, most_right, most_left);
+    return;
+  }
+}
+
 }  // namespace
 
 double walking_place(const Path& path, const Scene& scene, Surroundings& around, std::size_t row) {
@@ -63,8 +77,11 @@ double walking_place(const Path& path, const Scene& scene, Surroundings& around,
   const double farthest = stands ? kRound : kFarthest, reach = stands ? 2.0 * kRound : kReach;
   const PathStretch& here = path.stretch_at(around.along);
   const double half = around.half_width + 0.1;
-  const double most_left = std::max(std::min(here.room_left - half, farthest), 0.0);
-  const double most_right = std::min(std::max(half - here.room_right, -farthest), 0.0);
+  // who has waited for long before a vehicle that stands across its way steps off the sidewalk
+  const bool off = stands && scene.waiting_time[row] > kPatience;
+  double most_left = off ? farthest : std::max(std::min(here.room_left - half, farthest), 0.0);
+  double most_right = off ? -farthest : std::min(std::max(half - here.room_right, -farthest), 0.0);
+  keep_to_waiting_room(path, around.along, most_left, most_right);
   const double liked = std::clamp(scene.path_offset[row], most_right, most_left);
   const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
   if (hoped_pace(around, liked, free_speed) > kFree * free_speed) return liked;

@@ -33,6 +33,10 @@ struct PathLink {
   double halt = 0;       ///< along the path, where a front that waits comes to rest at most [m]
   double inside = 0;     ///< along the path, up to where a front may wait on the junction for those
                          ///< who go first (SUMO's cont); the stop line or less where it may not [m]
+  /// On foot: sides of the room beside the path in which who waits at `halt` is off the ways that
+  /// vehicles take [m, left positive].
+  double halt_left = std::numeric_limits<double>::infinity(),
+         halt_right = -std::numeric_limits<double>::infinity();
 };
 
 /// A planned halt: a <stop> of the route.

@@ -1,6 +1,7 @@
 #include "road/stop_lines.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "road/conflict_zones.h"
 #include "road/path_profile.h"
@@ -46,21 +47,52 @@ std::vector<Polyline> driven_ways(const RoadNetwork& network, const Junction& ju
   return ways;
 }
 
-/// Where on a walk, at `along` or so far before it as it takes, nobody drives; no further back than
-/// `least` [m].
-double off_the_road(const Path& path, double along, double least,
-                    const std::vector<Polyline>& ways) {
+/// Is a place nobody's who drives one of the ways?
+bool is_off(const std::vector<Polyline>& ways, const Vec2& place) {
   constexpr double kWalkerRoom = 1.55;  // between the middles of a vehicle and a walker [m]
-  constexpr double kMost = 10.0;        // [m]
-  constexpr double kWalkerStep = 0.4;   // [m]
-  for (double back = 0.0; back <= std::min(kMost, along - least); back += kWalkerStep) {
-    const Vec2 place = path.line.point_at(along - back);
-    const bool driven = std::any_of(ways.begin(), ways.end(), [&](const Polyline& way) {
-      return way.project(place).distance < kWalkerRoom;
-    });
-    if (!driven) return along - back;
+  return std::none_of(ways.begin(), ways.end(), [&](const Polyline& way) {
+    return way.project(place).distance < kWalkerRoom;
+  });
+}
+
+/// Has who waits on a walk, with the front at `halt`, room off the ways? Sets the sides of that
+/// room, the part nearest to the path where there are several.
+bool has_waiting_room(const Path& path, double halt, const std::vector<Polyline>& ways,
+                      PathLink& link) {
+  constexpr double kStands = 0.8;     // before the halt: the middle of who waits [m]
+  constexpr double kFarAside = 1.2;   // of the path [m]
+  constexpr double kStepAside = 0.2;  // [m]
+  const Vec2 front = path.line.point_at(halt), middle = path.line.point_at(halt - kStands);
+  const Vec2 left = left_of(path.line.direction_at(halt));
+  auto is_free = [&](double side) {
+    return is_off(ways, front + side * left) && is_off(ways, middle + side * left);
+  };
+  for (double aside = 0.0; aside < kFarAside; aside += kStepAside)
+    for (const double side : {aside, -aside}) {
+      if (!is_free(side)) continue;
+      link.halt_left = link.halt_right = side;
+      while (link.halt_left < kFarAside && is_free(link.halt_left + kStepAside))
+        link.halt_left += kStepAside;
+      while (link.halt_right > -kFarAside && is_free(link.halt_right - kStepAside))
+        link.halt_right -= kStepAside;
+      // nothing bounds it
+      if (link.halt_left >= kFarAside) link.halt_left = std::numeric_limits<double>::infinity();
+      if (link.halt_right <= -kFarAside) link.halt_right = -std::numeric_limits<double>::infinity();
+      return true;
+    }
+  return false;
+}
+
+/// Where on a walk, at a link's stop line or so far before it as it takes, there is room off the
+/// ways; no further back than `least` [m].
+void halt_off(const Path& path, double least, const std::vector<Polyline>& ways, PathLink& link) {
+  constexpr double kMost = 10.0;       // [m]
+  constexpr double kWalkerStep = 0.4;  // [m]
+  for (double back = 0.0; back <= std::min(kMost, link.stop_line - least); back += kWalkerStep) {
+    link.halt = link.stop_line - back;
+    if (has_waiting_room(path, link.halt, ways, link)) return;
   }
-  return along;
+  link.halt = link.stop_line;
 }
 
 }  // namespace
@@ -75,7 +107,7 @@ void halt_off_the_road(const RoadNetwork& network, Path& path) {
     if (junction == kNoJunction) continue;
     if (junction != last) ways = driven_ways(network, network.junction(junction));
     last = junction;
-    link.halt = off_the_road(path, link.stop_line, crossed, ways);
+    halt_off(path, crossed, ways, link);
     crossed = link.end;
   }
 }

@@ -90,6 +90,34 @@ TEST_F(WalkingPlaceTest, NobodyAimsAtAWall) {
   EXPECT_GT(place_of(own), -0.2 + 0.24);
 }
 
+// somebody and a bus that stood across the sidewalk waited for each other for minutes
+TEST_F(WalkingPlaceTest, WhoHasWaitedLongBeforeAVehicleWalksRoundIt) {
+  const std::size_t own = walker(10, 0, 0.2);
+  const std::size_t car =
+      here_.add(find_agent_type(here_.model.types, "car"),
+                here_.road.paths[static_cast<std::size_t>(here_.scene.path[own])], 12, 0);
+  here_.scene.heading[car] = 0.5 * kPi;
+  here_.set_speed(car, 0);
+  EXPECT_LT(std::abs(place_of(own)), 1.5) << "on the sidewalk";
+  here_.scene.waiting_time[own] = 5;
+  EXPECT_GT(std::abs(place_of(own)), 2.25);
+}
+
+// Before a crossing there may be room off the ways of those who drive on one side only.
+TEST_F(WalkingPlaceTest, WhoMayHaveToWaitKeepsToTheSideWhereNobodyDrives) {
+  const std::size_t own = walker(10, -0.6, 1.3);
+  here_.scene.path_offset[own] = here_.scene.passing_offset[own] = -0.6;
+  EXPECT_NEAR(place_of(own), -0.6, 1e-9);
+  Path path = here_.path(own);
+  PathLink link;
+  link.halt = 13;
+  link.halt_right = -0.2;
+  path.links = {link};
+  EXPECT_NEAR(walking_place(path, here_.scene, around_, own), -0.2, 1e-9);
+  path.links[0].halt = 9.5;
+  EXPECT_NEAR(walking_place(path, here_.scene, around_, own), -0.6, 1e-9) << "past it";
+}
+
 TEST_F(WalkingPlaceTest, WhoFollowsKeepsADistanceThatGrowsWithItsSpeed) {
   const std::size_t own = walker(10, 0, 1.3);
   const std::size_t ahead = walker(11, 0, 0.8);

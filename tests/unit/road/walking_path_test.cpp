@@ -191,7 +191,9 @@ TEST_P(WalkingPath, WaitsWhereNobodyDrives) {
     ASSERT_TRUE(path) << why;
     for (const PathLink& link : path->links) {
       EXPECT_LE(link.halt, link.stop_line);
-      const Vec2 place = path->line.point_at(link.halt);
+      const double side = std::clamp(0.0, link.halt_right, link.halt_left);
+      const Vec2 place =
+          path->line.point_at(link.halt) + side * left_of(path->line.direction_at(link.halt));
       for (const Lane& lane : network().lanes) {
         if (lane.kind != LaneKind::Internal || (lane.allowed & vehicle_class::kPassenger) == 0)
           continue;
