@@ -93,13 +93,16 @@ struct Pair {
   /// preferred? Bodies that turn take less room where the other comes by than the present outline
   /// moved along would.
   bool bend_past_each_other() const {
-    constexpr double kClose = 0.5;  // where the next moment counts [m]
-    constexpr double kFast = 2.0;   // bodies that crawl keep out of each other's way as they are
+    constexpr double kClose = 0.5;    // where the next moment counts [m]
+    constexpr double kCloseBy = 0.1;  // likewise of two who drive abreast [m]
+    constexpr double kFast = 2.0;     // bodies that crawl keep out of each other's way as they are
     const RoadContext &here = scene.context[row], &there = scene.context[other];
     if (!here.active || !there.active || horizon <= kLeader || !own().on_wheels ||
-        !their().on_wheels || std::max(own().speed, their().speed) < kFast ||
-        own().forward.dot(their().forward) > kAbreast ||
-        separation(own().guarded_box(), their().guarded_box()) < kClose)
+        !their().on_wheels)
+      return false;
+    const bool abreast = own().forward.dot(their().forward) > kAbreast;
+    if (!abreast && std::max(own().speed, their().speed) < kFast) return false;
+    if (separation(own().guarded_box(), their().guarded_box()) < (abreast ? kCloseBy : kClose))
       return false;
     const Arc mine(own(), here.bend), theirs(their(), there.bend);
     return bend_past(mine, own().speed, theirs, their().speed, horizon) &&

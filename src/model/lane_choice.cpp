@@ -71,12 +71,17 @@ bool is_contested(const Scene& scene, const Surroundings& around, std::size_t ro
 }
 
 /// Is somebody who goes the same way in the way beside an agent that changes lanes, its middle
-/// ahead? Then that one goes first; who is behind lets the agent in.
-bool is_beside(const Surroundings& around) {
-  constexpr double kSide = 0.3;  // [m]
+/// ahead? Then that one goes first; who is behind lets the agent in. Who waits there for a gap
+/// itself doesn't go.
+bool is_beside(const Scene& scene, const Surroundings& around) {
+  constexpr double kSide = 0.3;   // [m]
+  constexpr double kWaits = 1.0;  // [s]
   const double front = around.along + around.half_length;
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
-    return user.aligned && user.rear < front && user.rear + user.front > 2.0 * around.along &&
+    const bool waits =
+        std::isfinite(scene.gate[user.row]) && scene.standing_time[user.row] > kWaits;
+    return user.aligned && !waits && user.rear < front &&
+           user.rear + user.front > 2.0 * around.along &&
            std::abs(user.offset) < user.half_width + around.half_width + kSide &&
            std::abs(user.offset - around.offset) > user.half_width + around.half_width - kSide;
   });
@@ -134,6 +139,13 @@ const PathStretch* next_change(const Path& path, double along, double reach) {
   return nullptr;
 }
 
+/// Is a narrow vehicle on its way past somebody beside its lane? Then it stays on its path.
+bool filters(const Scene& scene, const Surroundings& around, std::size_t row) {
+  constexpr double kBeside = 0.3;  // [m]
+  return is_narrow(2.0 * around.half_width) &&
+         std::abs(scene.passing_offset[row] - scene.path_offset[row]) > kBeside;
+}
+
 /// A lane change that the trip needs waits for its gap: says so to whoever may leave one, and
 /// closes the gate at its begin while there is none.
 void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
@@ -141,8 +153,10 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   constexpr double kPressed = 3.0;  // [m/s^2]
   const PathStretch& here = path.stretch_at(around.along);
   if (here.changing) {
+    // who goes on between the lanes is in no lane's way until it has got past
+    if (filters(scene, around, row)) return;
     intent.merge_to = here.lane;
-    if (is_beside(around)) intent.gate = around.along;
+    if (is_beside(scene, around)) intent.gate = around.along;
     intent.abort =
         scene.standing_time[row] > kPatience && scene.context[row].reason == LimitReason::None;
     return;
@@ -160,13 +174,6 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
     return;
   intent.gate = change->from;
   intent.postpone = change->from - around.along < 2.0 + 1.2 * speed;
-}
-
-/// Is a narrow vehicle on its way past somebody beside its lane? Then it stays on its path.
-bool filters(const Scene& scene, const Surroundings& around, std::size_t row) {
-  constexpr double kBeside = 0.3;  // [m]
-  return is_narrow(2.0 * around.half_width) &&
-         std::abs(scene.passing_offset[row] - scene.path_offset[row]) > kBeside;
 }
 
 /// Moves the place aimed at within the lane, at walking pace, towards where it should be.

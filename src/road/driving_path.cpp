@@ -384,14 +384,15 @@ namespace {
 
 /// Goes on along `old`'s lane for `stay` [m] before it changes, if that leaves room for it.
 std::optional<Path> stay_on(const Remade& old, double stay, double& along) {
-  constexpr double kShortest = 12.0;  // [m] of a lane change
+  constexpr double kLeast = 12.0, kMost = 24.0;  // way of a lane change [m]
   if (!old.possible()) return std::nullopt;
   const Trip& trip = *old.path.trip;
+  const double shortest = std::clamp(3.0 * trip.request.turning_radius, kLeast, kMost);
   const LaneOption& option = trip.options[old.index()][static_cast<std::size_t>(old.lane.index)];
   if (option.cost == kUnreachable) return std::nullopt;
   const int changes = std::abs(option.exit_index - old.lane.index);
   const double from = old.on_lane + stay;
-  if (from + kShortest * changes / 0.85 > end_of(trip, old.index(), old.lane)) return std::nullopt;
+  if (from + shortest * changes / 0.85 > end_of(trip, old.index(), old.lane)) return std::nullopt;
   Builder builder(old.network, trip.request);
   builder.enter_edge(old.index());
   builder.follow(old.id, old.begin, from);

@@ -55,5 +55,20 @@ TEST(BendPast, WhoTurnsIntoItsOwnLaneIsInNobodysWay) {
   EXPECT_FALSE(bend_past(Arc(own, Vec2(1, 0)), 4, straight, 13, kBendTime)) << "straight on";
 }
 
+// two buses abreast on lanes of 3.2 m that bend together wedged each other: the outline of the
+// outer one, moved along, reaches into the other lane
+TEST(BendPast, TwoAbreastBendTogether) {
+  auto bus = [](double y) {
+    AgentGeometry agent = car({0, y}, 0, 4);
+    agent.guarded_half = Vec2(6.0, 1.35);
+    return agent;
+  };
+  const AgentGeometry outer = bus(0), inner = bus(3.2);
+  EXPECT_TRUE(
+      bend_past(Arc(outer, bend_with(40, 4)), 4, Arc(inner, bend_with(36.8, 4)), 3.7, kBendTime));
+  EXPECT_FALSE(bend_past(Arc(outer, bend_with(40, 4)), 4, Arc(inner, Vec2(1, 0)), 4, 4 * kBendTime))
+      << "one goes straight on";
+}
+
 }  // namespace
 }  // namespace sumogamma

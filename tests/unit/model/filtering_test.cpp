@@ -1,7 +1,11 @@
 // Narrow vehicles between queues: places, speeds, and who is first.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "model/lane_choice.h"
 #include "model/leader.h"
+#include "model/locate.h"
 #include "model/passing.h"
 #include "support/road_scene.h"
 
@@ -130,6 +134,54 @@ TEST(FilteringBeforeAJunction, StaysOverTheEdgeOfItsLaneBeforeASignal) {
   const double lane_and_quarter = 1.6 + 0.25 * 0.9 + 1e-9;
   EXPECT_GT(place("priority"), lane_and_quarter);
   EXPECT_LE(place("traffic_light"), lane_and_quarter);
+}
+
+// Somebody changes to the left lane, beside a car there whose middle is a metre ahead.
+class ChangingLanes : public ::testing::Test {
+ protected:
+  /// Of the type, where its path is so far from the middle of the left lane, and so far to the
+  /// right of its path.
+  void begin(const std::string& type, double from_lane, double to_right) {
+    own_ = here_.add(type, {"WE"}, 66, 2, 0, -1, "WE_0");
+    const LaneId left = here_.model.road.lane_by_name.at("WE_1");
+    double along = here_.scene.path_along[own_];
+    auto changed = change_lane(here_.model.road, here_.path(own_), along, left, 40, 20);
+    ASSERT_TRUE(changed);
+    take_path(std::move(*changed), along, own_, here_.road, here_.scene);
+    const Polyline& target = here_.model.road.lane(left).centerline;
+    while (target.project(here_.path(own_).line.point_at(along)).distance > from_lane) along += 0.5;
+    here_.move(own_, along, -to_right);
+    const double beside = target.project(here_.scene.position[own_]).along;
+    car_ = here_.add("car", {"WE"}, beside + 1.0, 0, 0, -1, "WE_1");
+  }
+  /// Does it halt to let the car go first?
+  bool halts() {
+    here_.update();
+    LaneChoiceWork work;
+    Workers alone(1);
+    for (here_.scene.tick = 0; here_.scene.tick < 8; ++here_.scene.tick)
+      choose_lanes(here_.model, here_.geometry.grid, 0.05, alone, here_.road, here_.scene, work);
+    return std::isfinite(here_.scene.gate[own_]);
+  }
+  RoadScene here_{testing::read_plain_net(two_lanes())};
+  std::size_t own_ = 0, car_ = 0;
+};
+
+// or both would wait for ever
+TEST_F(ChangingLanes, NobodyLetsSomebodyGoFirstWhoWaitsForAGap) {
+  begin("car", 1.6, 0.6);
+  EXPECT_TRUE(halts());
+  here_.scene.standing_time[car_] = 5;
+  here_.scene.gate[car_] = here_.scene.path_along[car_];
+  // its own look would tell it that it needs no gap
+  here_.scene.control[car_] = Control::External;
+  EXPECT_FALSE(halts());
+}
+
+// motorcycles halted beside every car of a queue, for minutes in all
+TEST_F(ChangingLanes, WhoFiltersGoesOnBetweenTheLanes) {
+  begin("motorcycle", 1.2, 0.3);
+  EXPECT_FALSE(halts());
 }
 
 }  // namespace
