@@ -11,6 +11,7 @@
 
 #include "app/progress.h"
 #include "base/error.h"
+#include "base/hash.h"
 #include "io/config.h"
 #include "io/output_file.h"
 #include "io/replay.h"
@@ -249,8 +250,8 @@ class Observers {
   std::unique_ptr<LivePredictor> predictor_;
   std::unique_ptr<ReplayRecorder> replay_;
   std::size_t stuck_marked_ = 0, collisions_marked_ = 0;
-  std::uint64_t hash_ = 0xcbf29ce484222325ULL, controlled_sum_ = 0, controlled_peak_ = 0,
-                controlled_now_ = 0, ticks_ = 0;
+  std::uint64_t hash_ = kFnvBasis, controlled_sum_ = 0, controlled_peak_ = 0, controlled_now_ = 0,
+                ticks_ = 0;
 };
 
 void fill_timing(const PhaseTimes& times, double wall, double simulated, RunTiming& timing) {

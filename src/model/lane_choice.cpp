@@ -65,7 +65,7 @@ bool is_contested(const Scene& scene, const Surroundings& around, std::size_t ro
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
     const bool other_side = (user.offset - shift) * shift > 0.0;
     return other_side && scene.merge_to[user.row] == target && user.rear < front + 2.0 &&
-           user.front > rear - 2.0 && !(scene.gate[user.row] < 1e9) &&
+           user.front > rear - 2.0 && !std::isfinite(scene.gate[user.row]) &&
            (scene.merge_to[row] != target || scene.id[user.row] < scene.id[row]);
   });
 }

@@ -21,7 +21,7 @@ constexpr double kLeastShare = 0.4;
 // and asks this braking of who has the right of way in the lane that it joins, or at first [m/s^2]
 constexpr double kAskedMost = 3.5, kAsked = 1.5;
 constexpr double kLongWait = 60.0;   // [s]
-constexpr double kLetsClear = 20.0;  // who is left on a junction, of the own green [s]
+constexpr double kLetsClear = 20.0;  // who is left on a junction, after lights changed [s]
 // zones are kept free for so long at the most [s]
 constexpr double kKeepsZonesFree = 20.0;
 
@@ -37,6 +37,11 @@ Piece as_travelled(const Path& path, double link_begin, double begin, double end
   if (!stretch.reversed) return {begin, end};
   const double length = stretch.to - stretch.from;
   return {length - end, length - begin};
+}
+
+/// Does somebody at `speed` [m/s] stop within `way` [m] at ease?
+bool stops_at_ease(double speed, double way, const AgentType& type) {
+  return deceleration_to_stop(speed, way) < type.comfortable_deceleration;
 }
 
 /// Has a row waited for longer than another? The smaller id where they began together.
@@ -83,9 +88,9 @@ struct WaitingPlace {
   double along = 0;
   bool inside = false;
 };
-WaitingPlace waiting_place(const PathLink& link, const ConflictZone& zone) {
+WaitingPlace waiting_place(const PathLink& link, double zone_begin) {
   constexpr double kMargin = 0.3, kSlack = 2.0, kLeast = 1.5;  // [m]
-  const double begin = link.stop_line + zone.begin;
+  const double begin = link.stop_line + zone_begin;
   const double place = std::min(link.inside, begin) - kMargin;
   if (begin < link.inside - kSlack || place < link.stop_line + kLeast)
     return {link.stop_line, false};
@@ -168,11 +173,13 @@ struct Judge {
     // who is left on the junction from an earlier phase leaves it before others come
     const bool clears = clears_junction(traveller.row, link.connection, -to_line());
     const bool foe_clears = clears_junction(foe.row, zone.foe, foe.front);
-    if (clears && !foe_clears && !foe_inside && may_wait(zone.foe_begin, foe, foe_type))
+    if (clears && !foe_clears && !foe_inside &&
+        stops_at_ease(foe.speed, zone.foe_begin - foe.front, foe_type))
       return Verdict::Free;
-    if (foe_clears && !clears && !foe_inside && may_wait(zone.begin, own, own_type) &&
+    if (foe_clears && !clears && !foe_inside &&
+        stops_at_ease(own.speed, zone.begin - own.front, own_type) &&
         (!foe.stands || waiting.reason == LimitReason::Yield) &&
-        scene.time - green_since() < kLetsClear)
+        scene.time - lights_since() < kLetsClear)
       return Verdict::Blocks;
     if (waits_for_us) return !zone.yields && !foe_inside ? Verdict::Held : waiting_verdict(foe);
     // on foot one walks round what stands on the crossing, on wheels past what stands beside the
@@ -223,7 +230,8 @@ struct Judge {
   }
   bool past_line(const ConflictZone& zone) const {
     // who goes at red waits before the junction, not on it
-    return traveller.front > (at_red ? link.stop_line : waiting_place(link, zone).along) + 0.3;
+    return traveller.front >
+           (at_red ? link.stop_line : waiting_place(link, zone.begin).along) + 0.3;
   }
   /// Is a foe past the place where it would wait for the traveller?
   bool is_committed(const ConflictZone& zone, const Approach& foe) const {
@@ -232,9 +240,7 @@ struct Judge {
       return candidate.connection == zone.foe;
     });
     if (its == links.end()) return true;
-    ConflictZone seen = zone;
-    seen.begin = zone.foe_begin;
-    return foe.front > waiting_place(*its, seen).along - its->stop_line + 0.3;
+    return foe.front > waiting_place(*its, zone.foe_begin).along - its->stop_line + 0.3;
   }
   /// Is some of the traveller's body on a junction, this one or one before?
   bool on_junction() const {
@@ -322,17 +328,13 @@ struct Judge {
   bool clears_junction(std::size_t row, ConnectionId id, double past) const {
     return past > 0.3 && is_red(road.signal(model.road.connection(id))) && !on_foot(row);
   }
-  /// Since when the traveller's link shows what it shows [s].
-  double green_since() const {
+  /// Since when the traveller's signal shows what it shows [s].
+  double lights_since() const {
     return signal_since(road, model.road.connection(link.connection), scene.time);
-  }
-  /// Can a vehicle stop at ease before a place on its link?
-  static bool may_wait(double place, const Approach& who, const AgentType& type) {
-    return deceleration_to_stop(who.speed, place - who.front) < type.comfortable_deceleration;
   }
   static bool has_begun(double past, double speed) { return past > 0.3 && speed > 0.5; }
   static bool may_wait(double past, double speed, const AgentType& type) {
-    return past < 0.0 && deceleration_to_stop(speed, -past) < type.comfortable_deceleration;
+    return past < 0.0 && stops_at_ease(speed, -past, type);
   }
   static Verdict blocks_if(bool blocks) { return blocks ? Verdict::Blocks : Verdict::Free; }
   Verdict waiting_verdict(const Approach& foe) const {
@@ -436,8 +438,7 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
   // where a front that waits comes to rest: short of the line where others turn by close, at the
   // line where it has come too far or is too fast for that
   const bool stops_short = traveller.front < link.halt &&
-                           deceleration_to_stop(traveller.speed, link.halt - traveller.front) <
-                               type.comfortable_deceleration;
+                           stops_at_ease(traveller.speed, link.halt - traveller.front, type);
   const double halt = stops_short ? link.halt : link.stop_line;
   const double stop_at = halt - kStopMargin;
   LinkDecision decision;
@@ -474,7 +475,7 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
       if (verdict != Verdict::Blocks) continue;
       // wait at the line; inside the junction where there is a place for that, or where the own
       // body is past the line already
-      const WaitingPlace place = waiting_place(link, zone);
+      const WaitingPlace place = waiting_place(link, zone.begin);
       const double line = place.inside && !at_red && traveller.front < place.along + 0.3
                               ? place.along
                           : to_line > -0.2 ? stop_at

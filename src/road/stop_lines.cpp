@@ -67,17 +67,17 @@ bool has_waiting_room(const Path& path, double halt, const std::vector<Polyline>
   auto is_free = [&](double side) {
     return is_off(ways, front + side * left) && is_off(ways, middle + side * left);
   };
+  // how far the room goes on from `side` to the left (1) or right (-1): infinite where nothing
+  // bounds it
+  auto edge = [&](double side, double to) {
+    while (to * side < kFarAside && is_free(side + to * kStepAside)) side += to * kStepAside;
+    return to * side < kFarAside ? side : to * std::numeric_limits<double>::infinity();
+  };
   for (double aside = 0.0; aside < kFarAside; aside += kStepAside)
     for (const double side : {aside, -aside}) {
       if (!is_free(side)) continue;
-      link.halt_left = link.halt_right = side;
-      while (link.halt_left < kFarAside && is_free(link.halt_left + kStepAside))
-        link.halt_left += kStepAside;
-      while (link.halt_right > -kFarAside && is_free(link.halt_right - kStepAside))
-        link.halt_right -= kStepAside;
-      // nothing bounds it
-      if (link.halt_left >= kFarAside) link.halt_left = std::numeric_limits<double>::infinity();
-      if (link.halt_right <= -kFarAside) link.halt_right = -std::numeric_limits<double>::infinity();
+      link.halt_left = edge(side, 1.0);
+      link.halt_right = edge(side, -1.0);
       return true;
     }
   return false;

@@ -97,10 +97,8 @@ std::size_t find_row(const Scene& scene, AgentId id) {
 
 std::uint64_t hash_state(const Scene& scene, std::uint64_t hash) {
   auto add = [&](std::uint64_t bits) {
-    for (int byte = 0; byte < 8; ++byte) {
-      hash ^= (bits >> (8 * byte)) & 0xff;
-      hash *= 0x100000001b3ULL;
-    }
+    for (int byte = 0; byte < 8; ++byte)
+      hash = fnv1a(hash, static_cast<unsigned char>(bits >> (8 * byte)));
   };
   auto add_double = [&](double value) { add(std::bit_cast<std::uint64_t>(value)); };
   add(static_cast<std::uint64_t>(scene.tick));

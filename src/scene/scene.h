@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/hash.h"
 #include "geometry/vec2.h"
 #include "scene/agent_type.h"
 #include "scene/behavior.h"
@@ -108,6 +109,6 @@ void remove_agents(Scene& scene, const std::vector<bool>& removed);
 std::size_t find_row(const Scene& scene, AgentId id);
 
 /// 64-bit FNV-1a hash continued from `hash` over every agent's id and exact state bits.
-std::uint64_t hash_state(const Scene& scene, std::uint64_t hash = 0xcbf29ce484222325ULL);
+std::uint64_t hash_state(const Scene& scene, std::uint64_t hash = kFnvBasis);
 
 }  // namespace sumogamma

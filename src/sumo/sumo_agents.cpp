@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/hash.h"
 #include "base/random.h"
 
 namespace sumogamma {
@@ -11,9 +12,8 @@ namespace {
 
 /// FNV-1a of SUMO's id: ours is given at insertion alone, after the path was made.
 std::uint64_t number_of(const std::string& sumo_id) {
-  std::uint64_t number = 0xcbf29ce484222325ULL;
-  for (const char letter : sumo_id)
-    number = (number ^ static_cast<unsigned char>(letter)) * 0x100000001b3ULL;
+  std::uint64_t number = kFnvBasis;
+  for (const char letter : sumo_id) number = fnv1a(number, static_cast<unsigned char>(letter));
   return number;
 }
 
