@@ -6,6 +6,11 @@
 
 namespace sumogamma {
 
+double kept_headway(const AgentType& type, double speed) {
+  constexpr double kLeast = 0.32, kFull = 11.0;  // of the headway; [m/s]
+  return type.headway * std::min(kLeast + (1.0 - kLeast) * std::max(speed, 0.0) / kFull, 1.0);
+}
+
 double following_acceleration(const AgentType& type, double speed, double free_speed, double gap,
                               double leader_speed, double headway_factor) {
   const double a = type.max_acceleration, b = type.comfortable_deceleration;
@@ -17,7 +22,7 @@ double following_acceleration(const AgentType& type, double speed, double free_s
     if (gap <= 0.05) return -type.max_deceleration;
     const double approach = speed * (speed - leader_speed) / (2.0 * std::sqrt(a * b));
     const double wanted =
-        type.min_gap + std::max(0.0, speed * headway_factor * type.headway + approach);
+        type.min_gap + std::max(0.0, speed * headway_factor * kept_headway(type, speed) + approach);
     const double pressure = wanted / gap;
     acceleration = std::min(acceleration, a * (1.0 - pressure * pressure));
   }

@@ -4,11 +4,16 @@
 
 namespace sumogamma {
 
+/// Time gap that a driver wants at a speed [s]: the type's headway at 11 m/s and more, less in a
+/// queue, where drivers close up, so that a lane discharges at the same rate however slow it gets
+/// over the line (HCM 2010, ch. 31: the saturation headway holds from the fourth vehicle on).
+double kept_headway(const AgentType& type, double speed);
+
 /// Acceleration of the Intelligent Driver Model [m/s^2] (Treiber, Hennecke, Helbing 2000), within
 /// the type's limits: towards `free_speed` behind something `gap` metres ahead that moves at
 /// `leader_speed`. gap may be infinite (free road) or <= 0 (brakes fully). This shapes the
-/// contextual speed limit of an agent in a lane; avoidance stays GAMMA's. `headway_factor` is the
-/// agent's own on its type's headway.
+/// contextual speed limit of an agent in a lane; avoidance stays GAMMA's. Its time gap is
+/// kept_headway times `headway_factor`, the agent's own.
 double following_acceleration(const AgentType& type, double speed, double free_speed, double gap,
                               double leader_speed, double headway_factor = 1.0);
 

@@ -70,7 +70,7 @@ bool is_contested(const Scene& scene, const Surroundings& around, std::size_t ro
   });
 }
 
-/// Is somebody who goes the same way in the way beside an agent that changes lanes, its middle
+/// Is somebody who goes the same way in the way beside an agent that changes lanes, its nose
 /// ahead? Then that one goes first; who is behind lets the agent in. Who waits there for a gap
 /// itself doesn't go.
 bool is_beside(const Scene& scene, const Surroundings& around) {
@@ -80,8 +80,7 @@ bool is_beside(const Scene& scene, const Surroundings& around) {
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
     const bool waits =
         std::isfinite(scene.gate[user.row]) && scene.standing_time[user.row] > kWaits;
-    return user.aligned && !waits && user.rear < front &&
-           user.rear + user.front > 2.0 * around.along &&
+    return user.aligned && !waits && user.rear < front && user.front > front &&
            std::abs(user.offset) < user.half_width + around.half_width + kSide &&
            std::abs(user.offset - around.offset) > user.half_width + around.half_width - kSide;
   });

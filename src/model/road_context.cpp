@@ -221,8 +221,9 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
     const ZipperLeader teeth = find_zipper_leader(model, scene, approaches, traveller, link);
     if (teeth.id >= 0) {
       // closer than it will follow afterwards: the gap opens while lanes run together
-      const double gap =
-          std::max(teeth.gap, 0.3) + 0.6 * course.headway_factor * type.headway * course.speed;
+      const double gap = std::max(teeth.gap, 0.3) + 0.6 * course.headway_factor *
+                                                        kept_headway(type, course.speed) *
+                                                        course.speed;
       const double zipped = following_acceleration(type, course.speed, free_speed, gap, teeth.speed,
                                                    course.headway_factor);
       limit(std::max(zipped, -type.comfortable_deceleration), LimitReason::Leader, teeth.id,

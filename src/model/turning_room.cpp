@@ -49,9 +49,11 @@ LinkDecision leave_turning_room(const Model& model, const RoadState& road, const
     const double line =
         (before_line ? std::min(link.halt, link.stop_line) : link.stop_line + way.begin) -
         kStopMargin;
+    // who rolls out a little beyond its place has halted there all the same
     const bool too_late =
         traveller.speed > 1.0 &&
-        deceleration_to_stop(traveller.speed, line - traveller.front) > 0.8 * type.max_deceleration;
+        deceleration_to_stop(traveller.speed, line + kStopMargin - traveller.front) >
+            0.8 * type.max_deceleration;
     if (too_late || (decision.must_stop && line >= decision.stop_at)) continue;
     const Occupation ours =
         occupation(type, approach_of(traveller, link), way.begin, way.end, traveller.top_speed);

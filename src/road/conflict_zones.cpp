@@ -35,7 +35,7 @@ bool is_driven(const RoadNetwork& network, ConnectionId id) {
 }
 
 Path rounded_way(const RoadNetwork& network, ConnectionId id, double before, double after,
-                 double turning_radius) {
+                 const Cornering& cornering) {
   const Connection& connection = network.connection(id);
   const Polyline inside = link_geometry(network, id);
   Path path;
@@ -50,7 +50,17 @@ Path rounded_way(const RoadNetwork& network, ConnectionId id, double before, dou
   append_span(to, 0.0, std::min(after, to.length()), points);
   path.line = Polyline(std::move(points));
   path.links.push_back({id, stop_line, end, stop_line});
-  round_corners(turning_radius, path);
+  const auto add = [&](const Lane& lane, double begin, double stretch_end) {
+    PathStretch stretch;
+    stretch.from = begin;
+    stretch.to = stretch_end;
+    stretch.kerb = width_to_kerb(network, lane);
+    path.stretches.push_back(stretch);
+  };
+  add(network.lane(connection.from), 0.0, stop_line);
+  add(network.lane(connection.via), stop_line, end);
+  add(network.lane(connection.to), end, path.line.length());
+  round_corners(cornering, path);
   move_stop_lines(network, path);
   return path;
 }
@@ -69,7 +79,7 @@ Polyline driven_way(const RoadNetwork& network, ConnectionId id) {
   constexpr double kApproach = 20.0, kTurningRadius = 3.8;
   if (network.lane(network.connection(id).to).kind == LaneKind::Crossing)
     return link_geometry(network, id);
-  const Path path = rounded_way(network, id, kApproach, kApproach, kTurningRadius);
+  const Path path = rounded_way(network, id, kApproach, kApproach, {kTurningRadius});
   if (path.links.empty()) return {};
   std::vector<Vec2> driven;
   append_span(path.line, path.links.front().stop_line, path.links.front().end, driven);

@@ -30,7 +30,7 @@ ConflictTable build_conflict_table(const RoadNetwork& network);
 /// it comes from and `after` of the one into which it leads: the line, and the link with its stop
 /// line and end. Empty for a link without lanes of its own.
 Path rounded_way(const RoadNetwork& network, ConnectionId id, double before, double after,
-                 double turning_radius);
+                 const Cornering& cornering);
 
 /// Does a link lead vehicles over a junction, from lane to lane?
 bool is_driven(const RoadNetwork& network, ConnectionId id);

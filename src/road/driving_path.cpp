@@ -22,6 +22,19 @@ double change_cost(int changes, double length) {
   return changes * (1.0 + 50.0 / std::max(length, 5.0));
 }
 
+/// Cost of a link that leads aside: where a road widens to more lanes, one of them goes straight
+/// on.
+double aside_cost(const RoadNetwork& network, const Connection& connection) {
+  constexpr double kStraight = 0.7, kRate = 0.1;  // cosine, lane changes a metre
+  const Polyline& from = network.lane(connection.from).centerline;
+  const Polyline& to = network.lane(connection.to).centerline;
+  const Vec2 leaves = from.direction_at(from.length()), enters = to.direction_at(0.0);
+  if (leaves.dot(enters) < kStraight) return 0.0;
+  // an even bend leads from one end to the other along the mean of their directions
+  const Vec2 mean = (leaves + enters).normalized();
+  return kRate * std::abs(cross(mean, to.points().front() - from.points().back()));
+}
+
 /// Backward dynamic program over the route: cheapest lane choice for every lane of every edge.
 std::vector<std::vector<LaneOption>> plan_lanes(const RoadNetwork& network,
                                                 const PathRequest& request) {
@@ -48,7 +61,8 @@ std::vector<std::vector<LaneOption>> plan_lanes(const RoadNetwork& network,
         onward[static_cast<std::size_t>(k)] =
             std::max(onward[static_cast<std::size_t>(k)],
                      plan[i + 1][static_cast<std::size_t>(target.index)].drivable);
-        const double cost = plan[i + 1][static_cast<std::size_t>(target.index)].cost;
+        const double cost = plan[i + 1][static_cast<std::size_t>(target.index)].cost +
+                            aside_cost(network, network.connection(id));
         if (cost < exit_cost[static_cast<std::size_t>(k)]) {
           exit_cost[static_cast<std::size_t>(k)] = cost;
           exit_link[static_cast<std::size_t>(k)] = id;
@@ -162,7 +176,7 @@ class Builder {
 
   Path finish() {
     path_.line = Polyline(std::move(points_));
-    round_corners(request_.turning_radius, path_);
+    round_corners(request_.cornering, path_);
     move_stop_lines(network_, path_);
     path_.arrival = path_.line.length();
     if (path_.stretches.empty()) path_.stretches.push_back({});
@@ -194,6 +208,7 @@ class Builder {
     // lanes count from the kerb, so the inner side is the left one unless traffic keeps left
     stretch.room_left = (network_.left_hand ? outer : inner) + lane.beside_left;
     stretch.room_right = (network_.left_hand ? inner : outer) + lane.beside_right;
+    stretch.kerb = width_to_kerb(network_, lane);
     return stretch;
   }
 
@@ -387,7 +402,7 @@ std::optional<Path> stay_on(const Remade& old, double stay, double& along) {
   constexpr double kLeast = 12.0, kMost = 24.0;  // way of a lane change [m]
   if (!old.possible()) return std::nullopt;
   const Trip& trip = *old.path.trip;
-  const double shortest = std::clamp(3.0 * trip.request.turning_radius, kLeast, kMost);
+  const double shortest = std::clamp(3.0 * trip.request.cornering.turning_radius, kLeast, kMost);
   const LaneOption& option = trip.options[old.index()][static_cast<std::size_t>(old.lane.index)];
   if (option.cost == kUnreachable) return std::nullopt;
   const int changes = std::abs(option.exit_index - old.lane.index);

@@ -21,6 +21,7 @@ struct PathStretch {
   double speed_limit = 0;   ///< [m/s]
   double room_left = 0;     ///< path to the left boundary of what the class may use [m]
   double room_right = 0;    ///< likewise to the right [m]
+  double kerb = 0;          ///< path to the kerb, over lanes of any vehicles [m]
   int route_index = -1;     ///< of the edge in the trip's route; -1 on foot
   bool changing = false;    ///< moves over into `lane` from its neighbour
 };
@@ -50,6 +51,13 @@ struct RoadCrossing {
   double begin = 0, end = 0;  ///< along the path: where the sidewalks' edges are [m]
 };
 
+/// How a body takes bends.
+struct Cornering {
+  double turning_radius = 0;     ///< tightest that it can drive [m]; bends are rounded to about it
+  double length = 0, width = 0;  ///< [m]; 0: short
+  bool keep_left = false;        ///< the kerb is on the left
+};
+
 /// What a path is made from.
 struct PathRequest {
   std::span<const EdgeId> route;
@@ -61,8 +69,7 @@ struct PathRequest {
   double comfortable_deceleration = 2.5;  ///< [m/s^2]
   double max_speed = 50;                  ///< [m/s]
   double speed_factor = 1;                ///< of the lane limits
-  double turning_radius =
-      0;                  ///< tightest that the body can drive [m]; bends are rounded to about it
+  Cornering cornering;                    ///< none: as the lanes lie
   double mid_block = -1;  ///< in [0, 1): on foot crosses between junctions, that share of the way
                           ///< to the junction ahead; negative: on crossings alone
 };

@@ -95,12 +95,34 @@ std::vector<double> filter_widths(const std::vector<Vec2>& samples, double step,
     widths[i] = std::max(widths[i], widths[i + 1] - kRamp * step);
   return widths;
 }
+/// By how much a long body may cut a bend towards the kerb at each sample [m]: as far as its sides
+/// stay off the kerb over its whole length.
+std::vector<double> cuts_of(const Path& path, std::size_t count, double step,
+                            const Cornering& cornering) {
+  constexpr double kLong = 8.0, kMost = 1.0, kOffKerb = 0.3;  // [m]
+  std::vector<double> free(count + 1, 0.0), cuts(count + 1, 0.0);
+  if (cornering.length <= kLong || path.stretches.empty()) return cuts;
+  for (std::size_t i = 0; i <= count; ++i)
+    free[i] = path.stretch_at(static_cast<double>(i) * step).kerb - 0.5 * cornering.width;
+  const auto reach = static_cast<std::size_t>(0.5 * cornering.length / step);
+  for (std::size_t i = 0; i <= count; ++i) {
+    const auto begin = free.begin() + static_cast<std::ptrdiff_t>(i - std::min(i, reach));
+    const auto end = free.begin() + static_cast<std::ptrdiff_t>(std::min(i + reach, count) + 1);
+    cuts[i] = std::clamp(*std::min_element(begin, end) - kOffKerb, 0.0, kMost);
+  }
+  return cuts;
+}
+
 /// Half width [m] of the box filter with which drivers smooth what a map draws with a vertex here
-/// and there: as wide as it leaves them close to the line.
+/// and there: as wide as it leaves them close to the line. Long bodies spread a bend towards the
+/// kerb over their length and cut it, so that their fronts stay out of the lane beside.
 std::vector<double> smoothing_widths(const std::vector<Vec2>& samples,
-                                     const std::vector<Vec2>& sums, double step) {
+                                     const std::vector<Vec2>& sums, double step,
+                                     const std::vector<double>& cuts, const Cornering& cornering) {
   constexpr double kAside = 0.15, kWidest = 5.0, kRamp = 0.8;
-  const auto widest = static_cast<std::size_t>(kWidest / step);
+  constexpr double kSpread = 0.6;  // of a body's length, to each side
+  const double spread = kSpread * cornering.length;
+  const auto widest = static_cast<std::size_t>(std::max(kWidest, spread) / step);
   std::vector<double> widths(samples.size(), 0.0);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const std::size_t most = std::min({widest, i, samples.size() - 1 - i});
@@ -108,7 +130,12 @@ std::vector<double> smoothing_widths(const std::vector<Vec2>& samples,
     for (std::size_t wider = 1; wider <= most; ++wider) {
       const Vec2 mean =
           (sums[i + wider + 1] - sums[i - wider]) / static_cast<double>(2 * wider + 1);
-      if ((mean - samples[i]).squaredNorm() > kAside * kAside) break;
+      const Vec2 chord = samples[i + wider] - samples[i - wider];
+      const bool to_kerb = (cross(chord, mean - samples[i]) > 0.0) == cornering.keep_left;
+      const double cut = to_kerb ? cuts[i] : 0.0, aside = kAside + cut;
+      if ((mean - samples[i]).squaredNorm() > aside * aside ||
+          static_cast<double>(wider) * step > (cut > 0.0 ? std::max(kWidest, spread) : kWidest))
+        break;
       window = wider;
     }
     widths[i] = static_cast<double>(window) * step;
@@ -193,10 +220,23 @@ std::vector<Vec2> without_flat_vertices(const std::vector<Vec2>& points) {
 }
 }  // namespace
 
-void round_corners(double turning_radius, Path& path) {
+double width_to_kerb(const RoadNetwork& network, const Lane& lane) {
+  using namespace vehicle_class;
+  const double beside = network.left_hand ? lane.beside_left : lane.beside_right;
+  double width = 0.5 * lane.width + beside;
+  for (LaneId next = lane.outer; next != kNoLane; next = network.lane(next).outer) {
+    const Lane& outer = network.lane(next);
+    const bool driven = (outer.allowed & (kPassenger | kBus)) != 0;
+    if (!driven && (outer.allowed & (kPedestrian | kTram | kRail)) != 0) break;
+    width += outer.width;
+  }
+  return width;
+}
+
+void round_corners(const Cornering& cornering, Path& path) {
   constexpr double kSample = 0.5;
   const double length = path.line.length();
-  if (turning_radius <= 0.0 || length < 2.0) return;
+  if (cornering.turning_radius <= 0.0 || length < 2.0) return;
   const auto count = static_cast<std::size_t>(length / kSample) + 1;
   const double step = length / static_cast<double>(count);
   std::vector<Vec2> samples(count + 1);
@@ -207,8 +247,9 @@ void round_corners(double turning_radius, Path& path) {
   std::vector<Vec2> sums(count + 2, Vec2::Zero());
   for (std::size_t i = 0; i <= count; ++i) sums[i + 1] = sums[i] + samples[i];
   // wide only where the line bends tighter than the body can: other bends are driven as they lie
-  std::vector<double> widths = filter_widths(samples, step, turning_radius);
-  const std::vector<double> smoothing = smoothing_widths(samples, sums, step);
+  std::vector<double> widths = filter_widths(samples, step, cornering.turning_radius);
+  const std::vector<double> cuts = cuts_of(path, count, step, cornering);
+  const std::vector<double> smoothing = smoothing_widths(samples, sums, step, cuts, cornering);
   for (std::size_t i = 0; i <= count; ++i) widths[i] = std::max(widths[i], smoothing[i]);
   std::vector<Vec2> rounded(count + 1);
   std::vector<double> along(count + 1, 0.0);

@@ -10,9 +10,12 @@ namespace sumogamma {
 void compute_speed_profile(const PathRequest& request, Path& path);
 
 /// Rounds the corners of a driving path: a box filter along it, as wide as the turning radius asks
-/// for, so that a body which can't turn on the spot cuts a corner like a driver does instead of
-/// overshooting it. Places along the path are carried over.
-void round_corners(double turning_radius, Path& path);
+/// for, or the length of a long body, so that a body which can't turn on the spot cuts a corner
+/// like a driver does instead of overshooting it. Places along the path are carried over.
+void round_corners(const Cornering& cornering, Path& path);
+
+/// From the middle of a lane to the kerb, over the lanes of other vehicles [m].
+double width_to_kerb(const RoadNetwork& network, const Lane& lane);
 
 /// Moves the stop lines of a path with rounded corners back to where it passes the ends of the
 /// lanes: it may pass them earlier than their own middles do.

@@ -32,7 +32,8 @@ Sweep sweep_of_bus(const RoadNetwork& network, ConnectionId id) {
   const Polyline& before = network.lane(connection.from).centerline;
   const Vec2 leaves = network.lane(connection.to).centerline.direction_at(0.0);
   if (before.direction_at(before.length()).dot(leaves) > std::cos(kTurns)) return sweep;
-  const Path path = rounded_way(network, id, kBusLength, 2.0 * kBusLength, kBusRadius);
+  const Path path = rounded_way(network, id, kBusLength, 2.0 * kBusLength,
+                                {kBusRadius, kBusLength, kBusWidth, network.left_hand});
   if (path.links.empty()) return sweep;
   sweep.first = -path.links.front().stop_line;
   double heading = heading_of(path.line.direction_at(0.0));
@@ -89,7 +90,7 @@ SweptWayTable find_swept_ways(const RoadNetwork& network, const ConflictTable& c
       if (id != kNoConnection && is_driven(network, id)) links.push_back(id);
     std::vector<Path> ways;
     for (const ConnectionId id : links)
-      ways.push_back(rounded_way(network, id, kLooked, kLooked, kCarRadius));
+      ways.push_back(rounded_way(network, id, kLooked, kLooked, {kCarRadius}));
     for (const ConnectionId id : links) {
       const Sweep sweep = sweep_of_bus(network, id);
       const EdgeId edge = network.lane(network.connection(id).from).edge;

@@ -53,7 +53,7 @@ AgentTypeTable default_agent_types() {
        .horizon = 4.0,
        .attention_front = 12.0,
        .attention_rear = 3.0,
-       .headway = 0.9,
+       .headway = 1.0,
        .min_gap = 0.5});
   add({.name = "motorcycle",
        .sumo_class = "motorcycle",
@@ -73,7 +73,7 @@ AgentTypeTable default_agent_types() {
        .horizon = 4.0,
        .attention_front = 15.0,
        .attention_rear = 4.0,
-       .headway = 0.9,
+       .headway = 1.0,
        .min_gap = 1.0});
   add({.name = "car",
        .sumo_class = "passenger",
@@ -93,7 +93,7 @@ AgentTypeTable default_agent_types() {
        .horizon = 4.0,
        .attention_front = 15.0,
        .attention_rear = 5.0,
-       .headway = 1.2,
+       .headway = 1.35,
        .min_gap = 1.8});
   add({.name = "van",
        .sumo_class = "delivery",
@@ -113,7 +113,7 @@ AgentTypeTable default_agent_types() {
        .horizon = 4.0,
        .attention_front = 15.0,
        .attention_rear = 5.0,
-       .headway = 1.25,
+       .headway = 1.4,
        .min_gap = 1.8});
   add({.name = "bus",
        .sumo_class = "bus",
@@ -133,7 +133,7 @@ AgentTypeTable default_agent_types() {
        .horizon = 5.0,
        .attention_front = 20.0,
        .attention_rear = 8.0,
-       .headway = 1.4,
+       .headway = 1.55,
        .min_gap = 2.2});
   add({.name = "truck",
        .sumo_class = "truck",
@@ -153,7 +153,7 @@ AgentTypeTable default_agent_types() {
        .horizon = 5.0,
        .attention_front = 20.0,
        .attention_rear = 8.0,
-       .headway = 1.4,
+       .headway = 1.55,
        .min_gap = 2.2});
   add({.name = "electric_tricycle",
        .sumo_class = "moped",
@@ -173,7 +173,7 @@ AgentTypeTable default_agent_types() {
        .horizon = 4.0,
        .attention_front = 12.0,
        .attention_rear = 3.0,
-       .headway = 1.0,
+       .headway = 1.1,
        .min_gap = 0.8});
   add({.name = "gyro_scooter",
        .sumo_class = "moped",
@@ -193,7 +193,7 @@ AgentTypeTable default_agent_types() {
        .horizon = 3.0,
        .attention_front = 8.0,
        .attention_rear = 2.0,
-       .headway = 0.8,
+       .headway = 0.9,
        .min_gap = 0.4});
   return types;
 }

@@ -114,7 +114,7 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
       const double leader = std::max(ahead, 0.0);
       const double safe =
           std::min(std::sqrt(leader * leader + ease * std::max(free - 1.0, 0.0)),
-                   std::max(free, 0.0) / (0.7 * agent.manners.headway_factor * type.headway));
+                   std::max(free, 0.0) / (0.6 * agent.manners.headway_factor * type.headway));
       if (safe < 0.8 * std::min(wish, leader)) return std::nullopt;
       speed = std::min(speed, safe);
     } else if (ahead > 0.1) {

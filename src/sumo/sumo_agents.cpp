@@ -77,7 +77,8 @@ std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& detail
       details.max_speed > 0.0 ? std::min(details.max_speed, type.max_speed) : type.max_speed;
   request.speed_factor = details.speed_factor;
   if (type.kinematics == Kinematics::SingleTrack)
-    request.turning_radius = 1.1 * type.wheelbase / std::tan(type.max_steering);
+    request.cornering = {1.1 * type.wheelbase / std::tan(type.max_steering), details.length,
+                         details.width, network.left_hand};
   const auto lane = network.lane_by_name.find(details.lane);
   if (lane != network.lane_by_name.end()) request.start_lane = lane->second;
   request.start_along =

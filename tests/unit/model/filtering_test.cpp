@@ -136,12 +136,13 @@ TEST(FilteringBeforeAJunction, StaysOverTheEdgeOfItsLaneBeforeASignal) {
   EXPECT_LE(place("traffic_light"), lane_and_quarter);
 }
 
-// Somebody changes to the left lane, beside a car there whose middle is a metre ahead.
+// Somebody changes to the left lane, beside a car there that is a metre ahead.
 class ChangingLanes : public ::testing::Test {
  protected:
   /// Of the type, where its path is so far from the middle of the left lane, and so far to the
   /// right of its path.
-  void begin(const std::string& type, double from_lane, double to_right) {
+  void begin(const std::string& type, double from_lane, double to_right,
+             const std::string& other = "car", double ahead = 1.0) {
     own_ = here_.add(type, {"WE"}, 66, 2, 0, -1, "WE_0");
     const LaneId left = here_.model.road.lane_by_name.at("WE_1");
     double along = here_.scene.path_along[own_];
@@ -152,7 +153,7 @@ class ChangingLanes : public ::testing::Test {
     while (target.project(here_.path(own_).line.point_at(along)).distance > from_lane) along += 0.5;
     here_.move(own_, along, -to_right);
     const double beside = target.project(here_.scene.position[own_]).along;
-    car_ = here_.add("car", {"WE"}, beside + 1.0, 0, 0, -1, "WE_1");
+    car_ = here_.add(other, {"WE"}, beside + ahead, 0, 0, -1, "WE_1");
   }
   /// Does it halt to let the car go first?
   bool halts() {
@@ -175,6 +176,16 @@ TEST_F(ChangingLanes, NobodyLetsSomebodyGoFirstWhoWaitsForAGap) {
   here_.scene.gate[car_] = here_.scene.path_along[car_];
   // its own look would tell it that it needs no gap
   here_.scene.control[car_] = Control::External;
+  EXPECT_FALSE(halts());
+}
+
+// a car turned in before a bus whose front was ahead already, and the two wedged each other
+TEST_F(ChangingLanes, WhoHasItsNoseAheadGoesFirst) {
+  begin("car", 1.6, 0.9, "bus", -2.5);
+  EXPECT_TRUE(halts());
+}
+TEST_F(ChangingLanes, WhoIsAheadOfTheOthersNoseGoesOn) {
+  begin("car", 1.6, 0.9, "bus", -5.0);
   EXPECT_FALSE(halts());
 }
 

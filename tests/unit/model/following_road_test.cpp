@@ -35,8 +35,22 @@ TEST(FollowingAcceleration, KeepsTheStandstillGapAndTheHeadway) {
   EXPECT_GT(following_acceleration(car(), 0, 13.9, 2.0 * car().min_gap, 0), 0.0);
   // Treiber et al. 2000, Eq. 7: gap of equilibrium at speed v behind somebody as fast, far below
   // the free speed
-  const double gap = car().min_gap + 5.0 * car().headway;
-  EXPECT_NEAR(following_acceleration(car(), 5, 50, gap, 5), 0.0, 1e-3);
+  for (const double speed : {3.0, 5.0, 8.0, 15.0}) {
+    const double gap = car().min_gap + speed * kept_headway(car(), speed);
+    EXPECT_NEAR(following_acceleration(car(), speed, 150, gap, speed), 0.0, 1e-3);
+  }
+}
+
+TEST(KeptHeadway, DriversCloseUpInAQueueAndALaneDischargesAtOneRate) {
+  EXPECT_DOUBLE_EQ(kept_headway(car(), 11.0), car().headway);
+  EXPECT_DOUBLE_EQ(kept_headway(car(), 33.0), car().headway);
+  EXPECT_LT(kept_headway(car(), 5.0), 0.8 * car().headway);
+  EXPECT_GT(kept_headway(car(), 0.0), 0.3);
+  // HCM 2010: 1.8 to 1.9 s from front to front; a constant time gap would leave 2.1 s at 7 m/s
+  for (double speed = 7.0; speed <= 14.0; speed += 0.5) {
+    const double spacing = car().length + car().min_gap + speed * kept_headway(car(), speed);
+    EXPECT_NEAR(spacing / speed, 1.84, 0.1) << speed;
+  }
 }
 
 TEST(FollowingAcceleration, BrakesFullyOnContactAndNeverHarder) {

@@ -68,6 +68,16 @@ TEST_F(TurningRoomTest, ABusLetsThosePastWhoStandWhereItWillSweep) {
   EXPECT_LT(here_.context(bus).allowed_speed, 4.0);
 }
 
+// it rolled 7 cm past its place, took that for too late to halt, and stood amid the junction
+TEST_F(TurningRoomTest, ABusThatRollsOutALittleFurtherHaltsAllTheSame) {
+  const std::size_t bus = add_bus();
+  add_waiting(0.6, 0.0);
+  here_.move(bus, here_.path(bus).links.front().stop_line - kStopMargin + 0.07 - 6.0);
+  here_.set_speed(bus, 1.2);
+  here_.update();
+  EXPECT_EQ(here_.context(bus).reason, LimitReason::TurningRoom);
+}
+
 TEST_F(TurningRoomTest, ABusThatHasLetOthersPastForLongGoesOnForAWhile) {
   const std::size_t bus = add_bus();
   here_.move(bus, here_.path(bus).links.front().stop_line - 6.0 - 0.7);

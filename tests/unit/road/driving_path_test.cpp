@@ -37,7 +37,7 @@ Path path_along(const RoadNetwork& network, const std::vector<std::string>& name
   PathRequest request = request_of(route);
   if (!start_lane.empty()) request.start_lane = network.lane_by_name.at(start_lane);
   request.start_along = start_along;
-  request.turning_radius = turning_radius;
+  request.cornering.turning_radius = turning_radius;
   std::string why;
   std::optional<Path> path = build_driving_path(network, request, why);
   if (!path) throw std::runtime_error("no path: " + why);
@@ -281,7 +281,7 @@ TEST(RoundCorners, TurnsARightAngleAboutTheRadiusAskedFor) {
   path.stretches.back().to = path.line.length();
   path.stops.push_back({40.0, 1.0});
   const double before = path.line.length();
-  round_corners(2.5, path);
+  round_corners({2.5}, path);
   EXPECT_EQ(path.line.points().front(), Vec2(0, 0));
   EXPECT_EQ(path.line.points().back(), Vec2(40, 40));
   EXPECT_LT(path.line.length(), before);
@@ -308,7 +308,7 @@ TEST(RoundCorners, SmoothsKinksWithoutLeavingTheLine) {
   const Polyline drawn = path.line;
   path.stretches.push_back({});
   path.stretches.back().to = path.line.length();
-  round_corners(4.0, path);
+  round_corners({4.0}, path);
   double sharpest = 0, farthest = 0;
   for (double s = 1.0; s < path.line.length() - 1.0; s += 0.25) {
     const Vec2 place = path.line.point_at(s);
@@ -328,7 +328,7 @@ TEST(RoundCorners, DrawsFoldsStraightAndCarriesPlacesOver) {
   path.stretches.push_back({});
   path.stretches.back().to = path.line.length();
   path.links.push_back({kNoConnection, 30.0, 38.0, 30.0, 30.0});
-  round_corners(4.0, path);
+  round_corners({4.0}, path);
   for (double s = 0.5; s < path.line.length(); s += 0.5)
     EXPECT_GT(path.line.direction_at(s).x(), 0.5) << "at " << s;
   EXPECT_LT(path.line.length(), 61.0);
@@ -341,7 +341,7 @@ TEST(RoundCorners, WhoTurnsRoundStillTurnsRound) {
   path.line = Polyline({{0, 0}, {30, 0}, {30, 3}, {0, 3}});
   path.stretches.push_back({});
   path.stretches.back().to = path.line.length();
-  round_corners(4.0, path);
+  round_corners({4.0}, path);
   EXPECT_EQ(path.line.points().back(), Vec2(0, 3));
   EXPECT_LT(path.line.direction_at(path.line.length() - 5).x(), -0.9);
   EXPECT_NEAR(path.line.point_at(0.5 * path.line.length()).x(), 28.0, 2.0);
@@ -360,7 +360,7 @@ TEST(SpeedProfile, BrakesSteadilyBetweenItsPlaces) {
 TEST_F(Crossroads, StopLinesLieWhereThePathPassesTheEndOfItsLane) {
   const std::vector<EdgeId> route = route_of(right(), {"WC", "CS"});
   PathRequest request = request_of(route);
-  request.turning_radius = 6.0;
+  request.cornering.turning_radius = 6.0;
   std::string why;
   const auto path = build_driving_path(right(), request, why);
   ASSERT_TRUE(path) << why;
@@ -375,12 +375,56 @@ TEST_F(Crossroads, StopLinesLieWhereThePathPassesTheEndOfItsLane) {
 TEST(RoundCorners, LeavesShortAndStraightLinesAlone) {
   Path straight;
   straight.line = Polyline({{0, 0}, {30, 0}});
-  round_corners(5.0, straight);
+  round_corners({5.0}, straight);
   EXPECT_NEAR(straight.line.length(), 30.0, 1e-9);
   Path tiny;
   tiny.line = Polyline({{0, 0}, {1, 0}, {1, 0.5}});
-  round_corners(5.0, tiny);
+  round_corners({5.0}, tiny);
   EXPECT_EQ(tiny.line.points().size(), 3u);
+}
+
+/// A bend of 30 degrees and 14 m of radius, whose right kerb is `kerb` from its line [m].
+Path bend_to(bool left, double kerb) {
+  constexpr double kRadius = 14;
+  const double side = left ? 1.0 : -1.0;
+  std::vector<Vec2> points = {{-40, 0}};
+  for (int degrees = 0; degrees <= 30; degrees += 3)
+    points.push_back({kRadius * std::sin(radians(degrees)),
+                      side * kRadius * (1.0 - std::cos(radians(degrees)))});
+  points.push_back(points.back() +
+                   40.0 * Vec2(std::cos(radians(30)), side * std::sin(radians(30))));
+  Path path;
+  path.line = Polyline(points);
+  PathStretch stretch;
+  stretch.to = path.line.length();
+  stretch.kerb = kerb;
+  path.stretches.push_back(stretch);
+  return path;
+}
+
+/// How far a rounded line passes the middle of the bend, inside positive [m].
+double cut_of(Path path, const Cornering& cornering) {
+  const Vec2 apex = path.line.point_at(0.5 * path.line.length());
+  const Vec2 across = left_of(path.line.direction_at(0.5 * path.line.length()));
+  const bool left = path.line.points().back().y() > 0.0;
+  round_corners(cornering, path);
+  const PolylinePosition place = path.line.project(apex);
+  return (left ? 1.0 : -1.0) * (path.line.point_at(place.along) - apex).dot(across);
+}
+
+TEST(RoundCorners, LongBodiesCutABendTowardsTheKerbWhereItIsFarEnough) {
+  const Cornering car{4.0, 4.5, 1.8, false}, bus{6.6, 12.0, 2.5, false};
+  EXPECT_LT(std::abs(cut_of(bend_to(false, 3.0), car)), 0.2);
+  EXPECT_GT(cut_of(bend_to(false, 3.0), bus), 0.45);
+  EXPECT_LT(cut_of(bend_to(false, 3.0), bus), 1.2);
+  // no further than its sides stay off the kerb
+  EXPECT_LT(cut_of(bend_to(false, 1.7), bus), 0.4);
+  EXPECT_LT(cut_of(bend_to(false, 1.4), bus), 0.2);
+  // nor towards the traffic that comes
+  EXPECT_LT(std::abs(cut_of(bend_to(true, 3.0), bus)), 0.2);
+  const Cornering keeps_left{6.6, 12.0, 2.5, true};
+  EXPECT_GT(cut_of(bend_to(true, 3.0), keeps_left), 0.45);
+  EXPECT_LT(std::abs(cut_of(bend_to(false, 3.0), keeps_left)), 0.2);
 }
 
 TEST(AppendSpan, RunsBothWaysAndKeepsTheVertices) {
@@ -396,7 +440,7 @@ TEST(AppendSpan, RunsBothWaysAndKeepsTheVertices) {
 TEST_F(Crossroads, BrakesBeforeTheBendAtEase) {
   const std::vector<EdgeId> route = route_of(right(), {"WC", "CS"});
   PathRequest request = request_of(route);
-  request.turning_radius = 4.0;
+  request.cornering.turning_radius = 4.0;
   std::string why;
   const auto path = build_driving_path(right(), request, why);
   ASSERT_TRUE(path) << why;
@@ -512,6 +556,21 @@ TEST(DrivingPath, ALaneChangeInABendNeverDoublesBack) {
           << start << " " << option;
     }
   }
+}
+
+// a road that widens: from its single lane both lead on, the inner one straight
+TEST(DrivingPath, TakesTheLaneThatGoesStraightOnWhereBothLeadOn) {
+  PlainNet plain;
+  plain.nodes = R"(<node id="A" x="0" y="0"/><node id="B" x="100" y="0"/>
+                   <node id="C" x="300" y="0"/>)";
+  plain.edges = R"(<edge id="in" from="A" to="B" numLanes="1" speed="13.9"/>
+                   <edge id="on" from="B" to="C" numLanes="2" speed="13.9"/>)";
+  plain.connections = R"(<connection from="in" to="on" fromLane="0" toLane="0"/>
+                         <connection from="in" to="on" fromLane="0" toLane="1"/>)";
+  const RoadNetwork network = read_plain_net(plain);
+  const Path path = path_along(network, {"in", "on"});
+  EXPECT_EQ(lanes_of(network, path), (std::vector<std::string>{"in_0", "on_1"}));
+  EXPECT_GT(path.profile_at(100.0), 13.0);
 }
 
 TEST(DrivingPath, ManyChangesOnAShortEdgeStillEndOnTheRightLane) {
