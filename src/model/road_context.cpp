@@ -114,6 +114,16 @@ void note_keeping_clear(const Course& course, const RoadContext& context, double
   }
 }
 
+/// Does the agent no longer leave others the room to turn? At a signal who stands in its way gets
+/// green while it waits, and whoever comes next halts further back: there it lets some cycles pass.
+bool takes_turning_room(const RoadNetwork& network, const Scene& scene, const Course& course,
+                        const PathLink& link) {
+  constexpr double kCycles = 180.0;  // [s]
+  const bool signalled = network.connection(link.connection).signal != kNoSignal;
+  return scene.keeps_clear[course.row] > kKeepsClear &&
+         (!signalled || scene.waiting_time[course.row] > kCycles);
+}
+
 /// Remembers for stop signs that the agent came to a halt before its next link.
 void note_halt(const Course& course, Scene& scene) {
   constexpr double kAtLine = 4.0, kHalt = 0.3;
@@ -244,7 +254,7 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
                                                          : link.inside;
       if (beyond.must_stop) decision = {true, line - kStopMargin, beyond.reason, beyond.foe};
     }
-    if (!decision.must_stop && scene.keeps_clear[course.row] <= kKeepsClear)
+    if (!decision.must_stop && !takes_turning_room(model.road, scene, course, link))
       decision = leave_turning_room(model, road, scene, approaches, traveller, link);
     if (!decision.must_stop) continue;
     const double gap = decision.stop_at - traveller.front + type.min_gap;
@@ -257,7 +267,9 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
     break;
   }
   if (std::isfinite(scene.gate[course.row])) {
-    const double gap = scene.gate[course.row] - course.along + type.min_gap;
+    // some way before it: who rolled over it by a hair had begun its change, whoever was beside
+    constexpr double kBefore = 0.3;  // [m]
+    const double gap = scene.gate[course.row] - kBefore - course.along + type.min_gap;
     limit(following_acceleration(type, course.speed, free_speed, gap, 0.0), LimitReason::Merge, -1,
           binding, context);
   }
