@@ -224,9 +224,13 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
   }
   const Traveller traveller{course.row, front + beside_lane(model, course),
                             2.0 * course.half_length, course.speed, free_speed};
+  // who stands sees the light at the head of its queue
+  constexpr double kSeesLight = 100.0;  // [m]
+  bool next = true;
+  const double looked_at = scene.standing_time[course.row] > 0.0 ? kSeesLight : reach;
   for (PathLink link : course.path.links) {
     if (link.end < course.along - course.half_length) continue;
-    if (link.stop_line > front + reach) break;
+    if (link.stop_line > front + looked_at) break;
     link.halt = halt_for_long_bodies(model, scene, approaches, traveller, link);
     const ZipperLeader teeth = find_zipper_leader(model, scene, approaches, traveller, link);
     if (teeth.id >= 0) {
@@ -240,6 +244,8 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
             binding, context);
     }
     LinkDecision decision = decide_link(model, road, scene, approaches, traveller, link);
+    if (next) context.at_red = decision.must_stop && decision.reason == LimitReason::Signal;
+    next = false;
     // who waits on the junction goes no further, either
     const double entry = std::max(link.stop_line, link.inside);
     if (!decision.must_stop && entry > front - 0.3 &&

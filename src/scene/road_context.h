@@ -47,6 +47,7 @@ struct RoadContext {
   double to_halt =
       std::numeric_limits<double>::infinity();  ///< way to where the front comes to rest before a
                                                 ///< link, as things are [m]
+  bool at_red = false;  ///< waits before a red light, if not as the first: others there do, too
   LimitReason reason = LimitReason::None;
   std::int64_t foe = -1;  ///< id of the agent that binds, -1 where none does
 };
