@@ -12,8 +12,8 @@ namespace {
 
 // the longest body that turns anywhere [m]
 constexpr double kBusLength = 12.0, kBusWidth = 2.5, kBusAxle = 2.7, kBusRadius = 6.6;
-constexpr double kHalfWidth = 1.3;  ///< of who is in the way, and some [m]
-constexpr double kPace = 0.5;       ///< [m]
+constexpr double kHalfWidth = 1.0, kHalfWidthOfWide = 1.3;  ///< of who is in the way, and some [m]
+constexpr double kPace = 0.5;                               ///< [m]
 constexpr double kFarthest = 16.0;  ///< before a lane's end that anybody halts for a bus [m]
 
 /// What a bus sweeps on its way over a link: its body at each half metre. Its middle follows the
@@ -45,15 +45,16 @@ Sweep sweep_of_bus(const RoadNetwork& network, ConnectionId id) {
     sweep.high = sweep.high.cwiseMax(place);
     heading += kPace * cross(forward, path.line.direction_at(along)) / kBusAxle;
   }
-  const Vec2 reach = Vec2::Constant(0.5 * kBusLength + 2.0 * kHalfWidth);
+  const Vec2 reach = Vec2::Constant(0.5 * kBusLength + 2.0 * kHalfWidthOfWide);
   sweep.low -= reach;
   sweep.high += reach;
   return sweep;
 }
 
-/// Where `sweep` meets the way of others, from `kFarthest` and some before its stop line to `end`
-/// behind it; foe_begin and foe_end are the sweeping body's, front and rear.
-std::optional<SweptWay> swept_part(const Sweep& sweep, const Path& way, double end) {
+/// Where `sweep` meets the way of others of a width, from `kFarthest` and some before its stop line
+/// to `end` behind it; foe_begin and foe_end are the sweeping body's, front and rear.
+std::optional<SweptWay> swept_part(const Sweep& sweep, const Path& way, double end,
+                                   double half_width) {
   const double stop_line = way.links.front().stop_line;
   std::optional<SweptWay> part;
   double first = 0.0, last = 0.0;  // middles of the bodies that touch
@@ -61,7 +62,7 @@ std::optional<SweptWay> swept_part(const Sweep& sweep, const Path& way, double e
     const Vec2 place = way.line.point_at(along);
     if ((place.array() < sweep.low.array()).any() || (place.array() > sweep.high.array()).any())
       continue;
-    const OrientedBox slice{place, way.line.direction_at(along), {0.5 * kPace, kHalfWidth}};
+    const OrientedBox slice{place, way.line.direction_at(along), {0.5 * kPace, half_width}};
     for (std::size_t k = 0; k < sweep.bodies.size(); ++k) {
       const OrientedBox& body = sweep.bodies[k];
       if ((body.center - place).norm() > kBusLength || separation(slice, body) > 0.0) continue;
@@ -101,13 +102,17 @@ SweptWayTable find_swept_ways(const RoadNetwork& network, const ConflictTable& c
         const bool ruled = std::any_of(zones.begin(), zones.end(),
                                        [&](const ConflictZone& zone) { return zone.foe == id; });
         const PathLink& link = ways[k].links.front();
-        auto part = swept_part(sweep, ways[k], ruled ? 0.0 : link.end - link.stop_line);
-        if (!part || part->begin < -kFarthest) continue;
-        part->foe = id;
-        part->foe_is_long = true;
-        table[index_of(links[k])].push_back(*part);
-        table[index_of(id)].push_back(
-            {links[k], part->foe_begin, part->foe_end, part->begin, part->end, false});
+        for (const bool wide : {false, true}) {
+          auto part = swept_part(sweep, ways[k], ruled ? 0.0 : link.end - link.stop_line,
+                                 wide ? kHalfWidthOfWide : kHalfWidth);
+          if (!part || part->begin < -kFarthest) continue;
+          part->foe = id;
+          part->foe_is_long = true;
+          part->for_wide = wide;
+          table[index_of(links[k])].push_back(*part);
+          table[index_of(id)].push_back(
+              {links[k], part->foe_begin, part->foe_end, part->begin, part->end, false, wide});
+        }
       }
     }
   }

@@ -9,6 +9,9 @@ namespace sumogamma {
 /// Who is longer than this leaves its lane with its ends where it turns [m].
 inline constexpr double kLongBody = 8.0;
 
+/// Lorries and buses: they need more of their lane than cars [m].
+inline constexpr double kWideBody = 2.1;
+
 /// Where a long body that takes one link sweeps over the way of another link, though it be the end
 /// of the lane on which others wait. Distances [m] from where the links begin; negative before
 /// that. On the way of the body that sweeps they are the places of its front when it begins to and
@@ -19,6 +22,7 @@ struct SweptWay {
   double foe_begin = 0, foe_end = 0;  ///< on the foe's
   bool foe_is_long = false;  ///< the foe's body does the sweeping, on this link's way; else this
                              ///< link's does, on the foe's
+  bool for_wide = false;     ///< holds if who is in the way is wider than kWideBody, else if not
 };
 
 /// By connection: the ways of a junction that a bus which takes it sweeps, and the buses that sweep
