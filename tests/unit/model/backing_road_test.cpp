@@ -64,6 +64,14 @@ TEST_F(BackingTest, AWedgedCarRollsBackAndThenGivesWay) {
   EXPECT_TRUE(gave_way_);
 }
 
+// a queue of five rolled back for a motorcycle between them while its light turned green
+TEST_F(BackingTest, NobodyBacksOutOfAQueueAtARedLight) {
+  const std::size_t own = here_.add("motorcycle", {"WC", "CE"}, 100, 0);
+  here_.scene.context[own].at_red = true;
+  EXPECT_EQ(stand_wedged(own, 60.0), 0.0);
+  EXPECT_FALSE(is_wedged(here_.scene, own));
+}
+
 // Who stands behind somebody that has no room to back out makes some, and so on down the queue.
 TEST_F(BackingTest, AQueueMakesRoomOneAfterTheOther) {
   const std::size_t first = here_.add("car", {"WC", "CE"}, 100, 0);

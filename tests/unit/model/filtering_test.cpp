@@ -195,5 +195,18 @@ TEST_F(ChangingLanes, WhoFiltersGoesOnBetweenTheLanes) {
   EXPECT_FALSE(halts());
 }
 
+// who rolled over it by a hair had begun its change, whoever was beside
+TEST(Gate, IsHaltedAtALittleBefore) {
+  RoadScene here(testing::read_plain_net(two_lanes()));
+  const std::size_t own = here.add("car", {"WE"}, 60, 0);
+  here.scene.gate[own] = 60.2;
+  here.update();
+  EXPECT_EQ(here.context(own).reason, LimitReason::Merge);
+  EXPECT_EQ(here.context(own).allowed_speed, 0.0);
+  here.scene.gate[own] = 63.0;
+  here.update();
+  EXPECT_GT(here.context(own).allowed_speed, 0.0);
+}
+
 }  // namespace
 }  // namespace sumogamma

@@ -41,6 +41,17 @@ TEST_F(SignalTest, RedHoldsWhoStandsAtTheLine) {
   EXPECT_LT(here_.context(own).allowed_speed, 0.1);
 }
 
+TEST_F(SignalTest, WhoStandsDownTheQueueKnowsThatItIsRed) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 30, 0);
+  here_.scene.standing_time[own] = 5.0;
+  show('r');
+  here_.update();
+  EXPECT_TRUE(here_.context(own).at_red);
+  show('G');
+  here_.update();
+  EXPECT_FALSE(here_.context(own).at_red);
+}
+
 TEST_F(SignalTest, AmberStopsWhoCanStopAtEaseAndLetsTheOthersThrough) {
   show('y');
   const std::size_t far = here_.add("car", {"in", "out"}, 50, 10);

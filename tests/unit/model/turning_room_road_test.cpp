@@ -88,6 +88,19 @@ TEST_F(TurningRoomTest, ABusThatHasLetOthersPastForLongGoesOnForAWhile) {
   EXPECT_GT(waited, 40.0);
 }
 
+// it gave up after 40 s and wedged itself before the queue, which had got green by then
+TEST_F(TurningRoomTest, AtASignalABusLetsSomeCyclesPass) {
+  const RoadNetwork network =
+      read_plain_net(crossroads("traffic_light", {"--default.junctions.radius", "3"}));
+  RoadScene here(network);
+  for (std::string& states : here.road.signal_states) states = std::string(100, 'G');
+  const std::size_t bus = here.add("bus", {"WC", "CS"}, 0, 0);
+  here.move(bus, here.path(bus).links.front().stop_line - 6.0 - 0.7);
+  const std::size_t car = here.add("car", {"SC", "CN"}, 0, 0);
+  here.move(car, here.path(car).links.front().stop_line - 0.6 - 2.25);
+  EXPECT_EQ(here.held_for(bus, LimitReason::TurningRoom, 120.0), 120.0);
+}
+
 TEST_F(TurningRoomTest, NobodyWaitsForABusThatLetsItPast) {
   const std::size_t bus = add_bus();
   here_.move(bus, here_.path(bus).links.front().stop_line - 6.0 - 0.7);

@@ -42,6 +42,23 @@ TEST(SweptWays, ABusThatTurnsSweepsTheEndsOfLanesOnWhichOthersWait) {
   EXPECT_GT(ends, 0);
 }
 
+TEST(SweptWays, WideBodiesNeedMoreRoomThanCars) {
+  const RoadNetwork network = narrow_corners();
+  int more = 0;
+  for (const auto& ways : find_swept_ways(network, build_conflict_table(network)))
+    for (const SweptWay& car : ways) {
+      if (car.for_wide || !car.foe_is_long) continue;
+      const auto wide = std::find_if(ways.begin(), ways.end(), [&](const SweptWay& other) {
+        return other.for_wide && other.foe_is_long && other.foe == car.foe;
+      });
+      if (wide == ways.end()) continue;  // so far back that nobody halts for it
+      EXPECT_LE(wide->begin, car.begin);
+      EXPECT_GE(wide->end, car.end);
+      more += wide->begin < car.begin;
+    }
+  EXPECT_GT(more, 0);
+}
+
 TEST(SweptWays, WhereNoBusMayDriveNothingIsSwept) {
   const RoadNetwork network = narrow_corners("bus");
   const SweptWayTable table = find_swept_ways(network, build_conflict_table(network));
