@@ -51,6 +51,9 @@ struct RoadCrossing {
   double begin = 0, end = 0;  ///< along the path: where the sidewalks' edges are [m]
 };
 
+/// Who is longer than this leaves its lane with its ends where it turns [m].
+inline constexpr double kLongBody = 8.0;
+
 /// How a body takes bends.
 struct Cornering {
   double turning_radius = 0;     ///< tightest that it can drive [m]; bends are rounded to about it

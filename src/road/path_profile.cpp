@@ -99,9 +99,9 @@ std::vector<double> filter_widths(const std::vector<Vec2>& samples, double step,
 /// stay off the kerb over its whole length.
 std::vector<double> cuts_of(const Path& path, std::size_t count, double step,
                             const Cornering& cornering) {
-  constexpr double kLong = 8.0, kMost = 1.0, kOffKerb = 0.3;  // [m]
+  constexpr double kMost = 1.0, kOffKerb = 0.3;  // [m]
   std::vector<double> free(count + 1, 0.0), cuts(count + 1, 0.0);
-  if (cornering.length <= kLong || path.stretches.empty()) return cuts;
+  if (cornering.length <= kLongBody || path.stretches.empty()) return cuts;
   for (std::size_t i = 0; i <= count; ++i)
     free[i] = path.stretch_at(static_cast<double>(i) * step).kerb - 0.5 * cornering.width;
   const auto reach = static_cast<std::size_t>(0.5 * cornering.length / step);

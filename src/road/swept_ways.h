@@ -6,9 +6,6 @@
 
 namespace sumogamma {
 
-/// Who is longer than this leaves its lane with its ends where it turns [m].
-inline constexpr double kLongBody = 8.0;
-
 /// Lorries and buses: they need more of their lane than cars [m].
 inline constexpr double kWideBody = 2.1;
 
