@@ -226,7 +226,7 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
                             2.0 * course.half_length, course.speed, free_speed};
   // who stands sees the light at the head of its queue
   constexpr double kSeesLight = 100.0;  // [m]
-  bool next = true;
+  bool first = true;
   const double looked_at = scene.standing_time[course.row] > 0.0 ? kSeesLight : reach;
   for (PathLink link : course.path.links) {
     if (link.end < course.along - course.half_length) continue;
@@ -235,17 +235,16 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
     const ZipperLeader teeth = find_zipper_leader(model, scene, approaches, traveller, link);
     if (teeth.id >= 0) {
       // closer than it will follow afterwards: the gap opens while lanes run together
-      const double gap = std::max(teeth.gap, 0.3) + 0.6 * course.headway_factor *
-                                                        kept_headway(type, course.speed) *
-                                                        course.speed;
+      const double headway = course.headway_factor * kept_headway(type, course.speed);
+      const double gap = std::max(teeth.gap, 0.3) + 0.6 * headway * course.speed;
       const double zipped = following_acceleration(type, course.speed, free_speed, gap, teeth.speed,
                                                    course.headway_factor);
       limit(std::max(zipped, -type.comfortable_deceleration), LimitReason::Leader, teeth.id,
             binding, context);
     }
     LinkDecision decision = decide_link(model, road, scene, approaches, traveller, link);
-    if (next) context.at_red = decision.must_stop && decision.reason == LimitReason::Signal;
-    next = false;
+    if (first) context.at_red = decision.must_stop && decision.reason == LimitReason::Signal;
+    first = false;
     // who waits on the junction goes no further, either
     const double entry = std::max(link.stop_line, link.inside);
     if (!decision.must_stop && entry > front - 0.3 &&

@@ -12,8 +12,10 @@ namespace {
 
 constexpr double kNear = 25.0;  ///< before its line from which a long body is reckoned with [m]
 
-bool is_wide(const Scene& scene, std::size_t row) {
-  return 2.0 * half_extent(scene, row, left_of(direction_of(scene.heading[row]))) > kWideBody;
+/// Is it about who has the width of a row that a way tells?
+bool is_for(const SweptWay& way, const Scene& scene, std::size_t row) {
+  const Vec2 across = left_of(direction_of(scene.heading[row]));
+  return way.for_wide == (2.0 * half_extent(scene, row, across) > kWideBody);
 }
 
 /// Does somebody get there first where the two would be in each other's way?
@@ -28,11 +30,10 @@ bool comes_first(const Occupation& theirs, const Occupation& ours, bool there, b
 double halt_for_long_bodies(const Model& model, const Scene& scene, const ApproachTable& approaches,
                             const Traveller& traveller, const PathLink& link) {
   double halt = link.halt;
-  const bool wide = is_wide(scene, traveller.row);
   for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
     const double place = link.stop_line + way.begin;
-    if (!way.foe_is_long || way.for_wide != wide || way.begin >= 0.0 || traveller.front > place ||
-        place >= halt)
+    if (!way.foe_is_long || way.begin >= 0.0 || traveller.front > place || place >= halt ||
+        !is_for(way, scene, traveller.row))
       continue;
     for (const Approach& foe : approaches.of(way.foe))
       if (foe.length > kLongBody && foe.front > -kNear && foe.front - foe.length < way.foe_end &&
@@ -48,12 +49,10 @@ LinkDecision leave_turning_room(const Model& model, const RoadState& road, const
   LinkDecision decision;
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const double front = traveller.front - link.stop_line;
-  const bool wide = is_wide(scene, traveller.row);
   for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
     // who is on its way goes on, a long body where it is in nobody's way yet may still halt
     const bool before_line = !way.foe_is_long && front <= 0.2;
     const bool may_halt = before_line || front <= way.begin;
-    if (way.foe_is_long && way.for_wide != wide) continue;
     if (!may_halt || (!way.foe_is_long && traveller.length <= kLongBody)) continue;
     const double line =
         (before_line ? std::min(link.halt, link.stop_line) : link.stop_line + way.begin) -
@@ -69,7 +68,7 @@ LinkDecision leave_turning_room(const Model& model, const RoadState& road, const
     for (const Approach& foe : approaches.of(way.foe)) {
       if (foe.row == traveller.row || (way.foe_is_long && foe.length <= kLongBody)) continue;
       if (foe.front - foe.length >= way.foe_end) continue;
-      if (!way.foe_is_long && way.for_wide != is_wide(scene, foe.row)) continue;
+      if (!is_for(way, scene, way.foe_is_long ? traveller.row : foe.row)) continue;
       // it waits before its line, or before the place that is swept; whom bodies hold isn't coming
       const bool there = foe.front > way.foe_begin;
       if (foe.stands && (!there || approaches.waiting(foe.row).blocked)) continue;

@@ -27,8 +27,9 @@ using ConflictTable = std::vector<std::vector<ConflictZone>>;
 ConflictTable build_conflict_table(const RoadNetwork& network);
 
 /// The way of a body with that turning radius over a link, with up to `before` [m] of the lane that
-/// it comes from and `after` of the one into which it leads: the line, and the link with its stop
-/// line and end. Empty for a link without lanes of its own.
+/// it comes from and `after` of the one into which it leads: the line, the link with its stop
+/// line and end, and where the kerbs of the three lanes are. Empty for a link without lanes of its
+/// own.
 Path rounded_way(const RoadNetwork& network, ConnectionId id, double before, double after,
                  const Cornering& cornering);
 

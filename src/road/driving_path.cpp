@@ -85,19 +85,6 @@ std::vector<std::vector<LaneOption>> plan_lanes(const RoadNetwork& network,
   return plan;
 }
 
-/// Width of the lanes beside `lane` that the class may use, on the inner or outer side [m].
-double side_width(const RoadNetwork& network, const Lane& lane, VehicleClassMask vehicle_class,
-                  bool inner) {
-  double width = 0.0;
-  const Lane* here = &lane;
-  for (;;) {
-    const LaneId next = inner ? here->inner : here->outer;
-    if (next == kNoLane || !allows(network.lane(next), vehicle_class)) return width;
-    here = &network.lane(next);
-    width += here->width;
-  }
-}
-
 class Builder {
  public:
   Builder(const RoadNetwork& network, const PathRequest& request)
@@ -201,10 +188,9 @@ class Builder {
     stretch.lane = id;
     stretch.route_index = route_index_;
     stretch.speed_limit = lane.speed_limit;
-    const double inner =
-        0.5 * lane.width + side_width(network_, lane, request_.vehicle_class, true);
-    const double outer =
-        0.5 * lane.width + side_width(network_, lane, request_.vehicle_class, false);
+    const auto may_use = [&](const Lane& beside) { return allows(beside, request_.vehicle_class); };
+    const double inner = 0.5 * lane.width + width_beside(network_, lane, true, may_use);
+    const double outer = 0.5 * lane.width + width_beside(network_, lane, false, may_use);
     // lanes count from the kerb, so the inner side is the left one unless traffic keeps left
     stretch.room_left = (network_.left_hand ? outer : inner) + lane.beside_left;
     stretch.room_right = (network_.left_hand ? inner : outer) + lane.beside_right;

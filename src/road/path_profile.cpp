@@ -100,8 +100,9 @@ std::vector<double> filter_widths(const std::vector<Vec2>& samples, double step,
 std::vector<double> cuts_of(const Path& path, std::size_t count, double step,
                             const Cornering& cornering) {
   constexpr double kMost = 1.0, kOffKerb = 0.3;  // [m]
-  std::vector<double> free(count + 1, 0.0), cuts(count + 1, 0.0);
+  std::vector<double> cuts(count + 1, 0.0);
   if (cornering.length <= kLongBody || path.stretches.empty()) return cuts;
+  std::vector<double> free(count + 1);
   for (std::size_t i = 0; i <= count; ++i)
     free[i] = path.stretch_at(static_cast<double>(i) * step).kerb - 0.5 * cornering.width;
   const auto reach = static_cast<std::size_t>(0.5 * cornering.length / step);
@@ -121,8 +122,8 @@ std::vector<double> smoothing_widths(const std::vector<Vec2>& samples,
                                      const std::vector<double>& cuts, const Cornering& cornering) {
   constexpr double kAside = 0.15, kWidest = 5.0, kRamp = 0.8;
   constexpr double kSpread = 0.6;  // of a body's length, to each side
-  const double spread = kSpread * cornering.length;
-  const auto widest = static_cast<std::size_t>(std::max(kWidest, spread) / step);
+  const double spread = std::max(kWidest, kSpread * cornering.length);
+  const auto widest = static_cast<std::size_t>(spread / step);
   std::vector<double> widths(samples.size(), 0.0);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const std::size_t most = std::min({widest, i, samples.size() - 1 - i});
@@ -133,8 +134,9 @@ std::vector<double> smoothing_widths(const std::vector<Vec2>& samples,
       const Vec2 chord = samples[i + wider] - samples[i - wider];
       const bool to_kerb = (cross(chord, mean - samples[i]) > 0.0) == cornering.keep_left;
       const double cut = to_kerb ? cuts[i] : 0.0, aside = kAside + cut;
+      const double reach = cut > 0.0 ? spread : kWidest;
       if ((mean - samples[i]).squaredNorm() > aside * aside ||
-          static_cast<double>(wider) * step > (cut > 0.0 ? std::max(kWidest, spread) : kWidest))
+          static_cast<double>(wider) * step > reach)
         break;
       window = wider;
     }
@@ -223,14 +225,11 @@ std::vector<Vec2> without_flat_vertices(const std::vector<Vec2>& points) {
 double width_to_kerb(const RoadNetwork& network, const Lane& lane) {
   using namespace vehicle_class;
   const double beside = network.left_hand ? lane.beside_left : lane.beside_right;
-  double width = 0.5 * lane.width + beside;
-  for (LaneId next = lane.outer; next != kNoLane; next = network.lane(next).outer) {
-    const Lane& outer = network.lane(next);
-    const bool driven = (outer.allowed & (kPassenger | kBus)) != 0;
-    if (!driven && (outer.allowed & (kPedestrian | kTram | kRail)) != 0) break;
-    width += outer.width;
-  }
-  return width;
+  const auto is_carriageway = [](const Lane& outer) {
+    return (outer.allowed & (kPassenger | kBus)) != 0 ||
+           (outer.allowed & (kPedestrian | kTram | kRail)) == 0;
+  };
+  return 0.5 * lane.width + beside + width_beside(network, lane, false, is_carriageway);
 }
 
 void round_corners(const Cornering& cornering, Path& path) {

@@ -14,6 +14,19 @@ void compute_speed_profile(const PathRequest& request, Path& path);
 /// like a driver does instead of overshooting it. Places along the path are carried over.
 void round_corners(const Cornering& cornering, Path& path);
 
+/// Width of the lanes beside `lane` on the inner or outer side, as far as `counts(Lane)` holds [m].
+template <typename Counts>
+double width_beside(const RoadNetwork& network, const Lane& lane, bool inner, Counts&& counts) {
+  double width = 0.0;
+  const Lane* here = &lane;
+  for (;;) {
+    const LaneId next = inner ? here->inner : here->outer;
+    if (next == kNoLane || !counts(network.lane(next))) return width;
+    here = &network.lane(next);
+    width += here->width;
+  }
+}
+
 /// From the middle of a lane to the kerb, over the lanes of other vehicles [m].
 double width_to_kerb(const RoadNetwork& network, const Lane& lane);
 
