@@ -102,7 +102,7 @@ void update_backing(double dt, Scene& scene, std::size_t row) {
       const bool for_itself = scene.context[row].reason != LimitReason::Leader;
       gives_way = rolled && for_itself && !moved_on ? courtesy(scene, row) : 0.0;
     }
-  } else if (gives_way <= 0.0 && is_wedged(scene, row) &&
+  } else if (gives_way <= 0.0 && !scene.context[row].at_red && is_wedged(scene, row) &&
              scene.blocked_time[row] > patience(scene, row)) {
     left = kTries;
   } else if (gives_way <= 0.0 && makes_room(scene, row)) {

@@ -233,14 +233,16 @@ struct Judge {
     return traveller.front >
            (at_red ? link.stop_line : waiting_place(link, zone.begin).along) + 0.3;
   }
-  /// Is a foe past the place where it would wait for the traveller?
+  /// Is a foe past the place where it would wait for the traveller, and before the zone no more?
   bool is_committed(const ConflictZone& zone, const Approach& foe) const {
     const auto& links = road.path(scene.path[foe.row])->links;
     const auto its = std::find_if(links.begin(), links.end(), [&](const PathLink& candidate) {
       return candidate.connection == zone.foe;
     });
     if (its == links.end()) return true;
-    return foe.front > waiting_place(*its, zone.foe_begin).along - its->stop_line + 0.3;
+    return foe.front > waiting_place(*its, zone.foe_begin).along - its->stop_line + 0.3 &&
+           !stops_at_ease(foe.speed, zone.foe_begin - foe.front,
+                          type_of(model.types, scene.type[foe.row]));
   }
   /// Is some of the traveller's body on a junction, this one or one before?
   bool on_junction() const {

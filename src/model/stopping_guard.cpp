@@ -109,7 +109,7 @@ void update_wedge(double dt, Scene& scene, std::size_t row) {
   // two who want to change into each other's lane at its end wait for each other
   const bool no_gap =
       context.reason == LimitReason::Merge && scene.standing_time[row] > kNoGapPatience;
-  const bool blocked = context.active && !context.at_red && scene.standing_time[row] > 0.0 &&
+  const bool blocked = context.active && scene.standing_time[row] > 0.0 &&
                        (context.allowed_speed > kLeastWish || no_gap);
   scene.blocked_time[row] = blocked ? scene.blocked_time[row] + dt : 0.0;
   scene.wedge_left[row] =
