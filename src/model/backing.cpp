@@ -76,6 +76,11 @@ bool keeps_clear(const RoadNetwork& network, const Scene& scene, const TickGeome
   return clear;
 }
 
+/// Before a red light others wait, too: nobody backs out there but for a gap into another lane.
+bool waits_at_red(const RoadContext& context) {
+  return context.at_red && context.reason != LimitReason::Merge;
+}
+
 /// Is this row right behind one that means to back out, or to make room itself, and can't?
 bool makes_room(const Scene& scene, std::size_t row) {
   constexpr double kTried = 1.0;  // [s]
@@ -102,7 +107,7 @@ void update_backing(double dt, Scene& scene, std::size_t row) {
       const bool for_itself = scene.context[row].reason != LimitReason::Leader;
       gives_way = rolled && for_itself && !moved_on ? courtesy(scene, row) : 0.0;
     }
-  } else if (gives_way <= 0.0 && !scene.context[row].at_red && is_wedged(scene, row) &&
+  } else if (gives_way <= 0.0 && !waits_at_red(scene.context[row]) && is_wedged(scene, row) &&
              scene.blocked_time[row] > patience(scene, row)) {
     left = kTries;
   } else if (gives_way <= 0.0 && makes_room(scene, row)) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "model/approaches.h"
 #include "model/locate.h"
@@ -86,8 +87,17 @@ std::uint64_t take_detours(const Model& model, RoadState& road, Scene& scene) {
     if (path == nullptr || scene.control[row] != Control::Gamma) continue;
     const PathLink* shut = shut_link(model, *path, scene, row);
     if (shut == nullptr) continue;
-    if (times.empty()) times = travel_times(model.road, scene);
     double along = scene.path_along[row];
+    if (scene.context[row].reason == LimitReason::Merge) {
+      // the lane may lead where it has to go as well, if not as easily
+      constexpr double kAtAnyCost = std::numeric_limits<double>::infinity();
+      if (auto kept = keep_lane(model.road, *path, along, kAtAnyCost, kBack)) {
+        take_path(std::move(*kept), along, row, road, scene);
+        scene.merge_to[row] = kNoLane;
+        continue;
+      }
+    }
+    if (times.empty()) times = travel_times(model.road, scene);
     const PathStretch& here = path->stretch_at(along);
     // by any way but the one that is shut
     const EdgeId full = model.road.lane(model.road.connection(shut->connection).to).edge;

@@ -22,6 +22,7 @@ constexpr double kPatience = 4.0;     ///< with a lane change that somebody stan
 constexpr double kBack = 20.0;        ///< of path kept behind the body [m]
 constexpr double kSlowest = 3.5;      ///< at which lanes are changed without need [m/s]
 constexpr double kShortest = 12.0;    ///< change [m]
+constexpr double kNearlyAsWell = 2.0;  ///< lane changes more, later on
 // people on foot look as far ahead for others and for walls, and aside of their way [m]
 constexpr double kSidewalk = 8.0, kWalls = 4.0, kAside = 4.5;
 
@@ -232,6 +233,11 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
                        ? stay_in_lane(model.road, path, along, std::max(speed, 3.0), kBack)
                        : change_lane(model.road, path, along, intent.wanted,
                                      std::max(kChangeTime * speed, kShortest), kBack);
+    // no room left to change in: who gets on by its own lane nearly as well doesn't wait for a gap
+    if (!changed && intent.postpone) {
+      changed = keep_lane(model.road, path, along, kNearlyAsWell, kBack);
+      if (changed) scene.merge_to[row] = kNoLane;
+    }
     if (!changed) continue;
     take_path(std::move(*changed), along, row, road, scene);
   }

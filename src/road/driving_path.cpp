@@ -77,8 +77,11 @@ std::vector<std::vector<LaneOption>> plan_lanes(const RoadNetwork& network,
         const double cost = exit_cost[static_cast<std::size_t>(exit)] +
                             change_cost(std::abs(exit - entry), lane.centerline.length());
         if (cost < choice.cost)
-          choice = {cost, exit, exit_link[static_cast<std::size_t>(exit)], 0.0};
+          choice = {
+              .cost = cost, .exit_index = exit, .next = exit_link[static_cast<std::size_t>(exit)]};
       }
+      choice.leave_cost = exit_cost[static_cast<std::size_t>(entry)];
+      choice.leave = exit_link[static_cast<std::size_t>(entry)];
       choice.drivable = lane.centerline.length() + onward[static_cast<std::size_t>(entry)];
     }
   }
@@ -423,6 +426,21 @@ std::optional<Path> back_to_lane(const RoadNetwork& network, const Path& path, d
     return stay_on(old, 1.0, along);
   }
   return std::nullopt;
+}
+
+std::optional<Path> keep_lane(const RoadNetwork& network, const Path& path, double& along,
+                              double worse, double back) {
+  const Remade old{network, path, along, back, path.stretch_at(along).lane};
+  if (!old.possible() || old.here.changing) return std::nullopt;
+  const auto lane = static_cast<std::size_t>(old.lane.index);
+  const LaneOption& option = path.trip->options[old.index()][lane];
+  if (option.leave == kNoConnection || option.leave_cost > option.cost + worse) return std::nullopt;
+  Builder builder(network, path.trip->request);
+  builder.enter_edge(old.index());
+  builder.follow(old.id, old.begin, old.lane.centerline.length());
+  if (!builder.cross(option.leave)) return std::nullopt;
+  const int entry = network.lane(network.connection(option.leave).to).index;
+  return old.finish(builder, path.trip, old.index() + 1, entry, 0.0, along);
 }
 
 std::optional<Path> take_route(const RoadNetwork& network, const Path& path, double& along,

@@ -84,6 +84,8 @@ struct LaneOption {
   int exit_index = -1;                ///< index of the lane on which the edge is left
   ConnectionId next = kNoConnection;  ///< connection taken from there
   double drivable = 0;  ///< from the edge's begin until a lane change can't be put off any more [m]
+  double leave_cost = std::numeric_limits<double>::infinity();  ///< of leaving by this very lane
+  ConnectionId leave = kNoConnection;                           ///< likewise the connection
 };
 
 /// Where a vehicle goes, apart from the lanes that it takes: what its path is made from again when
@@ -152,6 +154,12 @@ std::optional<Path> stay_in_lane(const RoadNetwork& network, const Path& path, d
 /// there is no change there, or it has come more than two thirds of the way.
 std::optional<Path> back_to_lane(const RoadNetwork& network, const Path& path, double& along,
                                  double back);
+
+/// The path of the same trip that leaves the edge by the present lane, for who finds no gap.
+/// Otherwise like change_lane. nullopt where the lane doesn't lead into the route's next edge, or
+/// costs more than `worse` lane changes later on.
+std::optional<Path> keep_lane(const RoadNetwork& network, const Path& path, double& along,
+                              double worse, double back);
 
 /// The path of somebody who goes on from `along` by another route to the same destination. `route`
 /// begins with the edge at `along`. Otherwise like change_lane, except that nobody who has halts
