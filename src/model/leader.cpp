@@ -191,12 +191,15 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
       // but for who has halted on its way to let this one past
       const bool on_its_way = theirs != nullptr && !std::isfinite(scene.gate[other]) &&
                               theirs->stretch_at(scene.path_along[other]).changing;
+      // two abreast want each other's lane: of them, too, who is ahead goes first
+      const bool swaps =
+          scene.merge_to[row] != kNoLane && scene.merge_to[row] == scene.lane[other].lane;
       // who is on its way already and has its middle ahead needs the room beside it, too
-      if (on_its_way || rear > along + own_half_length + 1.0)
+      if (on_its_way || swaps || rear > along + own_half_length + 1.0)
         note_merging(
             {rear, 2.0 * place.along - rear, std::max(0.0, scene.velocity[other].dot(direction)),
              static_cast<std::int64_t>(scene.id[other].value), other},
-            on_its_way, ahead);
+            on_its_way || swaps, ahead);
       return;
     }
     if (passes || gap < -own_half_length) return;
