@@ -56,9 +56,11 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
   if (on_wheels && forward.dot(context.tangent) > 0.3)
     constraints.append({Vec2::Zero(), context.tangent}, {ConstraintKind::Direction, -1});
 
-  // leader, signals, right of way: a cap on the speed along the path
+  // leader, signals, right of way: a cap on the speed along the path, on wheels on that along the
+  // heading
+  const Vec2& along = on_wheels ? forward : context.tangent;
   if (std::isfinite(context.allowed_speed))
-    constraints.append({std::max(context.allowed_speed, 0.0) * context.tangent, -context.tangent},
+    constraints.append({std::max(context.allowed_speed, 0.0) * along, -along},
                        {ConstraintKind::RoadLimit, context.foe});
 }
 

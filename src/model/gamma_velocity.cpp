@@ -31,14 +31,16 @@ Vec2 look_aside(const ModelOptions& options, const AgentGeometry& agent, const V
 }
 
 /// Fastest that Eq. 7 may answer [m/s].
-double speed_limit(const AgentType& type, const Scene& scene, std::size_t row,
-                   const Vec2& preferred) {
+double speed_limit(const AgentType& type, const Scene& scene, const AgentGeometry& agent,
+                   std::size_t row, const Vec2& preferred) {
   const double fastest =
       std::min(type.max_speed, std::max(scene.preferred_speed[row], preferred.norm()));
-  // what the road allows holds for a wheeled body whichever way it points
+  // what the road allows holds for a wheeled body whichever way it points, and for its speed along
+  // its heading: asked for aside it would else get slower with every step in a bend
   const RoadContext& context = scene.context[row];
   if (!context.active || type.kinematics == Kinematics::Holonomic) return fastest;
-  return std::min(fastest, std::max(context.allowed_speed, 0.0));
+  return std::min(fastest,
+                  std::max(context.allowed_speed, 0.0) / share_ahead(preferred, agent.forward));
 }
 
 /// differs from the paper: of the velocities on a road that break G hardly more than the least
@@ -97,7 +99,7 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
                                work.neighbours.attended, constraints);  // G, III-B
 
   const Vec2 target = look_aside(model.options, geometry.agent[row], work.preferred);
-  const double fastest = speed_limit(type, scene, row, work.preferred);
+  const double fastest = speed_limit(type, scene, geometry.agent[row], row, work.preferred);
   work.result =
       closest_point(constraints.planes, constraints.hard_count, target, fastest, work.program);
   if (scene.context[row].active && geometry.agent[row].on_wheels) ease_violation(fastest, work);

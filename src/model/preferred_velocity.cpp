@@ -37,6 +37,12 @@ Vec2 around(const Vec2& preferred, const Scene& scene, std::size_t row) {
 }
 }  // namespace
 
+double share_ahead(const Vec2& velocity, const Vec2& forward) {
+  constexpr double kLeast = 0.8;
+  const double speed = velocity.norm();
+  return speed > 1e-9 ? std::clamp(velocity.dot(forward) / speed, kLeast, 1.0) : 1.0;
+}
+
 Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row,
                         const Intention& intention) {
   const AgentType& type = type_of(model.types, scene.type[row]);
@@ -55,9 +61,10 @@ Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row,
       // who waits on foot stands still, sideways too: the kerb need not lie across the path
       if (type.kinematics == Kinematics::Holonomic) speed = std::min(speed, context.allowed_speed);
       const Vec2 preferred = towards(scene.position[row], context.sub_goal, speed);
-      return type.kinematics == Kinematics::Holonomic
-                 ? around(preferred, scene, row)
-                 : within_turning(preferred, scene.heading[row]);
+      if (type.kinematics == Kinematics::Holonomic) return around(preferred, scene, row);
+      // a wheeled body keeps its speed along its heading while it turns
+      const double ahead = share_ahead(preferred, direction_of(scene.heading[row]));
+      return within_turning(preferred / ahead, scene.heading[row]);
     }
     case IntentionKind::KeepVelocity:
       return scene.velocity[row];

@@ -10,4 +10,8 @@ namespace sumogamma {
 Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row,
                         const Intention& intention);
 
+/// Share of a velocity that a wheeled body has along its heading once it is asked for it (see
+/// advance_body), in [0.8, 1]: of what points further aside it makes less. 1 for the null velocity.
+double share_ahead(const Vec2& velocity, const Vec2& forward);
+
 }  // namespace sumogamma
