@@ -392,9 +392,11 @@ bool runs_together(const Model& model, ConnectionId a, ConnectionId b) {
 
 /// Is somebody in a zone of a foe's link, or will be soon?
 bool comes_soon(const ConflictZone& zone, const Approach& foe) {
-  constexpr double kSoon = 6.0;  // [s]
+  constexpr double kSoon = 6.0;    // [s]
+  constexpr double kDrives = 8.0;  // who has set out gets as fast as this [m/s]
   if (foe.front - foe.length > zone.foe_end) return false;
-  return foe.front > 0.0 || (!foe.stands && zone.foe_begin - foe.front < kSoon * foe.speed);
+  return foe.front > 0.0 ||
+         (!foe.stands && zone.foe_begin - foe.front < kSoon * std::max(foe.speed, kDrives));
 }
 
 /// Who has to wait on a junction waits where it stands in nobody's way: not with its body in a zone
@@ -478,16 +480,19 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
       // wait at the line; inside the junction where there is a place for that, or where the own
       // body is past the line already
       const WaitingPlace place = waiting_place(link, zone.begin);
-      const double line = place.inside && !at_red && traveller.front < place.along + 0.3
-                              ? place.along
-                          : to_line > -0.2 ? stop_at
-                                           : link.stop_line + zone.begin - kStopMargin;
+      double line = place.inside && !at_red && traveller.front < place.along + 0.3 ? place.along
+                    : to_line > -0.2                                               ? stop_at
+                                     : link.stop_line + zone.begin - kStopMargin;
       // on foot one halts at the kerb still
       const double last = own_path.walking ? std::max(line, link.stop_line) : line;
-      if (deceleration_to_stop(traveller.speed, last - traveller.front) >
-              0.8 * type.max_deceleration &&
-          traveller.speed > 1.0)
-        continue;
+      const double hardest = 0.8 * type.max_deceleration;
+      if (deceleration_to_stop(traveller.speed, last - traveller.front) > hardest &&
+          traveller.speed > 1.0) {
+        // too late to halt there, but not for driving on towards who is in the way already
+        const bool is_there = foe.front > std::max(zone_of_table.foe_begin, 0.0) + 0.3;
+        if (!is_there || own_path.walking) continue;
+        line = traveller.front + traveller.speed * traveller.speed / (2.0 * hardest);
+      }
       if (!decision.must_stop || line < decision.stop_at)
         decision = {true, line, zone.foe_is_crossing ? LimitReason::Crossing : LimitReason::Yield,
                     static_cast<std::int64_t>(scene.id[foe.row].value)};
