@@ -64,12 +64,21 @@ TEST_F(BackingTest, AWedgedCarRollsBackAndThenGivesWay) {
   EXPECT_TRUE(gave_way_);
 }
 
-// a queue of five rolled back for a motorcycle between them while its light turned green
+// a queue of five rolled back for a motorcycle between them while its light turned green; who is
+// narrow may creep on between the others all the same
 TEST_F(BackingTest, NobodyBacksOutOfAQueueAtARedLight) {
   const std::size_t own = here_.add("motorcycle", {"WC", "CE"}, 100, 0);
   here_.scene.context[own].at_red = true;
   EXPECT_EQ(stand_wedged(own, 60.0), 0.0);
-  EXPECT_FALSE(is_wedged(here_.scene, own));
+  EXPECT_TRUE(is_wedged(here_.scene, own));
+}
+
+// two who wanted each other's lane stood side by side through three cycles
+TEST_F(BackingTest, WhoFindsNoGapBacksOutAtARedLightToo) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
+  here_.scene.context[own].at_red = true;
+  here_.scene.context[own].reason = LimitReason::Merge;
+  EXPECT_GT(stand_wedged(own, 60.0), 1.0);
 }
 
 // Who stands behind somebody that has no room to back out makes some, and so on down the queue.

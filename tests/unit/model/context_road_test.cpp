@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "model/context.h"
+#include "model/gamma_velocity.h"
 #include "model/preferred_velocity.h"
 #include "model/tracking.h"
 #include "support/road_scene.h"
@@ -133,12 +134,14 @@ TEST_F(ContextTest, ThePlaceThatAnAgentLikesBesideItsPathIsKeptOnTheRoad) {
 }
 
 // On a circle everybody steers so as to stay on it, and long bodies keep inside where the kerb is.
-TEST_F(ContextTest, ASteadyBendIsNotCut) {
-  constexpr double kRadius = 15.0;
-  std::vector<Vec2> points;
-  for (int degrees = 0; degrees <= 180; degrees += 2)
-    points.push_back(kRadius * Vec2(std::cos(radians(degrees)), std::sin(radians(degrees))));
-  for (const char* name : {"car", "bus"}) {
+class BendTest : public ContextTest {
+ protected:
+  static constexpr double kRadius = 15.0;
+  /// Halfway round half a circle at 5 m/s, which the path allows.
+  std::size_t add_in_bend(const char* name) {
+    std::vector<Vec2> points;
+    for (int degrees = 0; degrees <= 180; degrees += 2)
+      points.push_back(kRadius * Vec2(std::cos(radians(degrees)), std::sin(radians(degrees))));
     Path path;
     path.line = Polyline(points);
     PathStretch stretch;
@@ -148,17 +151,44 @@ TEST_F(ContextTest, ASteadyBendIsNotCut) {
     stretch.room_left = stretch.room_right = 3;
     path.stretches = {stretch};
     path.speed_profile.assign(26, 5.0);
-    const AgentTypeId id = find_agent_type(here_.model.types, name);
-    const std::size_t own =
-        here_.add(id, std::make_shared<const Path>(std::move(path)), 0.5 * kPi * kRadius, 5.0);
+    return here_.add(find_agent_type(here_.model.types, name),
+                     std::make_shared<const Path>(std::move(path)), 0.5 * kPi * kRadius, 5.0);
+  }
+};
+
+TEST_F(BendTest, ASteadyBendIsNotCut) {
+  for (const char* name : {"car", "bus"}) {
+    const std::size_t own = add_in_bend(name);
     here_.update();
-    const AgentType& type = type_of(here_.model.types, id);
+    const AgentType& type = type_of(here_.model.types, here_.scene.type[own]);
     // asked for its present speed along the tangent, the body keeps to the circle
     const double needed = steering_lead(type, 5.0) / kRadius;
     const double asked = heading_of(here_.context(own).tangent) -
                          heading_of(here_.path(own).line.direction_at(0.5 * kPi * kRadius));
     EXPECT_NEAR(wrap_angle(asked), needed, 0.03) << name;
   }
+}
+
+// asked for a velocity aside, of which it makes what lies along its heading, everybody lost some
+// speed with every step in a bend, the more the shorter the steps were
+TEST_F(BendTest, TheSpeedIsKeptWhileTheBodyTurns) {
+  const std::size_t own = add_in_bend("car");
+  here_.scene.steering[own] = std::atan(2.7 / kRadius);
+  Workspace work;
+  double slowest = 5.0;
+  for (int tick = 0; tick < 40; ++tick) {
+    here_.update();
+    const Vec2 asked = gamma_velocity(here_.model, here_.scene, here_.geometry, own,
+                                      here_.scene.behavior[own], work);
+    const BodyState next = track_velocity(here_.model, here_.scene, own, asked, 0.05);
+    here_.scene.position[own] = next.position;
+    here_.scene.heading[own] = next.heading;
+    here_.scene.velocity[own] = next.velocity;
+    here_.scene.speed[own] = next.speed;
+    here_.scene.steering[own] = next.steering;
+    slowest = std::min(slowest, next.speed);
+  }
+  EXPECT_GT(slowest, 4.98);
 }
 
 // (0,0) --------> (10,0)

@@ -195,6 +195,76 @@ TEST_F(ChangingLanes, WhoFiltersGoesOnBetweenTheLanes) {
   EXPECT_FALSE(halts());
 }
 
+/// A road of two lanes into one that has them as well, and later a road from its left lane alone.
+PlainNet both_lanes_lead_on() {
+  PlainNet net;
+  net.nodes =
+      "<node id='W' x='0' y='0'/><node id='C' x='150' y='0'/><node id='E' x='400' y='0'/>"
+      "<node id='L' x='400' y='80'/>";
+  net.edges =
+      "<edge id='WC' from='W' to='C' numLanes='2' speed='13.89'/>"
+      "<edge id='CE' from='C' to='E' numLanes='2' speed='13.89'/>"
+      "<edge id='EL' from='E' to='L' numLanes='1' speed='13.89'/>";
+  net.connections =
+      "<connection from='WC' to='CE' fromLane='0' toLane='0'/>"
+      "<connection from='WC' to='CE' fromLane='1' toLane='1'/>"
+      "<connection from='CE' to='EL' fromLane='1' toLane='0'/>";
+  return net;
+}
+
+// it stood at the end of its lane for minutes, although that lane leads on as well
+TEST(NoGap, WhoseLaneLeadsOnAsWellKeepsIt) {
+  RoadScene here(testing::read_plain_net(both_lanes_lead_on()));
+  const std::size_t own = here.add("car", {"WC", "CE", "EL"}, 20, 5, 0, -1, "WC_0");
+  double along = here.scene.path_along[own];
+  const auto kept = keep_lane(here.model.road, here.path(own), along, 3.0, 20.0);
+  ASSERT_TRUE(kept);
+  EXPECT_NEAR((kept->line.point_at(along) - here.scene.position[own]).norm(), 0.0, 0.1);
+  const auto lane_at = [&](double x) {
+    const double place = kept->line.project(Vec2(x, 0)).along;
+    return here.model.road.lane(kept->stretch_at(place).lane).name;
+  };
+  EXPECT_EQ(lane_at(120), "WC_0");
+  EXPECT_EQ(lane_at(390), "CE_1") << "it changes on the next road";
+  // where the lane doesn't lead on at all
+  const std::size_t late = here.add("car", {"CE", "EL"}, 50, 5, 0, -1, "CE_0");
+  along = here.scene.path_along[late];
+  EXPECT_FALSE(keep_lane(here.model.road, here.path(late), along, 1e9, 20.0));
+}
+
+// side by side they came to the end of their lanes, and stood there for minutes
+TEST(NoGap, OfTwoAbreastWhoWantEachOthersLaneOneLetsTheOtherAhead) {
+  RoadScene here(testing::read_plain_net(two_lanes()));
+  const std::size_t right = here.add("car", {"WE"}, 60, 7, 0, -1, "WE_0");
+  const std::size_t left = here.add("car", {"WE"}, 60.5, 7, 0, -1, "WE_1");
+  const auto& lanes = here.model.road.lane_by_name;
+  here.update(2);
+  const double before = here.context(right).allowed_speed;
+  here.scene.merge_to[right] = lanes.at("WE_1");
+  here.scene.merge_to[left] = lanes.at("WE_0");
+  here.update(2);
+  EXPECT_LT(here.context(right).allowed_speed, before - 0.05);
+  EXPECT_EQ(here.context(right).foe, static_cast<std::int64_t>(here.scene.id[left].value));
+  EXPECT_NE(here.context(left).foe, static_cast<std::int64_t>(here.scene.id[right].value));
+}
+
+// somebody who stood behind the begin of its path counted as beside it, and it waited for ever
+TEST(Surrounding, WhoIsBehindTheBeginOfAPathIsSeenWhereItIs) {
+  RoadScene here(testing::read_plain_net(both_lanes_lead_on()));
+  const std::size_t own = here.add("car", {"CE", "EL"}, 5, 0, 0, -1, "CE_0");
+  const std::size_t behind = here.add("car", {"WC", "CE", "EL"}, 0, 0, 0, -1, "WC_0");
+  here.move(behind, here.path(behind).links.front().stop_line - 1.0);
+  here.update();
+  Surroundings around;
+  look_around(here.model, here.road, here.scene, here.geometry.grid, own, 60.0, 8.0, around);
+  const Vec2 way = here.scene.position[behind] - here.scene.position[own];
+  ASSERT_LT(here.scene.path_along[own] + way.x(), -0.5) << "behind its begin";
+  ASSERT_EQ(around.users.size(), 1u);
+  const RoadUser& user = around.users.front();
+  EXPECT_NEAR(user.offset, way.y(), 0.05);
+  EXPECT_NEAR(0.5 * (user.front + user.rear), around.along + way.x(), 0.05);
+}
+
 // who rolled over it by a hair had begun its change, whoever was beside
 TEST(Gate, IsHaltedAtALittleBefore) {
   RoadScene here(testing::read_plain_net(two_lanes()));

@@ -87,6 +87,15 @@ class PriorityTest : public ::testing::Test {
     static const RoadNetwork network = read_plain_net(crossroads("priority"));
     return network;
   }
+  /// Where the way of `row` begins to be in that of `other` [m along its path].
+  double zone_of(std::size_t row, std::size_t other) const {
+    const PathLink& link = here_.path(row).links.front();
+    const ConnectionId foe = here_.path(other).links.front().connection;
+    for (const ConflictZone& zone : here_.model.conflicts[index_of(link.connection)])
+      if (zone.foe == foe) return link.stop_line + zone.begin;
+    ADD_FAILURE() << "their ways don't cross";
+    return link.stop_line;
+  }
   RoadScene here_{net()};
 };
 
@@ -347,7 +356,8 @@ TEST_F(PriorityTest, WhoCreepsOnTheJunctionIsNotTakenForSomebodyWhoStands) {
   const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
   here_.move(own, here_.path(own).links.front().stop_line - 1.0);
   const std::size_t foe = here_.add("car", {"SC", "CN"}, 0, 0);
-  here_.move(foe, here_.path(foe).links.front().stop_line - 1.0);
+  // so close before the own way that it can't halt there any more
+  here_.move(foe, zone_of(foe, own) - 2.25 - 0.02);
   auto decide = [&](double speed) {
     here_.set_speed(foe, speed);
     here_.scene.waiting_time[own] = here_.scene.waiting_time[foe] = 6.0;
@@ -687,8 +697,22 @@ TEST_F(PriorityTest, WhoWaitsOnTheJunctionSlowsNobodyDown) {
     here_.update();
     return here_.context(oncoming).foe == static_cast<std::int64_t>(here_.scene.id[turning].value);
   };
+  const double zone = zone_of(turning, oncoming);
   EXPECT_FALSE(holds_with_front_at(link.inside - 0.3, 0));
-  EXPECT_TRUE(holds_with_front_at(link.inside + 1.0, 4)) << "it has set out";
+  EXPECT_FALSE(holds_with_front_at(link.inside + 0.5, 0.5)) << "it has crept on, but can halt yet";
+  EXPECT_TRUE(holds_with_front_at(zone - 0.5, 4)) << "it has set out";
+}
+
+// a lorry drove on towards a van in its way, because it was too late to halt before the place where
+// their ways cross, and met it nose to nose
+TEST_F(PriorityTest, NobodyDrivesOnTowardsWhoIsInTheWay) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 6, 0, -1, "WC_0");
+  const std::size_t foe = here_.add("truck", {"SC", "CN"}, 0, 0);
+  here_.move(own, zone_of(own, foe) - 2.25 - 1.5);
+  here_.move(foe, zone_of(foe, own) + 2.0);
+  here_.update();
+  EXPECT_EQ(here_.context(own).foe, static_cast<std::int64_t>(here_.scene.id[foe].value));
+  EXPECT_LT(here_.context(own).allowed_speed, 6.0);
 }
 
 TEST_F(PriorityTest, WhoTurnsIntoTheOtherLaneHoldsNobodyUp) {
