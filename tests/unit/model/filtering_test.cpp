@@ -195,12 +195,13 @@ TEST_F(ChangingLanes, WhoFiltersGoesOnBetweenTheLanes) {
   EXPECT_FALSE(halts());
 }
 
-/// A road of two lanes into one that has them as well, and later a road from its left lane alone.
+/// A road of two lanes into a short one that has them as well, and then a road from its left lane
+/// alone.
 PlainNet both_lanes_lead_on() {
   PlainNet net;
   net.nodes =
-      "<node id='W' x='0' y='0'/><node id='C' x='150' y='0'/><node id='E' x='400' y='0'/>"
-      "<node id='L' x='400' y='80'/>";
+      "<node id='W' x='0' y='0'/><node id='C' x='150' y='0'/><node id='E' x='200' y='0'/>"
+      "<node id='L' x='200' y='80'/>";
   net.edges =
       "<edge id='WC' from='W' to='C' numLanes='2' speed='13.89'/>"
       "<edge id='CE' from='C' to='E' numLanes='2' speed='13.89'/>"
@@ -213,27 +214,54 @@ PlainNet both_lanes_lead_on() {
 }
 
 // it stood at the end of its lane for minutes, although that lane leads on as well
-TEST(NoGap, WhoseLaneLeadsOnAsWellKeepsIt) {
-  RoadScene here(testing::read_plain_net(both_lanes_lead_on()));
-  const std::size_t own = here.add("car", {"WC", "CE", "EL"}, 20, 5, 0, -1, "WC_0");
-  double along = here.scene.path_along[own];
-  const auto kept = keep_lane(here.model.road, here.path(own), along, 3.0, 20.0);
+class NoGap : public ::testing::Test {
+ protected:
+  std::string lane_at(const Path& path, double x) {
+    const double place = path.line.project(Vec2(x, 0)).along;
+    return here_.model.road.lane(path.stretch_at(place).lane).name;
+  }
+  RoadScene here_{testing::read_plain_net(both_lanes_lead_on())};
+};
+
+TEST_F(NoGap, WhoseLaneLeadsOnKeepsIt) {
+  const std::size_t own = here_.add("car", {"WC", "CE", "EL"}, 10, 5, 0, -1, "WC_0");
+  ASSERT_EQ(lane_at(here_.path(own), 120), "WC_1");
+  double along = here_.scene.path_along[own];
+  const auto kept = keep_lane(here_.model.road, here_.path(own), along, 2.0, 20.0);
   ASSERT_TRUE(kept);
-  EXPECT_NEAR((kept->line.point_at(along) - here.scene.position[own]).norm(), 0.0, 0.1);
-  const auto lane_at = [&](double x) {
-    const double place = kept->line.project(Vec2(x, 0)).along;
-    return here.model.road.lane(kept->stretch_at(place).lane).name;
-  };
-  EXPECT_EQ(lane_at(120), "WC_0");
-  EXPECT_EQ(lane_at(390), "CE_1") << "it changes on the next road";
-  // where the lane doesn't lead on at all
-  const std::size_t late = here.add("car", {"CE", "EL"}, 50, 5, 0, -1, "CE_0");
-  along = here.scene.path_along[late];
-  EXPECT_FALSE(keep_lane(here.model.road, here.path(late), along, 1e9, 20.0));
+  EXPECT_NEAR((kept->line.point_at(along) - here_.scene.position[own]).norm(), 0.0, 0.1);
+  EXPECT_EQ(lane_at(*kept, 120), "WC_0");
+  EXPECT_EQ(lane_at(*kept, 185), "CE_1") << "it changes on the next road";
+  // not where that costs more than it may, or the lane doesn't lead on at all
+  along = here_.scene.path_along[own];
+  EXPECT_FALSE(keep_lane(here_.model.road, here_.path(own), along, 0.2, 20.0));
+  const std::size_t late = here_.add("car", {"CE", "EL"}, 10, 5, 0, -1, "CE_0");
+  along = here_.scene.path_along[late];
+  EXPECT_FALSE(keep_lane(here_.model.road, here_.path(late), along, 1e9, 20.0));
+}
+
+TEST_F(NoGap, WhoHasNoRoomLeftToChangeGoesOnByItsLane) {
+  const double end =
+      here_.model.road.lane(here_.model.road.lane_by_name.at("WC_0")).centerline.length();
+  const std::size_t own = here_.add("car", {"WC", "CE", "EL"}, 5, 0, 0, -1, "WC_0");
+  double along = here_.scene.path_along[own];
+  // the change begins at the last place that leaves room for it, beside somebody who stands
+  auto late = stay_in_lane(here_.model.road, here_.path(own), along, end - 15.0 - along, 20.0);
+  ASSERT_TRUE(late);
+  take_path(std::move(*late), along, own, here_.road, here_.scene);
+  here_.move(own, end - 15.0);
+  here_.add("car", {"WC", "CE", "EL"}, end - 14.5, 0, 0, -1, "WC_1");
+  here_.update();
+  LaneChoiceWork work;
+  Workers alone(1);
+  for (here_.scene.tick = 0; here_.scene.tick < 8; ++here_.scene.tick)
+    choose_lanes(here_.model, here_.geometry.grid, 0.05, alone, here_.road, here_.scene, work);
+  EXPECT_EQ(lane_at(here_.path(own), end - 2.0), "WC_0");
+  EXPECT_FALSE(std::isfinite(here_.scene.gate[own]));
 }
 
 // side by side they came to the end of their lanes, and stood there for minutes
-TEST(NoGap, OfTwoAbreastWhoWantEachOthersLaneOneLetsTheOtherAhead) {
+TEST(Swap, OfTwoAbreastWhoWantEachOthersLaneOneLetsTheOtherAhead) {
   RoadScene here(testing::read_plain_net(two_lanes()));
   const std::size_t right = here.add("car", {"WE"}, 60, 7, 0, -1, "WE_0");
   const std::size_t left = here.add("car", {"WE"}, 60.5, 7, 0, -1, "WE_1");
