@@ -81,6 +81,10 @@ std::uint64_t take_detours(const Model& model, RoadState& road, Scene& scene) {
   std::uint64_t taken = 0;
   std::vector<double> times;
   const auto period = std::max<std::int64_t>(1, std::llround(kPeriod / model.options.step));
+  auto go_on = [&](Path way, double along, std::size_t row) {
+    take_path(std::move(way), along, row, road, scene);
+    scene.merge_to[row] = kNoLane;
+  };
   for (std::size_t row = 0; row < scene.size(); ++row) {
     if ((scene.tick + scene.id[row].value) % period != 0) continue;
     const Path* path = road.path(scene.path[row]);
@@ -92,8 +96,7 @@ std::uint64_t take_detours(const Model& model, RoadState& road, Scene& scene) {
       // the lane may lead where it has to go as well, if not as easily
       constexpr double kAtAnyCost = std::numeric_limits<double>::infinity();
       if (auto kept = keep_lane(model.road, *path, along, kAtAnyCost, kBack)) {
-        take_path(std::move(*kept), along, row, road, scene);
-        scene.merge_to[row] = kNoLane;
+        go_on(std::move(*kept), along, row);
         continue;
       }
     }
@@ -109,8 +112,7 @@ std::uint64_t take_detours(const Model& model, RoadState& road, Scene& scene) {
     if (route.size() < 2 || route[1] == full) continue;
     auto taken_path = take_route(model.road, *path, along, std::move(route), kBack);
     if (!taken_path || !has_room(model, *taken_path, along, scene, row)) continue;
-    take_path(std::move(*taken_path), along, row, road, scene);
-    scene.merge_to[row] = kNoLane;
+    go_on(std::move(*taken_path), along, row);
     scene.keeps_clear[row] = 0.0;
     ++taken;
   }

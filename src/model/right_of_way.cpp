@@ -44,6 +44,11 @@ bool stops_at_ease(double speed, double way, const AgentType& type) {
   return deceleration_to_stop(speed, way) < type.comfortable_deceleration;
 }
 
+/// Is a foe's front in a zone that begins at `begin` on its link [m]?
+bool has_entered(const Approach& foe, double begin) {
+  return foe.front > std::max(begin, 0.0) + 0.3;
+}
+
 /// Has a row waited for longer than another? The smaller id where they began together.
 bool has_waited_longer(const Scene& scene, std::size_t row, std::size_t other) {
   const double own = scene.waiting_time[row], their = scene.waiting_time[other];
@@ -123,7 +128,7 @@ struct Judge {
     zone.foe_end = theirs_to_cover.end;
     const AgentType& foe_type = type_of(model.types, scene.type[foe.row]);
     const AgentType& own_type = type_of(model.types, scene.type[traveller.row]);
-    const bool foe_inside = foe.front > std::max(zone.foe_begin, 0.0) + 0.3;
+    const bool foe_inside = has_entered(foe, zone.foe_begin);
     const Connection& foe_link = model.road.connection(zone.foe);
     // who waits at red doesn't come, but somebody who goes at red, too, is waited for by another
     const bool foe_at_red = !foe_inside && foe.front < 0.0 && is_red(road.signal(foe_link));
@@ -489,8 +494,7 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
       if (deceleration_to_stop(traveller.speed, last - traveller.front) > hardest &&
           traveller.speed > 1.0) {
         // too late to halt there, but not for driving on towards who is in the way already
-        const bool is_there = foe.front > std::max(zone_of_table.foe_begin, 0.0) + 0.3;
-        if (!is_there || own_path.walking) continue;
+        if (own_path.walking || !has_entered(foe, zone_of_table.foe_begin)) continue;
         line = traveller.front + traveller.speed * traveller.speed / (2.0 * hardest);
       }
       if (!decision.must_stop || line < decision.stop_at)

@@ -158,6 +158,14 @@ BodyState body_of(const Scene& scene, std::size_t row) {
           scene.steering[row]};
 }
 
+void place_body(const BodyState& body, Scene& scene, std::size_t row) {
+  scene.position[row] = body.position;
+  scene.heading[row] = body.heading;
+  scene.velocity[row] = body.velocity;
+  scene.speed[row] = body.speed;
+  scene.steering[row] = body.steering;
+}
+
 BodyState track_velocity(const Model& model, const Scene& scene, std::size_t row,
                          const Vec2& velocity, double dt) {
   return advance_body(type_of(model.types, scene.type[row]), body_of(scene, row), velocity, dt);

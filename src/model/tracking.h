@@ -46,6 +46,8 @@ BodyState roll_back(const AgentType& type, const BodyState& body, double lock, d
 
 /// The body of a row as it stands.
 BodyState body_of(const Scene& scene, std::size_t row);
+/// Puts it there: the row's place, heading, velocity, speed and steering.
+void place_body(const BodyState& body, Scene& scene, std::size_t row);
 
 /// advance_body for one row of a scene.
 BodyState track_velocity(const Model& model, const Scene& scene, std::size_t row,

@@ -41,13 +41,7 @@ BodyState move_as_asked(const AgentType& type, const BodyState& body, const Vec2
 }
 
 void move(const std::vector<BodyState>& next, double period, Scene& scene) {
-  for (std::size_t row = 0; row < next.size(); ++row) {
-    scene.position[row] = next[row].position;
-    scene.heading[row] = next[row].heading;
-    scene.velocity[row] = next[row].velocity;
-    scene.speed[row] = next[row].speed;
-    scene.steering[row] = next[row].steering;
-  }
+  for (std::size_t row = 0; row < next.size(); ++row) place_body(next[row], scene, row);
   scene.tick += 1;
   scene.time += period;
 }

@@ -53,11 +53,7 @@ void update_halt(const Path& path, double dt, Scene& scene, std::size_t row) {
 
 void apply(const BodyState& next, double dt, Scene& scene, std::size_t row) {
   scene.acceleration[row] = (next.velocity - scene.velocity[row]) / dt;
-  scene.position[row] = next.position;
-  scene.heading[row] = next.heading;
-  scene.velocity[row] = next.velocity;
-  scene.speed[row] = next.speed;
-  scene.steering[row] = next.steering;
+  place_body(next, scene, row);
 }
 
 }  // namespace

@@ -32,13 +32,7 @@ void run_ticks(benchmark::State& state, double area) {
       next[row] = next_body(model, scene, row, velocity, 0.05, work);
     }
     state.PauseTiming();
-    for (std::size_t row = 0; row < scene.size(); ++row) {
-      scene.position[row] = next[row].position;
-      scene.heading[row] = next[row].heading;
-      scene.velocity[row] = next[row].velocity;
-      scene.speed[row] = next[row].speed;
-      scene.steering[row] = next[row].steering;
-    }
+    for (std::size_t row = 0; row < scene.size(); ++row) place_body(next[row], scene, row);
     // for ever in the dense phase: back to the start every ten seconds
     if (++scene.tick == 200) scene = file.scene;
     state.ResumeTiming();

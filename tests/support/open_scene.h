@@ -76,13 +76,7 @@ inline void step(const Model& model, Scene& scene, double dt) {
   std::vector<BodyState> next;
   for (std::size_t row = 0; row < scene.size(); ++row)
     next.push_back(track_velocity(model, scene, row, velocities[row], dt));
-  for (std::size_t row = 0; row < scene.size(); ++row) {
-    scene.position[row] = next[row].position;
-    scene.heading[row] = next[row].heading;
-    scene.velocity[row] = next[row].velocity;
-    scene.speed[row] = next[row].speed;
-    scene.steering[row] = next[row].steering;
-  }
+  for (std::size_t row = 0; row < scene.size(); ++row) place_body(next[row], scene, row);
   ++scene.tick;
   scene.time += dt;
 }

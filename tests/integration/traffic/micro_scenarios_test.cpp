@@ -158,8 +158,13 @@ TEST_P(MicroScenarios, TwoLanesBecomeOneInTurnAndAtTheFlowOfALane) {
   expect_all_arrive(figures, 60);
   EXPECT_GE(figures["flow"], 1500.0) << figures;
   EXPECT_GE(figures["alternating_share"], 0.6) << figures;
-  // of seeds 1 to 8 five are below 4, one at 5.2
+  // above its band, which is the next test's: of seeds 1 to 8 five are below 4, one at 5.2
   EXPECT_LE(figures["hardest_braking"], 5.5) << figures;
+}
+
+TEST_P(MicroScenarios, TwoLanesBecomeOneAtEase) {
+  const json figures = run("lane_drop");
+  EXPECT_LE(figures["hardest_braking"], 4.5) << figures;
 }
 
 TEST_P(MicroScenarios, APlatoonIsStableUpTo33MetresASecond) {

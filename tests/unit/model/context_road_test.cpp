@@ -182,11 +182,7 @@ TEST_F(BendTest, TheSpeedIsKeptWhileTheBodyTurns) {
     const Vec2 asked = gamma_velocity(here_.model, here_.scene, here_.geometry, own,
                                       here_.scene.behavior[own], work);
     const BodyState next = track_velocity(here_.model, here_.scene, own, asked, 0.05);
-    here_.scene.position[own] = next.position;
-    here_.scene.heading[own] = next.heading;
-    here_.scene.velocity[own] = next.velocity;
-    here_.scene.speed[own] = next.speed;
-    here_.scene.steering[own] = next.steering;
+    place_body(next, here_.scene, own);
     slowest = std::min(slowest, next.speed);
   }
   EXPECT_GT(slowest, 4.95) << slowest;
