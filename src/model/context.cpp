@@ -9,6 +9,7 @@ namespace sumogamma {
 
 namespace {
 constexpr double kCreep = 1.0;        // [m/s]
+constexpr double kReturn = 1.5;       // [s]
 constexpr double kRoundOthers = 4.0;  // beyond the boundary [m]
 }  // namespace
 
@@ -28,6 +29,11 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
   auto boundary = [&](double room, const Vec2& outward) {
     if (!std::isfinite(room)) return;
     double limit = std::max(room, 0.0) / type.horizon;
+    // differs from the paper: the boundary beyond the place that it aims at slows nobody who comes
+    // back to its lane from the other side
+    if (on_wheels)
+      limit = std::max(limit, std::min(room, outward.dot(context.sub_goal - scene.position[row])) /
+                                  kReturn);
     // differs from the paper: a wheeled body that points outward can only come back by rolling on
     // while it turns, so it may creep along the inmost direction that it can track, and beyond the
     // boundary no further out than that

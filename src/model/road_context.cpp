@@ -62,8 +62,30 @@ double next_queue_head(const View& view, const Course& course, const PathLink& l
   return std::numeric_limits<double>::infinity();
 }
 
+/// Length [m] of who has stood for long at its line, waiting to give way to the row, for the lane
+/// that `link` leads into; of the longest there, 0 where nobody does.
+double waits_to_join(const View& view, const Course& course, const PathLink& link) {
+  constexpr double kLong = 20.0;  // [s]
+  const LaneId to = view.model.road.connection(link.connection).to;
+  double length = 0.0;
+  for (const ConflictZone& zone : view.model.conflicts[index_of(link.connection)]) {
+    if (zone.yields || view.model.road.connection(zone.foe).to != to) continue;
+    for (const Approach& foe : view.approaches.of(zone.foe)) {
+      const Waiting& waiting = view.approaches.waiting(foe.row);
+      const bool gives_way = waiting.reason == LimitReason::Yield ||
+                             waiting.reason == LimitReason::Crossing ||
+                             waiting.reason == LimitReason::BlockedJunction;
+      if (foe.row != course.row && foe.stands && gives_way && waiting.halted_for == zone.foe &&
+          view.scene.time - waiting.halted_at > kLong)
+        length = std::max(length, foe.length);
+    }
+  }
+  return length;
+}
+
 /// Keep clear: is there room behind a link for the body, should everybody ahead close up and stop?
-/// Id of who takes the room, -1 where there is enough. Sorts `ahead`.
+/// Into a full road drivers let one in who has waited for long, and count its body as well. Id of
+/// who takes the room, -1 where there is enough. Sorts `ahead`.
 std::int64_t blocks_exit(const View& view, DrivingAhead& ahead, const Course& course,
                          const PathLink& link) {
   constexpr double kBraking = 3.5;   // [m/s^2]
@@ -91,7 +113,10 @@ std::int64_t blocks_exit(const View& view, DrivingAhead& ahead, const Course& co
     if (vehicle->front < head) rest = std::min(rest, head + kClosedUp);
     rest = std::min(alone, rest - kClosedUp - (vehicle->front - vehicle->rear));
   }
-  const double needed = link.end + 2.0 * course.half_length + course.type.min_gap + 0.3;
+  if (rest == kNever) return -1;
+  const double joining = waits_to_join(view, course, link);
+  const double needed = link.end + 2.0 * course.half_length + course.type.min_gap + 0.3 +
+                        (joining > 0.0 ? joining + kClosedUp : 0.0);
   return rest < needed ? (end - 1)->id : -1;
 }
 
