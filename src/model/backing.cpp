@@ -124,17 +124,19 @@ std::optional<BodyState> back_out(const Model& model, const RoadState& road, con
   const Path* path = road.path(scene.path[row]);
   if (path == nullptr || !own.on_wheels || !own.is_box) return std::nullopt;
   const AgentType& type = type_of(model.types, scene.type[row]);
-  const double lock = lock_along_path(*path, scene, type, row);
   const BodyState body = body_of(scene, row);
-  if (now <= kStill && !keeps_clear(model.road, scene, geometry, row,
-                                    roll_back(type, body, lock, kRoomToBegin / dt, dt)))
-    return std::nullopt;
   // as fast as it can still stop before the time is over and before whoever is behind
-  double speed = std::min({kPace, now + kThrottle * dt, kBrake * scene.backing_left[row]});
-  const double way = speed * dt + 0.5 * speed * speed / kBrake;
-  if (!keeps_clear(model.road, scene, geometry, row, roll_back(type, body, lock, way / dt, dt)))
-    speed = std::max(0.0, now - kBrake * dt);
-  return roll_back(type, body, lock, speed, dt);
+  const double speed = std::min({kPace, now + kThrottle * dt, kBrake * scene.backing_left[row]});
+  const double to_stop = speed * dt + 0.5 * speed * speed / kBrake;
+  const double way = now <= kStill ? kRoomToBegin : to_stop;
+  // back along its path, or else straight or to a side: who stands beside may leave just that
+  const double along_path = lock_along_path(*path, scene, type, row);
+  const double most = std::tan(type.max_steering);
+  for (const double lock : {along_path, 0.0, most, -most})
+    if (keeps_clear(model.road, scene, geometry, row, roll_back(type, body, lock, way / dt, dt)))
+      return roll_back(type, body, lock, speed, dt);
+  if (now <= kStill) return std::nullopt;
+  return roll_back(type, body, along_path, std::max(0.0, now - kBrake * dt), dt);
 }
 
 }  // namespace sumogamma

@@ -191,9 +191,12 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
       // but for who has halted on its way to let this one past
       const bool on_its_way = theirs != nullptr && !std::isfinite(scene.gate[other]) &&
                               theirs->stretch_at(scene.path_along[other]).changing;
-      // two abreast want each other's lane: of them, too, who is ahead goes first
-      const bool swaps =
-          scene.merge_to[row] != kNoLane && scene.merge_to[row] == scene.lane[other].lane;
+      // two abreast want each other's lane: of them, too, who is ahead goes first, unless it has to
+      // wait for this one to get out of its way
+      const bool waits = std::isfinite(scene.gate[other]) && rear < along + own_half_length &&
+                         scene.standing_time[other] > kHesitates;
+      const bool swaps = !waits && scene.merge_to[row] != kNoLane &&
+                         scene.merge_to[row] == scene.lane[other].lane;
       // who is on its way already and has its middle ahead needs the room beside it, too
       if (on_its_way || swaps || rear > along + own_half_length + 1.0)
         note_merging(

@@ -388,7 +388,7 @@ namespace {
 
 /// Goes on along `old`'s lane for `stay` [m] before it changes, if that leaves room for it.
 std::optional<Path> stay_on(const Remade& old, double stay, double& along) {
-  constexpr double kLeast = 12.0, kMost = 24.0;  // way of a lane change [m]
+  constexpr double kLeast = 5.0, kMost = 24.0;  // way of a lane change [m]
   if (!old.possible()) return std::nullopt;
   const Trip& trip = *old.path.trip;
   const double shortest = std::clamp(3.0 * trip.request.cornering.turning_radius, kLeast, kMost);
