@@ -44,10 +44,9 @@ bool stops_at_ease(double speed, double way, const AgentType& type) {
   return deceleration_to_stop(speed, way) < type.comfortable_deceleration;
 }
 
-/// Is a foe's front in a zone that begins at `begin` on its link [m]?
-bool has_entered(const Approach& foe, double begin) {
-  return foe.front > std::max(begin, 0.0) + 0.3;
-}
+/// Is a front `past` the begin of its link [m] in a zone that begins there at `begin`? Not who has
+/// come to rest at its edge.
+bool has_entered(double past, double begin) { return past > std::max(begin, 0.0) + 0.3; }
 
 /// Has a row waited for longer than another? The smaller id where they began together.
 bool has_waited_longer(const Scene& scene, std::size_t row, std::size_t other) {
@@ -128,7 +127,7 @@ struct Judge {
     zone.foe_end = theirs_to_cover.end;
     const AgentType& foe_type = type_of(model.types, scene.type[foe.row]);
     const AgentType& own_type = type_of(model.types, scene.type[traveller.row]);
-    const bool foe_inside = has_entered(foe, zone.foe_begin);
+    const bool foe_inside = has_entered(foe.front, zone.foe_begin);
     const Connection& foe_link = model.road.connection(zone.foe);
     // who waits at red doesn't come, but somebody who goes at red, too, is waited for by another
     const bool foe_at_red = !foe_inside && foe.front < 0.0 && is_red(road.signal(foe_link));
@@ -473,9 +472,9 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
       zone.yields = true;
       zone.unruled = false;
     }
-    const double to_zone = link.stop_line + zone.begin - traveller.front;
     if (runs_together(model, link.connection, zone.foe)) continue;
-    if (to_zone < 0.3) continue;  // already in it: go on, avoidance does the rest
+    // already in it: go on, avoidance does the rest
+    if (has_entered(traveller.front - link.stop_line, zone.begin)) continue;
     for (const Approach& foe : approaches.of(zone.foe)) {
       const Verdict verdict = judge.of(zone, foe);
       // who comes behind a vehicle that lets us go can't get past it
@@ -494,7 +493,7 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
       if (deceleration_to_stop(traveller.speed, last - traveller.front) > hardest &&
           traveller.speed > 1.0) {
         // too late to halt there, but not for driving on towards who is in the way already
-        if (own_path.walking || !has_entered(foe, zone_of_table.foe_begin)) continue;
+        if (own_path.walking || !has_entered(foe.front, zone_of_table.foe_begin)) continue;
         line = traveller.front + traveller.speed * traveller.speed / (2.0 * hardest);
       }
       if (!decision.must_stop || line < decision.stop_at)
