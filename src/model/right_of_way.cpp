@@ -475,7 +475,9 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
     if (runs_together(model, link.connection, zone.foe)) continue;
     // already in it: go on, avoidance does the rest
     if (has_entered(traveller.front - link.stop_line, zone.begin)) continue;
+    const bool at_edge = link.stop_line + zone.begin - traveller.front < 0.3;
     for (const Approach& foe : approaches.of(zone.foe)) {
+      if (at_edge && foe.stands) continue;
       const Verdict verdict = judge.of(zone, foe);
       // who comes behind a vehicle that lets us go can't get past it
       if (verdict == Verdict::Held && type_of(model.types, scene.type[foe.row]).width > kFillsLane)
