@@ -32,8 +32,8 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
     // differs from the paper: the boundary beyond the place that it aims at slows nobody who comes
     // back to its lane from the other side
     if (on_wheels)
-      limit = std::max(limit, std::min(room, outward.dot(context.sub_goal - scene.position[row])) /
-                                  kReturn);
+      limit = std::max(
+          limit, std::min(room, outward.dot(context.sub_goal - scene.position[row])) / kReturn);
     // differs from the paper: a wheeled body that points outward can only come back by rolling on
     // while it turns, so it may creep along the inmost direction that it can track, and beyond the
     // boundary no further out than that

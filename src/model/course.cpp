@@ -35,9 +35,13 @@ Vec2 chord_direction(const Polyline& line, double from, double to) {
   return chord.norm() > 1e-6 ? Vec2(chord.normalized()) : line.direction_at(to);
 }
 
-/// Over which a path's direction is taken: half a second and more, so that the corners of a coarse
-/// line don't ask for a jerk of the wheel [m].
-double bend_window(const Course& course) { return 1.0 + 0.5 * course.speed; }
+/// Over which a path's direction is taken [m]: half a second and more, so that the corners of a
+/// coarse line don't ask for a jerk of the wheel; less for who is short between its axles and turns
+/// in a hook of a cycle path.
+double bend_window(const Course& course) {
+  constexpr double kCar = 2.5;  // wheelbase [m]
+  return std::min(1.0, course.type.wheelbase / kCar) * (1.0 + 0.5 * course.speed);
+}
 
 /// How the path bends at the body [1/m], positive to the left; no more than the body can.
 double curvature_of(const Course& course) {

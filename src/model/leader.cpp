@@ -195,8 +195,8 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
       // wait for this one to get out of its way
       const bool waits = std::isfinite(scene.gate[other]) && rear < along + own_half_length &&
                          scene.standing_time[other] > kHesitates;
-      const bool swaps = !waits && scene.merge_to[row] != kNoLane &&
-                         scene.merge_to[row] == scene.lane[other].lane;
+      const bool swaps =
+          !waits && scene.merge_to[row] != kNoLane && scene.merge_to[row] == scene.lane[other].lane;
       // who is on its way already and has its middle ahead needs the room beside it, too
       if (on_its_way || swaps || rear > along + own_half_length + 1.0)
         note_merging(

@@ -109,6 +109,18 @@ TEST_F(BackingTest, NobodyMakesRoomForWhoCanRollBack) {
   EXPECT_EQ(here_.scene.backing_left[second], 0.0);
 }
 
+// along its path it would have swung into the lorry beside it; both stood for minutes
+TEST_F(BackingTest, WhoCanNotFollowItsPathBackwardsRollsBackStraight) {
+  const std::size_t own = here_.add("bicycle", {"WC", "CE"}, 100, 0, 0, -1, "WC_1");
+  here_.move(own, 100, -2.0);
+  const std::size_t beside = here_.add("truck", {"WC", "CE"}, 100, 0, 0, -1, "WC_1");
+  const double half_widths = 0.5 * (type_of(here_.model.types, here_.scene.type[own]).width +
+                                    type_of(here_.model.types, here_.scene.type[beside]).width);
+  here_.move(beside, 98, -2.0 + half_widths + 0.02);
+  EXPECT_GT(stand_wedged(own, 40.0), 2.0);
+  EXPECT_GT(separation(here_.geometry.agent[own].box(), here_.geometry.agent[beside].box()), 0.0);
+}
+
 TEST_F(BackingTest, GivingWayHoldsIt) {
   const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
   here_.scene.gives_way_left[own] = 5.0;

@@ -85,6 +85,22 @@ TEST_F(ContextTest, WhoPointsOutwardComesBackTheShortWay) {
   }
 }
 
+// bicycles that a turn had carried onto the other side took 20 m to come back
+TEST_F(ContextTest, TheBoundaryBeyondItsLaneSlowsNobodyWhoComesBack) {
+  const std::size_t own = here_.add("bicycle", {"in", "out"}, 40, 4);
+  here_.move(own, 40, 1.4);
+  here_.update();
+  const double horizon = type_of(here_.model.types, here_.scene.type[own]).horizon;
+  const double room = here_.context(own).room_right;
+  ASSERT_GT(room, 1.4);
+  EXPECT_TRUE(admits(own, {3.5, -1.4 / 1.6}));
+  EXPECT_FALSE(admits(own, {3.5, -1.4 / 1.4})) << "no faster than in a second and a half";
+  // once it is where it means to be, the boundary counts as ever
+  here_.move(own, 40, 0.0);
+  here_.update();
+  EXPECT_FALSE(admits(own, {3.5, -here_.context(own).room_right / horizon - 0.01}));
+}
+
 TEST_F(ContextTest, WheelsNeverGoAgainstTheirDirection) {
   const std::size_t own = here_.add("car", {"in", "out"}, 40, 5);
   here_.update();

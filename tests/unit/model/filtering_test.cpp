@@ -276,6 +276,34 @@ TEST(Swap, OfTwoAbreastWhoWantEachOthersLaneOneLetsTheOtherAhead) {
   EXPECT_NE(here.context(left).foe, static_cast<std::int64_t>(here.scene.id[right].value));
 }
 
+// who was ahead stood at the end of its lane for 360 s, since the other waited beside it
+TEST(Swap, NobodyWaitsForWhoWaitsForItToGetOutOfTheWay) {
+  RoadScene here(testing::read_plain_net(two_lanes()));
+  const std::size_t right = here.add("car", {"WE"}, 60, 0, 0, -1, "WE_0");
+  const std::size_t left = here.add("car", {"WE"}, 60.5, 0, 0, -1, "WE_1");
+  const auto& lanes = here.model.road.lane_by_name;
+  here.scene.merge_to[right] = lanes.at("WE_1");
+  here.scene.merge_to[left] = lanes.at("WE_0");
+  here.update(2);
+  EXPECT_EQ(here.context(right).allowed_speed, 0.0);
+  here.scene.gate[left] = 62;
+  here.scene.standing_time[left] = 3;
+  here.update(2);
+  EXPECT_GT(here.context(right).allowed_speed, 0.3);
+}
+
+TEST_F(NoGap, NarrowVehiclesChangeLanesInLess) {
+  const double end =
+      here_.model.road.lane(here_.model.road.lane_by_name.at("WC_0")).centerline.length();
+  for (const char* type : {"car", "motorcycle"}) {
+    const std::size_t own = here_.add(type, {"WC", "CE", "EL"}, 5, 0, 0, -1, "WC_0");
+    double along = here_.scene.path_along[own];
+    const auto late =
+        stay_in_lane(here_.model.road, here_.path(own), along, end - 9.0 - along, 20.0);
+    EXPECT_EQ(late.has_value(), is_narrow(type_of(here_.model.types, here_.scene.type[own]).width));
+  }
+}
+
 // somebody who stood behind the begin of its path counted as beside it, and it waited for ever
 TEST(Surrounding, WhoIsBehindTheBeginOfAPathIsSeenWhereItIs) {
   RoadScene here(testing::read_plain_net(both_lanes_lead_on()));

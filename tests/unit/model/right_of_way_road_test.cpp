@@ -224,6 +224,56 @@ TEST_F(PriorityTest, NobodyEntersAJunctionWithoutRoomBehindIt) {
   EXPECT_EQ(here_.context(own).foe, here_.scene.id[queue].value);
 }
 
+// into a road that was full nobody from the side road got in for minutes
+TEST_F(PriorityTest, IntoAFullRoadDriversLetOneInWhoHasWaitedForLong) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 3, 0, -1, "WC_0");
+  const PathLink& link = here_.path(own).links.front();
+  here_.move(own, link.stop_line - 12);
+  const std::size_t queue = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  // room for one
+  here_.move(queue, link.end + 4.5 + 3.0 + 2.25);
+  const std::size_t minor = here_.add("car", {"SC", "CE"}, 0, 0);
+  const PathLink& turn = here_.path(minor).links.front();
+  ASSERT_EQ(here_.model.road.connection(turn.connection).to,
+            here_.model.road.connection(link.connection).to);
+  here_.move(minor, turn.stop_line - 2.25 - 0.6);
+  here_.scene.time = 100;
+  here_.scene.halted_for[minor] = turn.connection;
+  here_.scene.halted_at[minor] = 90;
+  here_.update(2);
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
+  EXPECT_NE(here_.context(own).reason, LimitReason::BlockedJunction) << "not yet for long";
+  here_.scene.halted_at[minor] = 70;
+  here_.update();
+  EXPECT_EQ(here_.context(own).reason, LimitReason::BlockedJunction);
+  // it stands and lets the other go
+  here_.move(own, link.stop_line - 2.25 - 0.6);
+  here_.set_speed(own, 0);
+  here_.update(2);
+  EXPECT_NE(here_.context(minor).reason, LimitReason::Yield);
+  // nor where the road isn't full
+  here_.set_speed(queue, 10);
+  here_.update(2);
+  EXPECT_NE(here_.context(own).reason, LimitReason::BlockedJunction);
+}
+
+// a bus came to rest at the edge of the place where their ways cross, took itself for being in
+// there, rolled on and met the other nose to nose
+TEST_F(PriorityTest, WhoHasComeToRestAtAZonesEdgeWaitsThereForWhoMoves) {
+  const std::size_t own = here_.add("car", {"SC", "CN"}, 0, 0.4);
+  const std::size_t foe = here_.add("car", {"WC", "CE"}, 0, 2, 0, -1, "WC_0");
+  here_.move(foe, zone_of(foe, own) + 2.0);
+  for (const double past : {-0.2, 0.2}) {
+    here_.move(own, zone_of(own, foe) - 2.25 + past);
+    here_.set_speed(foe, 2);
+    here_.update();
+    EXPECT_EQ(here_.context(own).reason, LimitReason::Yield) << past;
+    here_.set_speed(foe, 0);
+    here_.update();
+    EXPECT_NE(here_.context(own).reason, LimitReason::Yield) << past << ": past who stands";
+  }
+}
+
 // the second of a queue that sets out waited at the line until the first was fast
 TEST_F(PriorityTest, WhoFollowsAQueueThatSetsOutDoesNotWaitForRoom) {
   const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 1, 0, -1, "WC_0");
