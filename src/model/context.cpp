@@ -9,7 +9,7 @@ namespace sumogamma {
 
 namespace {
 constexpr double kCreep = 1.0;        // [m/s]
-constexpr double kReturn = 1.5;       // [s]
+constexpr double kReturn = 1.5;       // to the place aimed at, at the least [s]
 constexpr double kRoundOthers = 4.0;  // beyond the boundary [m]
 }  // namespace
 
@@ -29,14 +29,10 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
   auto boundary = [&](double room, const Vec2& outward) {
     if (!std::isfinite(room)) return;
     double limit = std::max(room, 0.0) / type.horizon;
-    // differs from the paper: the boundary beyond the place that it aims at slows nobody who comes
-    // back to its lane from the other side
-    if (on_wheels)
-      limit = std::max(
-          limit, std::min(room, outward.dot(context.sub_goal - scene.position[row])) / kReturn);
     // differs from the paper: a wheeled body that points outward can only come back by rolling on
     // while it turns, so it may creep along the inmost direction that it can track, and beyond the
-    // boundary no further out than that
+    // boundary no further out than that; and the boundary beyond the place that it aims at slows
+    // nobody who comes back to its lane from the other side
     if (on_wheels) {
       const bool back_is_right = sumogamma::cross(forward, context.tangent) < 0.0;
       const double turn =
@@ -50,7 +46,9 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
                            {ConstraintKind::LaneBoundary, -1});
         return;
       }
-      limit = std::max(limit, kCreep * std::sin(std::clamp(away - turn, 0.0, 0.5 * kPi)));
+      const double back = std::min(room, outward.dot(context.sub_goal - scene.position[row]));
+      limit = std::max(
+          {limit, kCreep * std::sin(std::clamp(away - turn, 0.0, 0.5 * kPi)), back / kReturn});
     }
     constraints.append({limit * outward, -outward}, {ConstraintKind::LaneBoundary, -1});
   };

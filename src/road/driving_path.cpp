@@ -389,9 +389,11 @@ namespace {
 /// Goes on along `old`'s lane for `stay` [m] before it changes, if that leaves room for it.
 std::optional<Path> stay_on(const Remade& old, double stay, double& along) {
   constexpr double kLeast = 5.0, kMost = 24.0;  // way of a lane change [m]
+  constexpr double kCar = 4.0;                  // turning radius where none is known [m]
   if (!old.possible()) return std::nullopt;
   const Trip& trip = *old.path.trip;
-  const double shortest = std::clamp(3.0 * trip.request.cornering.turning_radius, kLeast, kMost);
+  const double radius = trip.request.cornering.turning_radius;
+  const double shortest = std::clamp(3.0 * (radius > 0.0 ? radius : kCar), kLeast, kMost);
   const LaneOption& option = trip.options[old.index()][static_cast<std::size_t>(old.lane.index)];
   if (option.cost == kUnreachable) return std::nullopt;
   const int changes = std::abs(option.exit_index - old.lane.index);

@@ -281,6 +281,7 @@ TEST(Swap, NobodyWaitsForWhoWaitsForItToGetOutOfTheWay) {
   RoadScene here(testing::read_plain_net(two_lanes()));
   const std::size_t right = here.add("car", {"WE"}, 60, 0, 0, -1, "WE_0");
   const std::size_t left = here.add("car", {"WE"}, 60.5, 0, 0, -1, "WE_1");
+  here.move(left, 60.5, -0.4);
   const auto& lanes = here.model.road.lane_by_name;
   here.scene.merge_to[right] = lanes.at("WE_1");
   here.scene.merge_to[left] = lanes.at("WE_0");
@@ -293,14 +294,21 @@ TEST(Swap, NobodyWaitsForWhoWaitsForItToGetOutOfTheWay) {
 }
 
 TEST_F(NoGap, NarrowVehiclesChangeLanesInLess) {
-  const double end =
-      here_.model.road.lane(here_.model.road.lane_by_name.at("WC_0")).centerline.length();
-  for (const char* type : {"car", "motorcycle"}) {
-    const std::size_t own = here_.add(type, {"WC", "CE", "EL"}, 5, 0, 0, -1, "WC_0");
-    double along = here_.scene.path_along[own];
-    const auto late =
-        stay_in_lane(here_.model.road, here_.path(own), along, end - 9.0 - along, 20.0);
-    EXPECT_EQ(late.has_value(), is_narrow(type_of(here_.model.types, here_.scene.type[own]).width));
+  const LaneId lane = here_.model.road.lane_by_name.at("WC_0");
+  const double end = here_.model.road.lane(lane).centerline.length();
+  for (const double turning_radius : {1.7, 4.5}) {
+    const std::vector<EdgeId> route = testing::route_of(here_.model.road, {"WC", "CE", "EL"});
+    PathRequest request;
+    request.route = route;
+    request.vehicle_class = vehicle_class::kMotorcycle;
+    request.start_lane = lane;
+    request.cornering.turning_radius = turning_radius;
+    std::string why;
+    const auto path = build_driving_path(here_.model.road, request, why);
+    ASSERT_TRUE(path) << why;
+    double along = 5.0;
+    const auto late = stay_in_lane(here_.model.road, *path, along, end - 9.0 - along, 20.0);
+    EXPECT_EQ(late.has_value(), turning_radius < 2.0);
   }
 }
 
