@@ -204,6 +204,41 @@ TEST_F(BendTest, TheSpeedIsKeptWhileTheBodyTurns) {
   EXPECT_GT(slowest, 4.95) << slowest;
 }
 
+//                      (10,8)
+//                         |     cycle paths meet in hooks like this one; bicycles cut across it and
+//                         |     arrived before the wheels of who waited in the other direction
+//   (0,0) ------> (6,0)  _/
+//                 (9,-0.8)
+TEST_F(BendTest, BicyclesFollowAHook) {
+  std::vector<Vec2> points = {Vec2(0, 0), Vec2(6, 0), Vec2(9, -0.8)};
+  for (int degrees = -80; degrees <= 0; degrees += 10)
+    points.push_back(Vec2(9, 0.4) + 1.2 * direction_of(radians(degrees)));
+  points.push_back(Vec2(10.2, 12));
+  Path path;
+  path.line = Polyline(points);
+  PathStretch stretch;
+  stretch.lane = here_.model.road.lane_by_name.at("in_1");
+  stretch.to = path.line.length();
+  stretch.speed_limit = 2;
+  stretch.room_left = stretch.room_right = 2;
+  path.stretches = {stretch};
+  path.speed_profile.assign(26, 1.5);
+  const std::size_t own = here_.add(find_agent_type(here_.model.types, "bicycle"),
+                                    std::make_shared<const Path>(std::move(path)), 2, 1.5);
+  Workspace work;
+  double farthest = 0.0;
+  for (int tick = 0; tick < 200; ++tick) {
+    here_.update();
+    const Vec2 asked = gamma_velocity(here_.model, here_.scene, here_.geometry, own,
+                                      here_.scene.behavior[own], work);
+    place_body(track_velocity(here_.model, here_.scene, own, asked, 0.05), here_.scene, own);
+    const Polyline& line = here_.path(own).line;
+    farthest = std::max(farthest, line.project(here_.scene.position[own], 0, 30).distance);
+  }
+  EXPECT_GT(here_.scene.position[own].y(), 4.0);
+  EXPECT_LT(farthest, 0.4);
+}
+
 // (0,0) --------> (10,0)
 //                   |   somebody who likes to walk a metre to the right would aim at where it is
 //                   v   already, inside the corner
