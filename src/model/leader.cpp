@@ -186,7 +186,8 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     if (std::abs(place.offset - swept) > sides + kept && !comes_back) {
       const bool merges =
           scene.merge_to[other] != kNoLane && scene.merge_to[other] == scene.lane[row].lane;
-      if (!merges) return;
+      // who stands amid its change is passed like anybody else
+      if (!merges || (passes && scene.standing_time[other] > kHesitates)) return;
       const Path* theirs = road.path(scene.path[other]);
       // but for who has halted on its way to let this one past
       const bool on_its_way = theirs != nullptr && !std::isfinite(scene.gate[other]) &&

@@ -97,6 +97,31 @@ TEST_F(Filtering, WhoIsAheadOnTheWayIntoTheGapGoesFirst) {
   EXPECT_NE(cap(other).second, static_cast<std::int64_t>(here_.scene.id[rider_].value));
 }
 
+// the gap was free, and eight motorcycles stood behind one that had halted beside it, amid its
+// change
+TEST_F(Filtering, WhoStandsAmidItsLaneChangeIsPassed) {
+  const std::size_t other = here_.add("motorcycle", {"WE"}, 65, 1, 0, -1, "WE_1");
+  const LaneId lane = here_.model.road.lane_by_name.at("WE_0");
+  double along = here_.scene.path_along[other];
+  auto changing = change_lane(here_.model.road, here_.path(other), along, lane, 12.0, 20.0);
+  ASSERT_TRUE(changing);
+  take_path(std::move(*changing), along, other, here_.road, here_.scene);
+  here_.scene.position[other] = here_.scene.position[rider_] + Vec2(4.0, -1.0);
+  here_.move(rider_, here_.scene.path_along[rider_], 1.75);
+  here_.scene.lateral_aim[rider_] = 1.75;
+  here_.update();
+  ASSERT_TRUE(here_.path(other).stretch_at(here_.scene.path_along[other]).changing);
+  here_.scene.merge_to[other] = lane;
+  const auto lets_in = [&] {
+    DrivingAhead ahead;
+    find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, rider_, 60.0, ahead);
+    return ahead.merging.id;
+  };
+  EXPECT_EQ(lets_in(), static_cast<std::int64_t>(here_.scene.id[other].value));
+  here_.scene.standing_time[other] = 5;
+  EXPECT_EQ(lets_in(), -1);
+}
+
 // who filtered to the left of a bus and then turned right, across its way, was pressed against it
 TEST(FilteringBeforeAJunction, IsOnTheSideOfTheTurn) {
   const RoadNetwork network = testing::read_plain_net(testing::crossroads("priority"));
