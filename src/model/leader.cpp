@@ -186,16 +186,17 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     if (std::abs(place.offset - swept) > sides + kept && !comes_back) {
       const bool merges =
           scene.merge_to[other] != kNoLane && scene.merge_to[other] == scene.lane[row].lane;
+      const bool halted = scene.standing_time[other] > kHesitates;
       // who stands amid its change is passed like anybody else
-      if (!merges || (passes && scene.standing_time[other] > kHesitates)) return;
+      if (!merges || (passes && halted)) return;
       const Path* theirs = road.path(scene.path[other]);
       // but for who has halted on its way to let this one past
       const bool on_its_way = theirs != nullptr && !std::isfinite(scene.gate[other]) &&
                               theirs->stretch_at(scene.path_along[other]).changing;
       // two abreast want each other's lane: of them, too, who is ahead goes first, unless it has to
       // wait for this one to get out of its way
-      const bool waits = std::isfinite(scene.gate[other]) && rear < along + own_half_length &&
-                         scene.standing_time[other] > kHesitates;
+      const bool waits =
+          halted && std::isfinite(scene.gate[other]) && rear < along + own_half_length;
       const bool swaps =
           !waits && scene.merge_to[row] != kNoLane && scene.merge_to[row] == scene.lane[other].lane;
       // who is on its way already and has its middle ahead needs the room beside it, too

@@ -44,9 +44,11 @@ bool stops_at_ease(double speed, double way, const AgentType& type) {
   return deceleration_to_stop(speed, way) < type.comfortable_deceleration;
 }
 
+constexpr double kEdge = 0.3;  // who halts before a zone comes to rest so near its begin [m]
+
 /// Is a front `past` the begin of its link [m] in a zone that begins there at `begin`? Not who has
 /// come to rest at its edge.
-bool has_entered(double past, double begin) { return past > std::max(begin, 0.0) + 0.3; }
+bool has_entered(double past, double begin) { return past > std::max(begin, 0.0) + kEdge; }
 
 /// Has a row waited for longer than another? The smaller id where they began together.
 bool has_waited_longer(const Scene& scene, std::size_t row, std::size_t other) {
@@ -474,8 +476,8 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
     }
     if (runs_together(model, link.connection, zone.foe)) continue;
     // already in it: go on, avoidance does the rest
-    if (has_entered(traveller.front - link.stop_line, zone.begin)) continue;
-    const bool at_edge = link.stop_line + zone.begin - traveller.front < 0.3;
+    if (has_entered(-to_line, zone.begin)) continue;
+    const bool at_edge = to_line + zone.begin < kEdge;
     for (const Approach& foe : approaches.of(zone.foe)) {
       if (at_edge && foe.stands) continue;
       const Verdict verdict = judge.of(zone, foe);

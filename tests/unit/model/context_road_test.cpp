@@ -24,6 +24,30 @@ class ContextTest : public ::testing::Test {
       if (slack(plane, velocity) < -1e-9) return false;
     return true;
   }
+  /// Somebody of a type at a place [m] on a line of its own, with this room to either side [m], as
+  /// fast as the line allows throughout [m/s].
+  std::size_t add_on(const std::vector<Vec2>& line, const char* name, const char* lane, double room,
+                     double along, double speed) {
+    Path path;
+    path.line = Polyline(line);
+    PathStretch stretch;
+    stretch.lane = here_.model.road.lane_by_name.at(lane);
+    stretch.to = path.line.length();
+    stretch.speed_limit = 6;
+    stretch.room_left = stretch.room_right = room;
+    path.stretches = {stretch};
+    path.speed_profile.assign(26, speed);
+    const AgentTypeId type = find_agent_type(here_.model.types, name);
+    path.walking = type_of(here_.model.types, type).kinematics == Kinematics::Holonomic;
+    return here_.add(type, std::make_shared<const Path>(std::move(path)), along, speed);
+  }
+  /// One step of the model and the body.
+  void drive(std::size_t row, Workspace& work) {
+    here_.update();
+    const Vec2 asked = gamma_velocity(here_.model, here_.scene, here_.geometry, row,
+                                      here_.scene.behavior[row], work);
+    place_body(track_velocity(here_.model, here_.scene, row, asked, 0.05), here_.scene, row);
+  }
   RoadScene here_{testing::small_net()};
 };
 
@@ -158,17 +182,7 @@ class BendTest : public ContextTest {
     std::vector<Vec2> points;
     for (int degrees = 0; degrees <= 180; degrees += 2)
       points.push_back(radius * Vec2(std::cos(radians(degrees)), std::sin(radians(degrees))));
-    Path path;
-    path.line = Polyline(points);
-    PathStretch stretch;
-    stretch.lane = here_.model.road.lane_by_name.at("in_1");
-    stretch.to = path.line.length();
-    stretch.speed_limit = 6;
-    stretch.room_left = stretch.room_right = 3;
-    path.stretches = {stretch};
-    path.speed_profile.assign(26, 5.0);
-    return here_.add(find_agent_type(here_.model.types, name),
-                     std::make_shared<const Path>(std::move(path)), 0.5 * kPi * radius, 5.0);
+    return add_on(points, name, "in_1", 3.0, 0.5 * kPi * radius, 5.0);
   }
 };
 
@@ -194,17 +208,13 @@ TEST_F(BendTest, TheSpeedIsKeptWhileTheBodyTurns) {
   Workspace work;
   double slowest = 5.0;
   for (int tick = 0; tick < 20; ++tick) {
-    here_.update();
-    const Vec2 asked = gamma_velocity(here_.model, here_.scene, here_.geometry, own,
-                                      here_.scene.behavior[own], work);
-    const BodyState next = track_velocity(here_.model, here_.scene, own, asked, 0.05);
-    place_body(next, here_.scene, own);
-    slowest = std::min(slowest, next.speed);
+    drive(own, work);
+    slowest = std::min(slowest, here_.scene.speed[own]);
   }
   EXPECT_GT(slowest, 4.95) << slowest;
 }
 
-//                      (10,8)
+//                     (10.2,12)
 //                         |     cycle paths meet in hooks like this one; bicycles cut across it and
 //                         |     arrived before the wheels of who waited in the other direction
 //   (0,0) ------> (6,0)  _/
@@ -214,24 +224,11 @@ TEST_F(BendTest, BicyclesFollowAHook) {
   for (int degrees = -80; degrees <= 0; degrees += 10)
     points.push_back(Vec2(9, 0.4) + 1.2 * direction_of(radians(degrees)));
   points.push_back(Vec2(10.2, 12));
-  Path path;
-  path.line = Polyline(points);
-  PathStretch stretch;
-  stretch.lane = here_.model.road.lane_by_name.at("in_1");
-  stretch.to = path.line.length();
-  stretch.speed_limit = 2;
-  stretch.room_left = stretch.room_right = 2;
-  path.stretches = {stretch};
-  path.speed_profile.assign(26, 1.5);
-  const std::size_t own = here_.add(find_agent_type(here_.model.types, "bicycle"),
-                                    std::make_shared<const Path>(std::move(path)), 2, 1.5);
+  const std::size_t own = add_on(points, "bicycle", "in_1", 2.0, 2.0, 1.5);
   Workspace work;
   double farthest = 0.0;
   for (int tick = 0; tick < 200; ++tick) {
-    here_.update();
-    const Vec2 asked = gamma_velocity(here_.model, here_.scene, here_.geometry, own,
-                                      here_.scene.behavior[own], work);
-    place_body(track_velocity(here_.model, here_.scene, own, asked, 0.05), here_.scene, own);
+    drive(own, work);
     const Polyline& line = here_.path(own).line;
     farthest = std::max(farthest, line.project(here_.scene.position[own], 0, 30).distance);
   }
@@ -244,17 +241,8 @@ TEST_F(BendTest, BicyclesFollowAHook) {
 //                   v   already, inside the corner
 //                 (10,-10)
 TEST_F(ContextTest, SlowWalkersGetRoundASharpCorner) {
-  Path path;
-  path.walking = true;
-  path.line = Polyline({Vec2(0, 0), Vec2(10, 0), Vec2(10, -10)});
-  PathStretch stretch;
-  stretch.lane = here_.model.road.lane_by_name.at("in_0");
-  stretch.to = 20;
-  stretch.speed_limit = stretch.room_left = stretch.room_right = 5;
-  path.stretches = {stretch};
-  path.speed_profile.assign(12, 0.7);
-  const std::size_t own = here_.add(find_agent_type(here_.model.types, "pedestrian"),
-                                    std::make_shared<const Path>(std::move(path)), 5, 0.7);
+  const std::size_t own =
+      add_on({Vec2(0, 0), Vec2(10, 0), Vec2(10, -10)}, "pedestrian", "in_0", 5.0, 5.0, 0.7);
   here_.scene.lateral_aim[own] = -1.0;
   for (int tick = 0; tick < 400 && here_.scene.path_along[own] < 15; ++tick) {
     here_.update();
