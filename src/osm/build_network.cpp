@@ -18,6 +18,7 @@
 #include "osm/osm_reader.h"
 #include "osm/osm_writer.h"
 #include "osm/prepare.h"
+#include "osm/swallowed_roads.h"
 #include "road/sumo_net_reader.h"
 
 namespace sumogamma::osm {
@@ -147,6 +148,26 @@ std::optional<RoadNetwork> patch_apart(const NetconvertRequest& netconvert, cons
   return patched;
 }
 
+/// Runs netconvert on the map, and once more where junctions swallowed the road between them; false
+/// where it was stopped.
+bool convert_map(NetconvertRequest& netconvert, BuildResult& result) {
+  result.command = run_netconvert(netconvert);
+  if (result.command.empty()) return false;
+  const std::vector<NodeGroup> swallowed =
+      swallowed_roads(read_sumo_net(netconvert.folder / netconvert.network));
+  if (swallowed.empty()) return true;
+  // whatever is joined changes what netconvert would join around it: all else stays as it is
+  netconvert.joins = read_joins(netconvert.folder / netconvert.joined);
+  for (const NodeGroup& nodes : swallowed) {
+    result.log.add(Severity::Note, "junctions_joined",
+                   "junctions made one because there was no room for the road between them",
+                   "node/" + *nodes.begin());
+    add_group(nodes, netconvert.joins);
+  }
+  result.command = run_netconvert(netconvert);
+  return !result.command.empty();
+}
+
 /// Builds net.net.xml; false where it was stopped.
 bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result) {
   NetconvertRequest netconvert;
@@ -158,8 +179,7 @@ bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result
   netconvert.layers = has_layers(map);
   netconvert.should_stop = request.should_stop;
   write_prepared_osm(map, request.folder / netconvert.prepared);
-  result.command = run_netconvert(netconvert);
-  if (result.command.empty()) return false;
+  if (!convert_map(netconvert, result)) return false;
   std::optional<RoadNetwork> road = read_sumo_net(network);
   note_overlap_before(*road, result);
   NetworkPatch patch;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <pugixml.hpp>
 #include <regex>
 #include <sstream>
@@ -74,6 +75,22 @@ std::vector<std::string> run(const NetconvertRequest& request, std::vector<std::
   return arguments;
 }
 
+void save(const pugi::xml_document& document, const std::filesystem::path& file) {
+  if (!document.save_file(file.c_str()))
+    throw Error(file.string(), "cannot be written: is the disk full?");
+}
+
+void write_joins(const std::vector<NodeGroup>& joins, const std::filesystem::path& file) {
+  pugi::xml_document document;
+  pugi::xml_node nodes = document.append_child("nodes");
+  for (const NodeGroup& group : joins) {
+    std::string names;
+    for (const std::string& node : group) names += (names.empty() ? "" : " ") + node;
+    nodes.append_child("join").append_attribute("nodes") = names.c_str();
+  }
+  save(document, file);
+}
+
 }  // namespace
 
 std::filesystem::path sumo_home() {
@@ -93,7 +110,7 @@ std::vector<std::string> run_netconvert(const NetconvertRequest& request) {
       typemap + "osmNetconvert.typ.xml," + typemap + "osmNetconvertUrbanDe.typ.xml," + typemap +
           "osmNetconvertPedestrians.typ.xml," + typemap + "osmNetconvertBicycle.typ.xml",
       "--proj", request.projection, "--offset.disable-normalization", "--geometry.remove",
-      "--roundabouts.guess", "--ramps.guess", "--junctions.join", "--junctions.corner-detail", "5",
+      "--roundabouts.guess", "--ramps.guess", "--junctions.corner-detail", "5",
       "--junctions.internal-link-detail", "8",
       // bodies turn about a rear axle: with SUMO's 4 m no bus and hardly a van gets round a
       // right-angled corner
@@ -105,6 +122,14 @@ std::vector<std::string> run_netconvert(const NetconvertRequest& request) {
       "surface,layer,bridge,tunnel,lit,maxspeed,sidewalk,footway,crossing,access,width,junction"};
   if (request.left_hand) arguments.push_back("--lefthand");
   if (request.layers) arguments.insert(arguments.end(), {"--osm.layer-elevation", "5"});
+  if (request.joins.empty()) {
+    arguments.insert(arguments.end(),
+                     {"--junctions.join", "--junctions.join-output", request.joined});
+  } else {
+    const std::string joins = "work/join.nod.xml";
+    write_joins(request.joins, request.folder / joins);
+    arguments.insert(arguments.end(), {"--node-files", joins});
+  }
   return run(request, std::move(arguments));
 }
 
@@ -166,10 +191,8 @@ void write_patch(const std::filesystem::path& network_file, const NetworkPatch& 
     node.append_attribute("id") = junction.c_str();
     node.append_attribute("type") = type.c_str();
   }
-  for (const auto& [file, document] :
-       {std::pair(&edge_file, &edge_document), std::pair(&node_file, &node_document)})
-    if (!document->save_file(file->c_str()))
-      throw Error(file->string(), "cannot be written: is the disk full?");
+  save(edge_document, edge_file);
+  save(node_document, node_file);
 }
 
 }  // namespace
@@ -201,6 +224,17 @@ std::vector<std::string> patch_network(const NetconvertRequest& request,
                                         "--output.original-names"};
   if (request.left_hand) arguments.push_back("--lefthand");
   return run(request, std::move(arguments));
+}
+
+std::vector<NodeGroup> read_joins(const std::filesystem::path& file) {
+  pugi::xml_document document;
+  if (!document.load_file(file.c_str())) throw Error(file.string(), "not a file of joined nodes");
+  std::vector<NodeGroup> groups;
+  for (const pugi::xml_node join : document.child("nodes").children("join")) {
+    std::istringstream names(join.attribute("nodes").value());
+    groups.push_back({std::istream_iterator<std::string>(names), {}});
+  }
+  return groups;
 }
 
 std::map<std::string, long> count_message_kinds(const std::string& log_text) {

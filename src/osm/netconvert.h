@@ -8,6 +8,7 @@
 
 #include "osm/carriageways_apart.h"
 #include "osm/osm_map.h"
+#include "osm/swallowed_roads.h"
 
 namespace sumogamma::osm {
 
@@ -17,11 +18,13 @@ struct NetconvertRequest {
   std::string prepared = "work/prepared.osm";  ///< OSM XML, within the folder
   std::string network = "net.net.xml";         ///< to write
   std::string log = "netconvert.log";          ///< netconvert's own words, appended
+  std::string joined = "work/joined.nod.xml";  ///< to write: what it joined by itself
   std::string projection;
   bool left_hand = false;
   bool layers = false;  ///< give bridges and tunnels a height of 5 m a layer, so that traffic on
                         ///< them is kept apart
-  double time_limit = 1800.0;  ///< [s]
+  std::vector<NodeGroup> joins;  ///< none: netconvert joins as it sees fit
+  double time_limit = 1800.0;    ///< [s]
   std::function<bool()> should_stop;
 };
 
@@ -33,6 +36,10 @@ std::filesystem::path sumo_home();
 /// command line. Throws Error with netconvert's own message where it is missing, fails or crashes;
 /// returns an empty command where should_stop ended it.
 std::vector<std::string> run_netconvert(const NetconvertRequest& request);
+
+/// The groups of nodes in a file of joins, as netconvert writes it to request.joined. Throws Error
+/// where it is none.
+std::vector<NodeGroup> read_joins(const std::filesystem::path& file);
 
 /// What netconvert 1.15 does not take from OSM, for a second pass over the finished network.
 struct NetworkPatch {

@@ -172,6 +172,9 @@ TEST_F(ImportTest, MonacoRunsWithAHundredAlive) {
     EXPECT_GT(report["demand"]["by_type"][type]["departures"], 0) << type;
   }
   EXPECT_GT(report["obstacles"]["buildings"], 400);
+  // two junctions 6 m apart, which netconvert leaves as they are
+  const RoadNetwork road = read_sumo_net(out() / "net.net.xml");
+  EXPECT_TRUE(road.junction_by_name.contains("cluster_25191494_25191502"));
   const ProcessResult sumo = simulate("200");
   ASSERT_EQ(sumo.exit_code, 0) << sumo.errors;
   const auto running = [&](const char* key) {

@@ -2,10 +2,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "base/error.h"
 
 namespace sumogamma::osm {
 namespace {
 
+using testing::ElementsAre;
 using testing::Pair;
 using testing::UnorderedElementsAre;
 
@@ -19,6 +25,18 @@ TEST(CountMessageKinds, ForgetsIdsAndNumbers) {
               UnorderedElementsAre(Pair("Warning: Edge '*' has a grade of N%.", 2),
                                    Pair("Error: No way found for '*'", 1)));
   EXPECT_TRUE(count_message_kinds("").empty());
+}
+
+TEST(ReadJoins, TakesTheGroupsOfAFile) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("sumogamma_joins_" + std::to_string(getpid()));
+  std::ofstream(file) << "<nodes><join nodes=\"1 22\"/><joinExclude nodes=\"7\"/>"
+                         "<join nodes=\"3 4 5\" x=\"1\"/></nodes>";
+  EXPECT_THAT(read_joins(file), ElementsAre(ElementsAre("1", "22"), ElementsAre("3", "4", "5")));
+  std::ofstream(file) << "no XML";
+  EXPECT_THROW(read_joins(file), Error);
+  std::filesystem::remove(file);
+  EXPECT_THROW(read_joins(file), Error);
 }
 
 }  // namespace

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "road/road_network.h"
+
+namespace sumogamma::osm {
+
+/// Nodes of the map that are to be one junction.
+using NodeGroup = std::set<std::string>;
+
+/// Two junctions that are nearer to each other than each of them is wide swallow the road between
+/// them, and netconvert draws what is left of it outside of both: a lane that begins beyond the
+/// node where it ends. Its own joining of junctions leaves such pairs where it reduces a large
+/// cluster. The nodes of such junctions; of those that netconvert joined, at least the ones in
+/// their names.
+std::vector<NodeGroup> swallowed_roads(const RoadNetwork& road);
+
+/// Adds a group to others; ones that share a node become one.
+void add_group(NodeGroup group, std::vector<NodeGroup>& groups);
+
+}  // namespace sumogamma::osm

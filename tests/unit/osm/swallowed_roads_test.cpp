@@ -1,0 +1,69 @@
+#include "osm/swallowed_roads.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace sumogamma::osm {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+/// A road of one lane from a junction to another, its line as drawn.
+void add_road(RoadNetwork& road, const char* from, const Vec2& begin, const char* to,
+              const Vec2& end, const std::vector<Vec2>& drawn) {
+  const auto junction = [&](const char* name, const Vec2& place) {
+    for (std::size_t i = 0; i < road.junctions.size(); ++i)
+      if (road.junctions[i].name == name) return static_cast<JunctionId>(i);
+    Junction made;
+    made.name = name;
+    made.position = place;
+    road.junctions.push_back(made);
+    return static_cast<JunctionId>(road.junctions.size() - 1);
+  };
+  Edge edge;
+  edge.from = junction(from, begin);
+  edge.to = junction(to, end);
+  Lane lane;
+  lane.edge = static_cast<EdgeId>(road.edges.size());
+  lane.centerline = Polyline(drawn);
+  edge.lanes = {static_cast<LaneId>(road.lanes.size())};
+  road.lanes.push_back(lane);
+  road.edges.push_back(edge);
+}
+
+TEST(SwallowedRoads, LieOutsideOfBothTheirJunctions) {
+  RoadNetwork road;
+  add_road(road, "a", {0, 0}, "b", {3, 0}, {{-8, 0}, {-0.5, 0}});  // before its begin
+  EXPECT_THAT(swallowed_roads(road), ElementsAre(ElementsAre("a", "b")));
+  add_road(road, "c", {50, 0}, "d", {54, 0}, {{56, 1}, {62, 1}});  // behind its end
+  EXPECT_THAT(swallowed_roads(road), ElementsAre(ElementsAre("a", "b"), ElementsAre("c", "d")));
+}
+
+TEST(SwallowedRoads, OthersAreLeftAlone) {
+  RoadNetwork road;
+  add_road(road, "a", {0, 0}, "b", {6, 0}, {{2, 0}, {4, 0}});     // short, and between them
+  add_road(road, "a", {0, 0}, "c", {0, 5}, {{0, 6}, {0, 6.2}});   // what netconvert leaves of most
+  add_road(road, "c", {0, 5}, "d", {99, 5}, {{-9, 5}, {-1, 5}});  // far apart
+  add_road(road, "d", {99, 5}, "e", {99, 8}, {{99, 9}, {99, 60}});  // a loop
+  EXPECT_THAT(swallowed_roads(road), IsEmpty());
+}
+
+TEST(SwallowedRoads, OnesThatMeetMakeOneJunctionAndClustersAreTheirNodes) {
+  RoadNetwork road;
+  add_road(road, "a", {0, 0}, "b", {3, 0}, {{-8, 0}, {-0.5, 0}});
+  add_road(road, "x", {70, 0}, "y", {73, 0}, {{62, 0}, {69, 0}});
+  add_road(road, "b", {3, 0}, "cluster_c_d_#2more", {6, 0}, {{7, 0}, {9, 0}});
+  EXPECT_THAT(swallowed_roads(road),
+              ElementsAre(ElementsAre("x", "y"), ElementsAre("a", "b", "c", "d")));
+}
+
+// joins that netconvert made by itself, and one that is to be made besides
+TEST(AddGroup, TakesInWhatItMeets) {
+  std::vector<NodeGroup> joins = {{"c", "d", "e"}, {"g", "h"}, {"b", "i"}};
+  add_group({"a", "b", "c"}, joins);
+  EXPECT_THAT(joins, ElementsAre(ElementsAre("g", "h"), ElementsAre("a", "b", "c", "d", "e", "i")));
+}
+
+}  // namespace
+}  // namespace sumogamma::osm
