@@ -199,6 +199,19 @@ double eased(const Scene& scene, const Course& course, double acceleration, doub
   return std::min(acceleration, std::max(now, kBraked) + kJerk * dt);
 }
 
+/// The profile's speed with some time to reach it: who follows a line of short straight pieces,
+/// aside of it, gets on along it by jumps.
+double foreseen_limit(const Path& path, double along, double speed, double dt) {
+  constexpr double kAhead = 0.4;    // [s]
+  constexpr double kNearest = 0.5;  // [m]
+  const double here = path.profile_at(along);
+  const double way = std::max(std::max(kAhead, dt) * speed, kNearest);
+  const double there = path.profile_at(along + way);
+  if (there >= speed) return std::max(here, speed);
+  const double braking = (speed * speed - there * there) / (2.0 * way);
+  return std::max(speed - braking * dt, there);
+}
+
 /// Stop lines of neighbouring lanes need not be level: who reaches over the edge of its lane halts
 /// a little before its own [m].
 double beside_lane(const Model& model, const Course& course) {
@@ -444,7 +457,10 @@ void update_road_contexts(const Model& model, const RoadState& road, const Spati
             path->walking ? std::max(0.0, scene.velocity[row].dot(tangent)) : scene.speed[row],
             scene.manners[row].headway_factor};
         context.active = true;
-        context.speed_limit = std::min(path->profile_at(along), scene.preferred_speed[row]);
+        context.speed_limit =
+            std::min(path->walking ? path->profile_at(along)
+                                   : foreseen_limit(*path, along, course.speed, dt),
+                     scene.preferred_speed[row]);
         set_geometry(model, scene, course, context);
         if (path->walking) {
           follow_on_foot(view, course, context);

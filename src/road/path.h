@@ -114,7 +114,7 @@ struct Path {
   bool walking = false;
   std::shared_ptr<const Trip> trip;  ///< null on foot
 
-  static constexpr double kProfileStep = 2.0;
+  static constexpr double kProfileStep = 1.0;
 
   /// Stretch that holds `along` (clamped). Precondition: not empty.
   const PathStretch& stretch_at(double along) const;

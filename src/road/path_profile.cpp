@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -31,6 +30,8 @@ std::vector<double> turning_sums(const Polyline& line, double step, std::size_t 
   return sums;
 }
 
+constexpr double kFastest = 100.0;  ///< where nothing bends [m/s]
+
 /// Speed [m/s] that the bend at place i leaves: the lateral acceleration is the comfortable one on
 /// the mean over the way that the vehicle covers at that speed while it steers into the bend and
 /// out of it, since a driver spreads what a map draws as a kink.
@@ -47,23 +48,74 @@ double speed_in_bend(const std::vector<double>& sums, double step, std::size_t i
     const bool covers = comfortable * kSteers > reach - step;
     if (covers || k == 1) return k < widest ? std::min(comfortable, reach / kSteers) : comfortable;
   }
-  return std::numeric_limits<double>::infinity();
+  return kFastest;
+}
+
+/// Speeds [m/s] that a line's bends leave at places `step` [m] apart.
+std::vector<double> speeds_in_bends(const Polyline& line, double step,
+                                    double lateral_acceleration) {
+  const auto count = static_cast<std::size_t>(std::ceil(line.length() / step)) + 1;
+  const std::vector<double> sums = turning_sums(line, step, count);
+  std::vector<double> speeds(count);
+  for (std::size_t i = 0; i < count; ++i)
+    speeds[i] = speed_in_bend(sums, step, i, lateral_acceleration);
+  return speeds;
+}
+
+/// A speed [m/s] between places `step` [m] apart, linear in its square, so that braking from one to
+/// the next is steady.
+double speed_between(const std::vector<double>& speeds, double step, double along) {
+  const double place = std::max(along, 0.0) / step;
+  const auto index = static_cast<std::size_t>(place);
+  if (index + 1 >= speeds.size()) return speeds.back();
+  const double t = place - static_cast<double>(index);
+  const double here = speeds[index], next = speeds[index + 1];
+  return std::sqrt((1.0 - t) * here * here + t * next * next);
+}
+
+/// Ramps of some time where braking begins and ends, instead of steps: the mean of the squares over
+/// the way that is covered in that time, of a profile that holds its lows for a while.
+void ease_profile(std::vector<double>& profile) {
+  constexpr double kHold = 0.15, kRamp = 0.4;  // to each side [s]
+  const std::size_t count = profile.size();
+  /// Places to each side that are covered in some time, as far as there are any.
+  const auto places = [&](std::size_t i, double time) {
+    const std::size_t most = std::min(i, count - 1 - i);
+    return std::min(time * profile[i] / Path::kProfileStep, static_cast<double>(most));
+  };
+  std::vector<double> squares(count), sums(count + 1, 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = profile.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto reach = static_cast<std::ptrdiff_t>(places(i, kHold));
+    const double low = *std::min_element(at - reach, at + reach + 1);
+    squares[i] = low * low;
+    sums[i + 1] = sums[i] + squares[i];
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    // the outermost ones count in part, so that the window grows with the speed without steps
+    const double reach = places(i, kRamp);
+    const auto whole = static_cast<std::size_t>(reach);
+    const double part = reach - static_cast<double>(whole);
+    double sum = sums[i + whole + 1] - sums[i - whole];
+    if (part > 0.0) sum += part * (squares[i - whole - 1] + squares[i + whole + 1]);
+    profile[i] = std::sqrt(sum / (2.0 * reach + 1.0));
+  }
 }
 }  // namespace
 
 void compute_speed_profile(const PathRequest& request, Path& path) {
+  constexpr double kBendStep = 2.0;  // finer, and what is left of the map's kinks counts as bends
   const double length = path.line.length();
   const auto samples = static_cast<std::size_t>(std::ceil(length / Path::kProfileStep)) + 1;
+  const std::vector<double> in_bends =
+      path.walking ? std::vector<double>{}
+                   : speeds_in_bends(path.line, kBendStep, request.max_lateral_acceleration);
   path.speed_profile.resize(samples);
-  const std::vector<double> turning =
-      path.walking ? std::vector<double>{} : turning_sums(path.line, Path::kProfileStep, samples);
   for (std::size_t i = 0; i < samples; ++i) {
     const double along = std::min(static_cast<double>(i) * Path::kProfileStep, length);
     double speed =
         std::min(path.stretch_at(along).speed_limit * request.speed_factor, request.max_speed);
-    if (!path.walking)
-      speed = std::min(
-          speed, speed_in_bend(turning, Path::kProfileStep, i, request.max_lateral_acceleration));
+    if (!path.walking) speed = std::min(speed, speed_between(in_bends, kBendStep, along));
     path.speed_profile[i] = std::max(speed, 1.5);
   }
   if (path.walking) return;
@@ -73,6 +125,7 @@ void compute_speed_profile(const PathRequest& request, Path& path) {
         std::sqrt(ahead * ahead + 2.0 * request.comfortable_deceleration * Path::kProfileStep);
     path.speed_profile[i] = std::min(path.speed_profile[i], brake);
   }
+  ease_profile(path.speed_profile);
 }
 
 namespace {
@@ -308,14 +361,7 @@ const PathStretch& Path::stretch_at(double along) const {
 }
 
 double Path::profile_at(double along) const {
-  if (speed_profile.empty()) return 0.0;
-  const double place = std::max(along, 0.0) / kProfileStep;
-  const auto index = static_cast<std::size_t>(place);
-  if (index + 1 >= speed_profile.size()) return speed_profile.back();
-  // squares, so that braking from one place to the next is steady
-  const double t = place - static_cast<double>(index);
-  const double here = speed_profile[index], next = speed_profile[index + 1];
-  return std::sqrt((1.0 - t) * here * here + t * next * next);
+  return speed_profile.empty() ? 0.0 : speed_between(speed_profile, kProfileStep, along);
 }
 
 }  // namespace sumogamma

@@ -352,8 +352,8 @@ TEST(SpeedProfile, BrakesSteadilyBetweenItsPlaces) {
   path.line = Polyline({{0, 0}, {4, 0}});
   path.speed_profile = {6.0, 5.0, 4.0};
   // v^2 is linear along the way where the deceleration is steady
-  EXPECT_NEAR(path.profile_at(1.0), std::sqrt(0.5 * (36.0 + 25.0)), 1e-12);
-  EXPECT_NEAR(path.profile_at(2.0), 5.0, 1e-12);
+  EXPECT_NEAR(path.profile_at(0.5 * Path::kProfileStep), std::sqrt(0.5 * (36.0 + 25.0)), 1e-12);
+  EXPECT_NEAR(path.profile_at(Path::kProfileStep), 5.0, 1e-12);
 }
 
 // A path whose rounded corner passes the end of its lane before its own stop line does.
@@ -455,18 +455,47 @@ TEST_F(Crossroads, BrakesBeforeTheBendAtEase) {
   }
 }
 
-TEST(SpeedProfile, TakesAnArcAtTheComfortLimit) {
-  constexpr double kRadius = 20;
+/// A quarter of a circle between straights of 150 and 180 m, allowed at 25 m/s.
+Path along_arc(double radius) {
   std::vector<Vec2> points = {{-150, 0}};
   for (int degrees = 0; degrees <= 90; ++degrees)
     points.push_back(
-        {kRadius * std::sin(radians(degrees)), kRadius - kRadius * std::cos(radians(degrees))});
-  points.push_back({kRadius, 200});
+        {radius * std::sin(radians(degrees)), radius - radius * std::cos(radians(degrees))});
+  points.push_back({radius, radius + 180});
   Path path;
   path.line = Polyline(points);
   path.stretches.push_back({});
   path.stretches.back().to = path.line.length();
   path.stretches.back().speed_limit = 25;
+  return path;
+}
+
+// The brakes go down and come up over some time before and in a bend: steps would be jerks.
+TEST(SpeedProfile, BrakesByRamps) {
+  constexpr double kRadius = 20;
+  Path path = along_arc(kRadius);
+  PathRequest request;
+  request.max_lateral_acceleration = 2.0;
+  request.comfortable_deceleration = 2.5;
+  compute_speed_profile(request, path);
+  const auto braking = [&](std::size_t i) {
+    const double v = path.speed_profile[i], next = path.speed_profile[i + 1];
+    return (v * v - next * next) / (2 * Path::kProfileStep);
+  };
+  double hardest = 0.0, jerk = 0.0;
+  const auto in_bend = static_cast<std::size_t>((150 + 0.5 * kRadius) / Path::kProfileStep);
+  for (std::size_t i = 0; i + 1 < in_bend; ++i) {
+    const double time = Path::kProfileStep / path.speed_profile[i + 1];
+    jerk = std::max(jerk, std::abs(braking(i + 1) - braking(i)) / time);
+    hardest = std::max(hardest, braking(i));
+  }
+  EXPECT_NEAR(hardest, 2.5, 0.01);
+  EXPECT_LT(jerk, 2.5 / 0.6);
+}
+
+TEST(SpeedProfile, TakesAnArcAtTheComfortLimit) {
+  constexpr double kRadius = 20;
+  Path path = along_arc(kRadius);
   PathRequest request;
   request.max_lateral_acceleration = 2.0;
   compute_speed_profile(request, path);
