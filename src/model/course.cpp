@@ -75,6 +75,15 @@ double lean_of(const Course& course, double curvature, bool keep_left) {
   return std::clamp(curvature * length * length / 16.0, -kMost, kMost);
 }
 
+/// How far to the inside of a bend an offset from the path may be [m]: what is left of the bend
+/// there, a body can still turn.
+double inside_of(const Course& course, double curvature, double offset) {
+  if (curvature * offset <= 0.0) return offset;
+  const double tightest = std::tan(course.type.max_steering) / course.type.wheelbase;
+  const double most = std::max(1.0 / std::abs(curvature) - 1.0 / tightest, 0.0);
+  return std::clamp(offset, -most, most);
+}
+
 constexpr double kDrift = 0.15;  // out of one's lane [m/s]
 
 }  // namespace
@@ -106,7 +115,8 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
     // the sub-goal lies ahead in the path's own coordinates: aimed at straight, it would cut every
     // bend by the look-ahead squared over twice the radius, which is metres for a bus
     const double curvature = curvature_of(course);
-    offset += lean_of(course, curvature, model.road.left_hand);
+    offset =
+        inside_of(course, curvature, offset) + lean_of(course, curvature, model.road.left_hand);
     context.tangent = direction_to_steer(course, curvature);
     context.bend = bend_of(course, scene.heading[course.row]);
     context.sub_goal = scene.position[course.row] + look_ahead(course) * context.tangent +

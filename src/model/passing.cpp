@@ -157,7 +157,11 @@ double passing_offset(const Model& model, const Path& path, const Scene& scene,
   double most_right = std::min(half + 0.15 - here.room_right - over_right, 0.0);
   keep_to_turning_side(model.road, path, around, most_left, most_right);
   if (over == 0.0) keep_to_light(model.road, path, around, most_left, most_right);
-  const double liked = std::clamp(scene.path_offset[row], most_right, most_left);
+  // what a junction has beside its lanes is for who has to get past, and for bodies that swing
+  const Lane& lane = model.road.lane(here.lane);
+  const double liked =
+      std::clamp(scene.path_offset[row], std::min(most_right + lane.beside_right, 0.0),
+                 std::max(most_left - lane.beside_left, 0.0));
   const bool narrow = is_narrow(2.0 * half);
   const auto hope = [&](double offset, double margin) {
     return narrow ? filtering_hope(scene, around, offset, free_speed, margin)

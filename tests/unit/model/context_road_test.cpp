@@ -84,6 +84,52 @@ TEST_F(ContextTest, BeyondTheBoundaryOnlyBackOrAlong) {
   EXPECT_FALSE(admits(own, {1.0, 0.1}));
 }
 
+// A bicycle that keeps to the inside of its lane leaves that place in a bend which it could not
+// turn there, and doesn't cut it.
+TEST_F(ContextTest, NobodyAimsFurtherInThanItCanTurn) {
+  constexpr double kRadius = 1.4, kAside = 0.6;
+  std::vector<Vec2> line = {{-10, 0}};
+  for (int degrees = 0; degrees <= 180; degrees += 5)
+    line.push_back(
+        {kRadius * std::sin(radians(degrees)), kRadius - kRadius * std::cos(radians(degrees))});
+  line.push_back({-10, 2 * kRadius});
+  const std::size_t own = add_on(line, "bicycle", "in_1", 3.0, 10.0 + 0.5 * kPi * kRadius, 1.0);
+  const auto aside_at = [&](double aim) {
+    here_.scene.lateral_aim[own] = aim;
+    here_.update();
+    const RoadContext& context = here_.context(own);
+    return (context.sub_goal - here_.scene.position[own]).dot(left_of(context.tangent));
+  };
+  const double on_path = aside_at(0.0);
+  EXPECT_NEAR(aside_at(-kAside) - on_path, -kAside, 1e-9);
+  const double tightest = 1.05;  // of its rear axle
+  EXPECT_NEAR(aside_at(kAside) - on_path, kRadius - tightest, 0.2);
+}
+
+// Who follows a line of short straight pieces at its inside gets on along it by jumps, which must
+// not become jerks: a centimetre here and there is no reason to brake harder.
+TEST_F(ContextTest, BrakesSteadilyThoughItGetsOnByJumps) {
+  constexpr double kBraking = 2.5, kTop = 12.0, kStep = 0.05, kJerk = 3.0;
+  const std::size_t own = add_on({{0, 0}, {25, 0}}, "car", "in_1", 2.0, 10.0, kTop);
+  Path path = *here_.road.path(here_.scene.path[own]);
+  for (std::size_t i = 0; i < path.speed_profile.size(); ++i)
+    path.speed_profile[i] =
+        std::sqrt(kTop * kTop - 2.0 * kBraking * static_cast<double>(i) * Path::kProfileStep);
+  here_.road.paths[static_cast<std::size_t>(here_.scene.path[own])] =
+      std::make_shared<const Path>(path);
+  const auto limit_at = [&](double along) {
+    here_.move(own, along, 0.0);
+    here_.scene.speed[own] = path.profile_at(10.0);
+    here_.scene.preferred_speed[own] = kTop;
+    here_.update();
+    return here_.context(own).speed_limit;
+  };
+  const double there = limit_at(10.0);
+  EXPECT_NEAR((here_.scene.speed[own] - there) / kStep, kBraking, 0.1);
+  EXPECT_NEAR(limit_at(10.08), there, kJerk * kStep * kStep);
+  EXPECT_LT(limit_at(10.08), there);
+}
+
 // A car across the road, its front over the left boundary: it comes back by turning towards its
 // way, the short way round, however far it points beyond.
 TEST_F(ContextTest, WhoPointsOutwardComesBackTheShortWay) {

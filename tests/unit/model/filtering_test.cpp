@@ -8,6 +8,7 @@
 #include "model/locate.h"
 #include "model/passing.h"
 #include "support/road_scene.h"
+#include "support/small_net.h"
 
 namespace sumogamma {
 namespace {
@@ -41,6 +42,20 @@ TEST(PassingSpeed, LeavesTheWayThatTurningOutTakes) {
   passed.taken = false;
   passed.now = 0.35;
   EXPECT_GE(passing_speed(passed, motorcycle), filtering_speed(0.35));
+}
+
+// A junction has room beside its lanes, for whoever has to get past: nobody rides there for liking.
+TEST(PassingOffset, NobodyLikesToRideBesideTheLanesOfAJunction) {
+  RoadScene here{testing::small_net()};
+  const std::size_t own = here.add("bicycle", {"in", "out"}, 100, 4);
+  here.scene.path_offset[own] = -2.0;
+  here.update();
+  const PathStretch& stretch = here.path(own).stretch_at(100);
+  ASSERT_GT(stretch.room_right, 2.8);
+  Surroundings around;
+  look_around(here.model, here.road, here.scene, here.geometry.grid, own, 60.0, 8.0, around);
+  const double place = passing_offset(here.model, here.path(own), here.scene, around, own);
+  EXPECT_NEAR(place, -(1.6 - around.half_width - 0.15), 1e-9);
 }
 
 PlainNet two_lanes() {
