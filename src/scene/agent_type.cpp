@@ -85,7 +85,7 @@ AgentTypeTable default_agent_types() {
        .max_steering_rate = radians(60),
        .max_speed = 55.0,
        .preferred_speed = 13.9,
-       .max_acceleration = 2.6,
+       .max_acceleration = 2.5,
        .comfortable_deceleration = 2.5,
        .max_deceleration = 8.0,
        .max_lateral_acceleration = 3.0,
