@@ -260,8 +260,9 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
       limit(std::max(courtesy, -kCourtesy), LimitReason::Leader, ahead.merging.id, binding,
             context);
   }
-  const Traveller traveller{course.row, front + beside_lane(model, course),
-                            2.0 * course.half_length, course.speed, free_speed};
+  const double length = 2.0 * course.half_length;
+  const Traveller traveller{course.row, front + beside_lane(model, course), length, course.speed,
+                            free_speed};
   // who stands sees the light at the head of its queue
   constexpr double kSeesLight = 100.0;  // [m]
   bool first = true;
@@ -281,6 +282,12 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
             binding, context);
     }
     LinkDecision decision = decide_link(model, road, scene, approaches, traveller, link);
+    // who gets over the edge of its lane just before its line isn't too near to halt for that
+    if (!decision.must_stop && traveller.front > front && link.stop_line > front) {
+      const Traveller own{course.row, front, length, course.speed, free_speed};
+      const LinkDecision held = decide_link(model, road, scene, approaches, own, link);
+      if (held.must_stop && held.reason == LimitReason::Signal) decision = held;
+    }
     if (first) context.at_red = decision.must_stop && decision.reason == LimitReason::Signal;
     first = false;
     // who waits on the junction goes no further, either

@@ -41,6 +41,21 @@ TEST_F(SignalTest, RedHoldsWhoStandsAtTheLine) {
   EXPECT_LT(here_.context(own).allowed_speed, 0.1);
 }
 
+// A motorcycle that drifted over the edge of its lane while it braked for amber took itself for too
+// near to halt, drove on and passed at red.
+TEST_F(SignalTest, AmberHoldsWhoGetsOverTheEdgeOfItsLaneAtTheLine) {
+  const std::size_t own = here_.add("motorcycle", {"in", "out"}, 60, 0.5);
+  const PathLink& link = here_.path(own).links.front();
+  const double half = 0.5 * type_of(here_.model.types, here_.scene.type[own]).length;
+  show('y');
+  for (const double before : {1.0, 0.8, 0.7, 0.65}) {
+    here_.move(own, link.stop_line - half - before, 1.5);
+    here_.update();
+    EXPECT_EQ(here_.context(own).reason, LimitReason::Signal) << before;
+    EXPECT_LT(here_.context(own).allowed_speed, 0.5) << before;
+  }
+}
+
 TEST_F(SignalTest, WhoStandsDownTheQueueKnowsThatItIsRed) {
   const std::size_t own = here_.add("car", {"in", "out"}, 30, 0);
   here_.scene.standing_time[own] = 5.0;
