@@ -43,13 +43,16 @@ double bend_window(const Course& course) {
   return std::min(1.0, course.type.wheelbase / kCar) * (1.0 + 0.5 * course.speed);
 }
 
+/// The tightest bend that a body can turn in [1/m].
+double tightest_bend(const AgentType& type) { return std::tan(type.max_steering) / type.wheelbase; }
+
 /// How the path bends at the body [1/m], positive to the left; no more than the body can.
 double curvature_of(const Course& course) {
   const Polyline& line = course.path.line;
   const double along = course.along, window = bend_window(course);
   const Vec2 before = chord_direction(line, along - window, along);
   const double turn = heading_of(to_body(chord_direction(line, along, along + window), before));
-  const double tightest = std::tan(course.type.max_steering) / course.type.wheelbase;
+  const double tightest = tightest_bend(course.type);
   return std::clamp(turn / window, -tightest, tightest);
 }
 
@@ -79,8 +82,7 @@ double lean_of(const Course& course, double curvature, bool keep_left) {
 /// there, a body can still turn.
 double inside_of(const Course& course, double curvature, double offset) {
   if (curvature * offset <= 0.0) return offset;
-  const double tightest = std::tan(course.type.max_steering) / course.type.wheelbase;
-  const double most = std::max(1.0 / std::abs(curvature) - 1.0 / tightest, 0.0);
+  const double most = std::max(1.0 / std::abs(curvature) - 1.0 / tightest_bend(course.type), 0.0);
   return std::clamp(offset, -most, most);
 }
 

@@ -148,14 +148,15 @@ std::optional<RoadNetwork> patch_apart(const NetconvertRequest& netconvert, cons
   return patched;
 }
 
-/// Runs netconvert on the map, and once more where junctions swallowed the road between them; false
-/// where it was stopped.
-bool convert_map(NetconvertRequest& netconvert, BuildResult& result) {
+/// Runs netconvert on the map, and once more where junctions swallowed the road between them. The
+/// network, or nothing where it was stopped.
+std::optional<RoadNetwork> convert_map(NetconvertRequest& netconvert, BuildResult& result) {
+  const std::filesystem::path network = netconvert.folder / netconvert.network;
   result.command = run_netconvert(netconvert);
-  if (result.command.empty()) return false;
-  const std::vector<NodeGroup> swallowed =
-      swallowed_roads(read_sumo_net(netconvert.folder / netconvert.network));
-  if (swallowed.empty()) return true;
+  if (result.command.empty()) return std::nullopt;
+  RoadNetwork road = read_sumo_net(network);
+  const std::vector<NodeGroup> swallowed = swallowed_roads(road);
+  if (swallowed.empty()) return road;
   // whatever is joined changes what netconvert would join around it: all else stays as it is
   netconvert.joins = read_joins(netconvert.folder / netconvert.joined);
   for (const NodeGroup& nodes : swallowed) {
@@ -165,7 +166,8 @@ bool convert_map(NetconvertRequest& netconvert, BuildResult& result) {
     add_group(nodes, netconvert.joins);
   }
   result.command = run_netconvert(netconvert);
-  return !result.command.empty();
+  if (result.command.empty()) return std::nullopt;
+  return read_sumo_net(network);
 }
 
 /// Builds net.net.xml; false where it was stopped.
@@ -179,8 +181,8 @@ bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result
   netconvert.layers = has_layers(map);
   netconvert.should_stop = request.should_stop;
   write_prepared_osm(map, request.folder / netconvert.prepared);
-  if (!convert_map(netconvert, result)) return false;
-  std::optional<RoadNetwork> road = read_sumo_net(network);
+  std::optional<RoadNetwork> road = convert_map(netconvert, result);
+  if (!road) return false;
   note_overlap_before(*road, result);
   NetworkPatch patch;
   patch.roundabouts = unmarked_roundabouts(network, map);

@@ -5,8 +5,8 @@
 namespace sumogamma {
 
 /// Fills path.speed_profile from lane limits and curvature (v^2 kappa <= lateral acceleration),
-/// then brakes backwards with the comfortable deceleration. Curvature is Menger's over +-4 m, so
-/// that the vertices of a polyline don't count as bends.
+/// then brakes backwards with the comfortable deceleration, by ramps. Curvature is the mean turning
+/// over the way that the steering takes, so that a map's kinks are spread as drivers do.
 void compute_speed_profile(const PathRequest& request, Path& path);
 
 /// Rounds the corners of a driving path: a box filter along it, as wide as the turning radius asks
