@@ -5,6 +5,7 @@
 
 #include "model/approaches.h"
 #include "model/following.h"
+#include "model/leader.h"
 #include "model/locate.h"
 #include "model/overtaking.h"
 #include "model/passing.h"
@@ -37,10 +38,19 @@ bool is_safe(const Scene& scene, const Surroundings& around, std::size_t row, do
   constexpr double kLeast = 0.5, kLeastTime = 0.35;  // [m], [s]
   constexpr double kClose = 0.3, kCloseTime = 0.15;  // [m], [s]
   constexpr double kCourtesy = 2.0, kLeft = 0.4;     // [m/s^2], [m]
+  constexpr double kHolds = 0.3;                     // [m/s]
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
   for (const RoadUser& user : around.users) {
     if (std::abs(user.offset - shift) > user.half_width + around.half_width + 0.3) continue;
-    if (user.rear < front && user.front > rear) return false;
+    // who lets us in keeps no headway for it, but brakes no harder than is courteous
+    const bool lets_us_in =
+        user.front < front &&
+        scene.context[user.row].foe == static_cast<std::int64_t>(scene.id[row].value);
+    if (user.rear < front && user.front > rear) {
+      // who stands beside our tail and holds leaves the way for our nose
+      if (lets_us_in && user.front < front - kNoseRoom && user.speed < kHolds) continue;
+      return false;
+    }
     const bool ahead = user.rear >= front;
     const double gap = ahead ? user.rear - front : rear - user.front;
     const Vec2 tangent = around.tangent;
@@ -49,9 +59,6 @@ bool is_safe(const Scene& scene, const Surroundings& around, std::size_t row, do
     const Followed followed{gap - kLeft, ahead ? user.speed : around.speed,
                             acceleration(ahead ? user.row : row)};
     const double needed = braking_behind(behind_speed, followed);
-    // who lets us in keeps no headway for it, but brakes no harder than is courteous
-    const bool lets_us_in =
-        !ahead && scene.context[user.row].foe == static_cast<std::int64_t>(scene.id[row].value);
     const double least =
         lets_us_in ? kClose + kCloseTime * behind_speed : kLeast + kLeastTime * behind_speed;
     if (gap < least || needed > (lets_us_in ? kCourtesy : braking)) return false;

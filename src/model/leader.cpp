@@ -39,13 +39,20 @@ double nose_lead(const Scene& scene, std::size_t row, std::size_t other) {
          half_extent(scene, row, mean);
 }
 
-constexpr double kTakenFor = 10.0;  // is waited for who stands there [s]
-constexpr double kHesitates = 2.0;  // [s]
-constexpr double kCloses = 0.5;     // of the gap in a second
-constexpr double kFarAside = 0.8;   // [m]
-constexpr double kClearOf = 0.3;    // of who is filtered past [m]
-constexpr double kCrawl = 1.0;      // [m/s]
-constexpr double kPatience = 6.0;   // with somebody on foot who stands in the way [s]
+constexpr double kTakenFor = 10.0;    // is waited for who stands there [s]
+constexpr double kHesitates = 2.0;    // [s]
+constexpr double kCloses = 0.5;       // of the gap in a second
+constexpr double kFarAside = 0.8;     // [m]
+constexpr double kClearOf = 0.3;      // of who is filtered past [m]
+constexpr double kCrawl = 1.0;        // [m/s]
+constexpr double kHaltsBefore = 0.5;  // who leaves the way for a nose [m]
+constexpr double kPatience = 6.0;     // with somebody on foot who stands in the way [s]
+
+/// Has somebody stood for long at its gate, waiting for a gap in the lane beside?
+bool waits_long(const Scene& scene, std::size_t row) {
+  constexpr double kLong = 10.0;  // [s]
+  return std::isfinite(scene.gate[row]) && scene.standing_time[row] > kLong;
+}
 
 /// Has somebody on foot held up a vehicle for long who doesn't get on either?
 bool shuffles_before(const Scene& scene, std::size_t vehicle, std::size_t walker) {
@@ -54,6 +61,27 @@ bool shuffles_before(const Scene& scene, std::size_t vehicle, std::size_t walker
   const bool no_rule = reason == LimitReason::Leader || reason == LimitReason::None;
   return no_rule && scene.waiting_time[vehicle] > 2.0 * kPatience &&
          scene.velocity[walker].norm() < kShuffles;
+}
+
+/// Does somebody who is `along` on the path of a row change, or want to, into its lane? Who has
+/// waited for long counts as well where the row is about to get into that lane.
+bool changes_into_way(const Path& path, const Scene& scene, std::size_t row, std::size_t other,
+                      double along) {
+  constexpr double kSoon = 10.0;  // [m]
+  const LaneId lane = scene.merge_to[other];
+  if (lane == kNoLane || lane == scene.lane[row].lane) return lane != kNoLane;
+  return waits_long(scene, other) &&
+         std::any_of(path.stretches.begin(), path.stretches.end(), [&](const PathStretch& stretch) {
+           return stretch.lane == lane && stretch.to >= scene.path_along[row] &&
+                  stretch.from <= along + kSoon;
+         });
+}
+
+/// Does who is beside the tail of somebody that waits for long for a gap let its nose in, as who is
+/// behind it does? In a dense queue beside a long body nobody is ever behind it.
+bool lets_nose_in(const Scene& scene, std::size_t row, std::size_t other, double nose_ahead) {
+  constexpr double kHolds = 20.0;  // [s]
+  return nose_ahead > kNoseRoom && waits_long(scene, other) && scene.standing_time[row] < kHolds;
 }
 
 /// Remembers the nearest of those ahead who wait for a gap in this lane or are on their way into
@@ -184,8 +212,7 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
                   scene.id[other].value, ahead);
     const bool comes_back = returns && gap > 0.0 && clearance < kept;
     if (std::abs(place.offset - swept) > sides + kept && !comes_back) {
-      const bool merges =
-          scene.merge_to[other] != kNoLane && scene.merge_to[other] == scene.lane[row].lane;
+      const bool merges = changes_into_way(*path, scene, row, other, place.along);
       const bool halted = scene.standing_time[other] > kHesitates;
       // who stands amid its change is passed like anybody else
       if (!merges || (passes && halted)) return;
@@ -199,12 +226,16 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
           halted && std::isfinite(scene.gate[other]) && rear < along + own_half_length;
       const bool swaps =
           !waits && scene.merge_to[row] != kNoLane && scene.merge_to[row] == scene.lane[other].lane;
+      const double front = 2.0 * place.along - rear;
+      const double nose_ahead = front - along - own_half_length;
       // who is on its way already and has its middle ahead needs the room beside it, too
-      if (on_its_way || swaps || rear > along + own_half_length + 1.0)
-        note_merging(
-            {rear, 2.0 * place.along - rear, std::max(0.0, scene.velocity[other].dot(direction)),
-             static_cast<std::int64_t>(scene.id[other].value), other},
-            on_its_way || swaps, ahead);
+      const bool behind = on_its_way || swaps || rear > along + own_half_length + 1.0;
+      const double kept_free =
+          behind ? rear : front - kNoseRoom - kHaltsBefore + type.min_gap;  // from here on
+      if (behind || lets_nose_in(scene, row, other, nose_ahead))
+        note_merging({kept_free, front, std::max(0.0, scene.velocity[other].dot(direction)),
+                      static_cast<std::int64_t>(scene.id[other].value), other},
+                     on_its_way || swaps, ahead);
       return;
     }
     if (passes || gap < -own_half_length) return;

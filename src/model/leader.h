@@ -9,6 +9,9 @@
 
 namespace sumogamma {
 
+/// Way that somebody who waits long for a gap between lanes needs beside its nose [m].
+constexpr double kNoseRoom = 2.5;
+
 /// What is next in the way on an agent's path.
 struct Leader {
   double gap = std::numeric_limits<double>::infinity();  ///< free metres between own front and it,

@@ -15,6 +15,7 @@ constexpr double kFillsLane = 1.2;   ///< nobody overtakes what is wider than th
 constexpr double kPatience = 4.0;    ///< waited for somebody who waits for a third one [s]
 constexpr double kCreeps = 0.1;      ///< who is on the junction and faster doesn't stand [m/s]
 constexpr double kAmber = 2.5;       ///< reckoned with from an amber on [s]
+constexpr double kCrawl = 1.0;       ///< whoever is slower stands within centimetres [m/s]
 constexpr double kTimeMargin = 1.0;  ///< left by who needn't yield to the other in a zone [s]
 // who has waited for long to give way leaves this share of its critical gap
 constexpr double kLeastShare = 0.4;
@@ -374,14 +375,17 @@ SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& 
   const double reserve = on_foot ? -0.45 : 0.2;  // [m]
   const double needed = deceleration_to_stop(traveller.speed, halt - traveller.front - reserve);
   if (is_amber(signal) && to_line > -1.0) {
-    // who would not be over the line before red brakes harder than at ease
+    // who would not be over the line before red brakes harder than at ease, and stands before it
+    // from a crawl, however near it is
     const double left = kAmber - (scene.time - aspect.since);
     const bool late = to_line > std::max(left, 0.0) * traveller.speed;
     const double most = late ? 0.65 * type.max_deceleration : type.comfortable_deceleration;
-    return needed < most ? SignalDuty::Stop : SignalDuty::None;
+    const bool stands = late && traveller.speed < kCrawl;
+    return needed < most || stands ? SignalDuty::Stop : SignalDuty::None;
   }
   if (!is_red(signal)) return SignalDuty::None;
-  const bool can_stop = to_line > -1.0 && (needed < type.max_deceleration || traveller.speed < 1.0);
+  const bool can_stop =
+      to_line > -1.0 && (needed < type.max_deceleration || traveller.speed < kCrawl);
   const bool has_halted = scene.halted_for[traveller.row] == link.connection;
   if ((can_stop || has_halted || on_foot) &&
       goes_at_red(model, scene, traveller.row, link.connection))

@@ -402,7 +402,7 @@ double kerb_halt(const Model& model, const Course& course, const PathLink& link)
 /// Walkers stop dead at a kerb, and otherwise leave each other to avoidance.
 void set_walker_limit(const View& view, const Course& course, RoadContext& context) {
   constexpr double kStep = 0.4;     // [m]
-  constexpr double kOnIt = 0.5;     // who is further past the line crosses [m]
+  constexpr double kOnIt = 0.7;     // whose front is further past the line crosses [m]
   constexpr double kPressed = 3.0;  // likewise who waited for the light, and was pressed on [m]
   const bool was_held = view.scene.context[course.row].reason == LimitReason::Signal;
   const double front = course.along + course.half_length;

@@ -7,6 +7,7 @@
 #include "road/path.h"
 #include "road/path_profile.h"
 #include "road/stop_lines.h"
+#include "road/walking_room.h"
 
 namespace sumogamma {
 
@@ -190,6 +191,7 @@ class Walk {
     }
     path_.arrival = path_.line.length();
     path_.stretches.back().to = path_.arrival;
+    bound_walking_areas(network_, kLeastRoom, path_);
     halt_off_the_road(network_, path_);
     compute_speed_profile(request, path_);
     return std::move(path_);

@@ -1,7 +1,9 @@
 // Narrow vehicles between queues: places, speeds, and who is first.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "model/lane_choice.h"
 #include "model/leader.h"
@@ -350,6 +352,86 @@ TEST_F(NoGap, NarrowVehiclesChangeLanesInLess) {
     const auto late = stay_in_lane(here_.model.road, *path, along, end - 9.0 - along, 20.0);
     EXPECT_EQ(late.has_value(), turning_radius < 2.0);
   }
+}
+
+// A bus that has to change into the lane beside, at the end of its own, in a queue: whoever was
+// beside its tail was neither before nor behind it, and it stood there for minutes.
+class LongWait : public ::testing::Test {
+ protected:
+  LongWait() : bus_(here_.add("bus", {"CE", "EL"}, 0, 0, 0, -1, "CE_0")) {
+    // its change begins at the last place that leaves room for it
+    double along = here_.scene.path_along[bus_];
+    for (double room = 40.0; room > 0.0; room -= 1.0) {
+      auto late = stay_in_lane(here_.model.road, here_.path(bus_), along, room, 20.0);
+      if (!late) continue;
+      take_path(std::move(*late), along, bus_, here_.road, here_.scene);
+      break;
+    }
+    const auto& stretches = here_.path(bus_).stretches;
+    const auto change = std::find_if(stretches.begin(), stretches.end(),
+                                     [](const PathStretch& stretch) { return stretch.changing; });
+    if (change == stretches.end()) throw std::runtime_error("the bus changes no lane");
+
+    here_.move(bus_, change->from - 1.0);
+    here_.scene.gate[bus_] = change->from;
+    here_.scene.merge_to[bus_] = here_.model.road.lane_by_name.at("CE_1");
+    here_.scene.standing_time[bus_] = 12;
+  }
+  /// A car in the lane beside whose nose is so far behind the one of the bus [m].
+  std::size_t add_car(double behind, double speed) {
+    const std::size_t car = here_.add("car", {"CE", "EL"}, 5, speed, 0, -1, "CE_1");
+    const double nose = here_.scene.position[bus_].x() + 6.0 - behind;
+    here_.move(
+        car, here_.path(car).line.project(Vec2(nose - 2.25, here_.scene.position[car].y())).along);
+    return car;
+  }
+  bool lets_in(std::size_t car) {
+    here_.update();
+    DrivingAhead ahead;
+    find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, car, 60.0, ahead);
+    return ahead.merging.id == static_cast<std::int64_t>(here_.scene.id[bus_].value);
+  }
+  bool waits_on() {
+    LaneChoiceWork work;
+    Workers alone(1);
+    for (here_.scene.tick = 0; here_.scene.tick < 8; ++here_.scene.tick)
+      choose_lanes(here_.model, here_.geometry.grid, 0.05, alone, here_.road, here_.scene, work);
+    return std::isfinite(here_.scene.gate[bus_]);
+  }
+  RoadScene here_{testing::read_plain_net(both_lanes_lead_on())};
+  std::size_t bus_ = 0;
+};
+
+TEST_F(LongWait, WhoIsBesideTheTailLetsTheNoseIn) {
+  const std::size_t car = add_car(4.0, 1.0);
+  EXPECT_TRUE(lets_in(car));
+  EXPECT_EQ(here_.context(car).foe, static_cast<std::int64_t>(here_.scene.id[bus_].value));
+  here_.scene.standing_time[bus_] = 5;
+  EXPECT_FALSE(lets_in(car)) << "it has just come";
+  here_.scene.standing_time[bus_] = 12;
+  here_.scene.standing_time[car] = 30;
+  EXPECT_FALSE(lets_in(car)) << "there is an end to courtesy";
+}
+TEST_F(LongWait, WhoseNoseIsNearTheNoseGoesOn) { EXPECT_FALSE(lets_in(add_car(1.0, 1.0))); }
+
+TEST_F(LongWait, IsOverOnceWhoIsBesideTheTailHolds) {
+  const std::size_t car = add_car(3.0, 0.0);
+  here_.update();
+  here_.scene.context[car] = {};
+  EXPECT_TRUE(waits_on()) << "nobody holds yet";
+  ASSERT_TRUE(lets_in(car));
+  EXPECT_LT(here_.context(car).allowed_speed, 0.3);
+  EXPECT_FALSE(waits_on());
+}
+
+// the lane was two metres long: everybody was on the junction before it, and nobody let anybody in
+TEST_F(LongWait, WhoIsOnItsWayIntoThatLaneLetsItIn) {
+  const std::size_t car = here_.add("car", {"WC", "CE", "EL"}, 100, 4, 0, -1, "WC_1");
+  here_.move(car, here_.path(car).links.front().stop_line - 4.0);
+  here_.move(bus_, 8.0);
+  EXPECT_TRUE(lets_in(car));
+  const std::size_t other = here_.add("car", {"WC"}, 140, 4, 0, -1, "WC_1");
+  EXPECT_FALSE(lets_in(other)) << "it doesn't get there";
 }
 
 // somebody who stood behind the begin of its path counted as beside it, and it waited for ever

@@ -56,6 +56,23 @@ TEST_F(SignalTest, AmberHoldsWhoGetsOverTheEdgeOfItsLaneAtTheLine) {
   }
 }
 
+// A bus that braked for amber came to rest a hand's breadth before its line, as it turned there,
+// took itself for too near to halt, rolled on and was over the line at red.
+TEST_F(SignalTest, WhoCrawlsBeforeTheLineLateAtAmberStands) {
+  const std::size_t own = here_.add("bus", {"in", "out"}, 60, 0.3);
+  show('y');
+  here_.scene.time = 100;
+  auto is_held = [&](double since, double before) {
+    here_.road.signal_since.assign(here_.road.signal_states.size(), 100 - since);
+    here_.move(own, here_.path(own).links.front().stop_line - 6.0 - before);
+    here_.update();
+    return here_.context(own).reason == LimitReason::Signal;
+  };
+  EXPECT_TRUE(is_held(2.6, 0.1));
+  EXPECT_TRUE(is_held(2.0, 0.18));
+  EXPECT_FALSE(is_held(0.1, 0.1)) << "it will be over the line in time";
+}
+
 TEST_F(SignalTest, WhoStandsDownTheQueueKnowsThatItIsRed) {
   const std::size_t own = here_.add("car", {"in", "out"}, 30, 0);
   here_.scene.standing_time[own] = 5.0;
@@ -690,6 +707,17 @@ TEST_F(WalkersAtRed, WhoIsAtTheKerbHaltsThoughNotAtEaseAndWhoIsOnTheCrossingGoes
   EXPECT_TRUE(is_held(-0.1));
   EXPECT_TRUE(is_held(0.15));  // a foot on it
   EXPECT_FALSE(is_held(1.0));
+}
+
+// before a bus that stood on the crossing somebody found its way round it at red
+TEST_F(WalkersAtRed, WhoHasHardlySteppedOnAndCrawlsWaits) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.3, 195, 5);
+  const double kerb = here_.path(walker).links.at(0).stop_line;
+  put(walker, kerb + 0.65);
+  EXPECT_EQ(here_.context(walker).reason, LimitReason::Signal);
+  here_.scene.context[walker] = {};
+  put(walker, kerb + 0.75);
+  EXPECT_NE(here_.context(walker).reason, LimitReason::Signal);
 }
 
 // in a crowd at the kerb: who was pressed onto the road took itself for somebody who crosses
