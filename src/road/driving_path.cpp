@@ -138,7 +138,6 @@ class Builder {
     LaneId lane = connection.via;
     for (int hops = 0; lane != kNoLane; ++hops) {
       if (hops > 8) return false;
-      follow(lane, 0.0, network_.lane(lane).centerline.length());
       LaneId next = kNoLane;
       bool arrived = false;
       for (const ConnectionId onward : network_.lane(lane).outgoing) {
@@ -147,6 +146,7 @@ class Builder {
         arrived = true;
         break;
       }
+      follow_link(lane, next == kNoLane ? connection.to : kNoLane);
       if (!arrived && !network_.lane(lane).outgoing.empty()) return false;
       if (hops == 0 && next != kNoLane && may_wait) link.inside = length();
       lane = next;
@@ -154,6 +154,36 @@ class Builder {
     link.end = length();
     path_.links.push_back(link);
     return true;
+  }
+
+  /// Runs along an internal lane. netconvert begins and ends links of narrow lanes up to a metre
+  /// beside the lanes that they join: they are led over to them.
+  void follow_link(LaneId id, LaneId to) {
+    constexpr double kStep = 0.3, kMost = 2.0;    // sideways [m]
+    constexpr double kReach = 12.0, kEach = 1.0;  // along the link [m]
+    const Polyline& line = network_.lane(id).centerline;
+    const double whole = line.length(), reach = std::min(0.5 * whole, kReach);
+    const auto step = [&](const Vec2& there, double along) {
+      const Vec2 way = there - line.point_at(along);
+      const double aside = std::abs(sumogamma::cross(line.direction_at(along), way));
+      return aside > kStep && way.norm() < kMost ? way : Vec2(Vec2::Zero());
+    };
+    const Vec2 before = points_.empty() ? Vec2(Vec2::Zero()) : step(points_.back(), 0.0);
+    const Vec2 after = to == kNoLane ? Vec2(Vec2::Zero())
+                                     : step(network_.lane(to).centerline.point_at(0.0), whole);
+    if (reach < kEach || (before.isZero() && after.isZero())) return follow(id, 0.0, whole);
+    begin_stretch(id, 0.0);
+    const auto share = [&](double way) {
+      const double t = std::clamp(1.0 - way / reach, 0.0, 1.0);
+      return t * t * (3.0 - 2.0 * t);
+    };
+    const int pieces = static_cast<int>(std::ceil(whole / kEach));
+    for (int k = 0; k <= pieces; ++k) {
+      const double along = whole * k / pieces;
+      points_.push_back(line.point_at(along) + share(along) * before +
+                        share(whole - along) * after);
+    }
+    end_stretch();
   }
 
   double length() {

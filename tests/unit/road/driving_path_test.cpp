@@ -128,6 +128,25 @@ TEST_F(Crossroads, TakesTheBestLaneWhereNoneIsGiven) {
             (std::vector<std::string>{"WC_1", "CS_1"}));
 }
 
+// netconvert ends links of bicycles up to a metre beside the lane that they lead into: a bicycle
+// rode that step out as a hook, two metres aside, before a motorcycle
+TEST(Links, AreLedOverToTheLanesThatTheyJoin) {
+  RoadNetwork network = testing::small_net();
+  Lane& link = network.lanes[index_of(network.lane_by_name.at(":C_0_0"))];
+  link.centerline = Polyline({{95, -0.8}, {105, 1.1}});
+  const Path path = path_along(network, {"in", "out"});
+  expect_sound(path);
+  for (double x = 90; x < 110; x += 0.5) {
+    const PolylinePosition place = path.line.project(Vec2(x, 0.0));
+    EXPECT_GT(path.line.direction_at(place.along).x(), 0.8) << "no step, at " << x;
+  }
+  EXPECT_NEAR(path.line.point_at(path.links.front().end).y(), 0.0, 0.1);
+  // what is as far beside as a lane is wide is no slip of netconvert's
+  link.centerline = Polyline({{95, 0}, {105, 3.2}});
+  const Path other = path_along(network, {"in", "out"});
+  EXPECT_NEAR(other.line.point_at(other.links.front().end).y(), 3.2, 0.1);
+}
+
 TEST(DrivingPath, ALeftTurnMayWaitOnASignalledJunctionAndStraightOnMayNot) {
   const RoadNetwork network = read_plain_net(crossroads("traffic_light"));
   auto link_of = [&](const std::vector<std::string>& names) {
