@@ -88,6 +88,9 @@ std::vector<std::vector<LaneOption>> plan_lanes(const RoadNetwork& network,
   return plan;
 }
 
+/// From 0 at 0 to 1 at 1, level at both.
+double smooth_step(double t) { return t * t * (3.0 - 2.0 * t); }
+
 class Builder {
  public:
   Builder(const RoadNetwork& network, const PathRequest& request)
@@ -120,7 +123,7 @@ class Builder {
     const int steps = std::max(4, static_cast<int>((to - from) / 3.0));
     for (int k = 0; k <= steps; ++k) {
       const double t = static_cast<double>(k) / steps;
-      const double blend = t * t * (3.0 - 2.0 * t);
+      const double blend = smooth_step(t);
       const double along = from + t * (to - from);
       points_.push_back((1.0 - blend) * start.point_at(along) +
                         blend * end.point_at(along * scale));
@@ -163,19 +166,19 @@ class Builder {
     constexpr double kReach = 12.0, kEach = 1.0;  // along the link [m]
     const Polyline& line = network_.lane(id).centerline;
     const double whole = line.length(), reach = std::min(0.5 * whole, kReach);
-    const auto step = [&](const Vec2& there, double along) {
+    const auto step = [&](const Vec2& there, double along) -> Vec2 {
       const Vec2 way = there - line.point_at(along);
       const double aside = std::abs(sumogamma::cross(line.direction_at(along), way));
-      return aside > kStep && way.norm() < kMost ? way : Vec2(Vec2::Zero());
+      if (aside <= kStep || way.norm() >= kMost) return Vec2::Zero();
+      return way;
     };
-    const Vec2 before = points_.empty() ? Vec2(Vec2::Zero()) : step(points_.back(), 0.0);
-    const Vec2 after = to == kNoLane ? Vec2(Vec2::Zero())
-                                     : step(network_.lane(to).centerline.point_at(0.0), whole);
+    const Vec2 before = step(points_.empty() ? line.point_at(0.0) : points_.back(), 0.0);
+    const Vec2 after = step(
+        to == kNoLane ? line.point_at(whole) : network_.lane(to).centerline.point_at(0.0), whole);
     if (reach < kEach || (before.isZero() && after.isZero())) return follow(id, 0.0, whole);
     begin_stretch(id, 0.0);
     const auto share = [&](double way) {
-      const double t = std::clamp(1.0 - way / reach, 0.0, 1.0);
-      return t * t * (3.0 - 2.0 * t);
+      return smooth_step(std::clamp(1.0 - way / reach, 0.0, 1.0));
     };
     const int pieces = static_cast<int>(std::ceil(whole / kEach));
     for (int k = 0; k <= pieces; ++k) {

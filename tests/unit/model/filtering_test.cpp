@@ -67,6 +67,14 @@ PlainNet two_lanes() {
   return net;
 }
 
+/// Everybody looks once at the lanes beside: within 0.4 s, each in its own tick.
+void let_all_look(RoadScene& here) {
+  LaneChoiceWork work;
+  Workers alone(1);
+  for (here.scene.tick = 0; here.scene.tick < 8; ++here.scene.tick)
+    choose_lanes(here.model, here.geometry.grid, 0.05, alone, here.road, here.scene, work);
+}
+
 // two queues of cars that stand on lanes of 3.5 m; a motorcycle comes behind the right one
 class Filtering : public ::testing::Test {
  protected:
@@ -200,10 +208,7 @@ class ChangingLanes : public ::testing::Test {
   /// Does it halt to let the car go first?
   bool halts() {
     here_.update();
-    LaneChoiceWork work;
-    Workers alone(1);
-    for (here_.scene.tick = 0; here_.scene.tick < 8; ++here_.scene.tick)
-      choose_lanes(here_.model, here_.geometry.grid, 0.05, alone, here_.road, here_.scene, work);
+    let_all_look(here_);
     return std::isfinite(here_.scene.gate[own_]);
   }
   RoadScene here_{testing::read_plain_net(two_lanes())};
@@ -294,10 +299,7 @@ TEST_F(NoGap, WhoHasNoRoomLeftToChangeGoesOnByItsLane) {
   here_.move(own, end - 15.0);
   here_.add("car", {"WC", "CE", "EL"}, end - 14.5, 0, 0, -1, "WC_1");
   here_.update();
-  LaneChoiceWork work;
-  Workers alone(1);
-  for (here_.scene.tick = 0; here_.scene.tick < 8; ++here_.scene.tick)
-    choose_lanes(here_.model, here_.geometry.grid, 0.05, alone, here_.road, here_.scene, work);
+  let_all_look(here_);
   EXPECT_EQ(lane_at(here_.path(own), end - 2.0), "WC_0");
   EXPECT_FALSE(std::isfinite(here_.scene.gate[own]));
 }
@@ -371,7 +373,6 @@ class LongWait : public ::testing::Test {
     const auto change = std::find_if(stretches.begin(), stretches.end(),
                                      [](const PathStretch& stretch) { return stretch.changing; });
     if (change == stretches.end()) throw std::runtime_error("the bus changes no lane");
-
     here_.move(bus_, change->from - 1.0);
     here_.scene.gate[bus_] = change->from;
     here_.scene.merge_to[bus_] = here_.model.road.lane_by_name.at("CE_1");
@@ -392,10 +393,7 @@ class LongWait : public ::testing::Test {
     return ahead.merging.id == static_cast<std::int64_t>(here_.scene.id[bus_].value);
   }
   bool waits_on() {
-    LaneChoiceWork work;
-    Workers alone(1);
-    for (here_.scene.tick = 0; here_.scene.tick < 8; ++here_.scene.tick)
-      choose_lanes(here_.model, here_.geometry.grid, 0.05, alone, here_.road, here_.scene, work);
+    let_all_look(here_);
     return std::isfinite(here_.scene.gate[bus_]);
   }
   RoadScene here_{testing::read_plain_net(both_lanes_lead_on())};
