@@ -80,13 +80,43 @@ void save(const pugi::xml_document& document, const std::filesystem::path& file)
     throw Error(file.string(), "cannot be written: is the disk full?");
 }
 
-void write_joins(const std::vector<NodeGroup>& joins, const std::filesystem::path& file) {
-  pugi::xml_document document;
+/// Where a group of nodes lies [m]: the mean of the junctions that a network makes of them.
+struct Place {
+  double x = 0, y = 0, z = 0, nodes = 0;
+};
+
+Place place_of(const NodeGroup& group, const pugi::xml_node& network) {
+  Place place;
+  for (const pugi::xml_node junction : network.children("junction")) {
+    const NodeGroup made_of = nodes_of(junction.attribute("id").value());
+    if (!group.contains(*made_of.begin())) continue;
+    const auto nodes = static_cast<double>(made_of.size());
+    place.x += nodes * junction.attribute("x").as_double();
+    place.y += nodes * junction.attribute("y").as_double();
+    place.z += nodes * junction.attribute("z").as_double();
+    place.nodes += nodes;
+  }
+  return place;
+}
+
+/// Writes the groups of nodes to join. Where traffic keeps left each of them needs its place:
+/// without one netconvert 1.15 mirrors what stands for none, puts the junction 1e9 m off, and cuts
+/// the roads there to fit.
+void write_joins(const NetconvertRequest& request, const std::filesystem::path& file) {
+  const std::filesystem::path network_file = request.folder / request.network;
+  pugi::xml_document network, document;
+  if (!network.load_file(network_file.c_str())) throw Error(network_file.string(), "not a network");
   pugi::xml_node nodes = document.append_child("nodes");
-  for (const NodeGroup& group : joins) {
+  for (const NodeGroup& group : request.joins) {
     std::string names;
     for (const std::string& node : group) names += (names.empty() ? "" : " ") + node;
-    nodes.append_child("join").append_attribute("nodes") = names.c_str();
+    pugi::xml_node join = nodes.append_child("join");
+    join.append_attribute("nodes") = names.c_str();
+    if (!request.left_hand) continue;
+    const Place place = place_of(group, network.child("net"));
+    join.append_attribute("x") = place.x / place.nodes;
+    join.append_attribute("y") = place.y / place.nodes;
+    join.append_attribute("z") = place.z / place.nodes;
   }
   save(document, file);
 }
@@ -127,7 +157,7 @@ std::vector<std::string> run_netconvert(const NetconvertRequest& request) {
                      {"--junctions.join", "--junctions.join-output", request.joined});
   } else {
     const std::string joins = "work/join.nod.xml";
-    write_joins(request.joins, request.folder / joins);
+    write_joins(request, request.folder / joins);
     arguments.insert(arguments.end(), {"--node-files", joins});
   }
   return run(request, std::move(arguments));

@@ -23,8 +23,10 @@ struct NetconvertRequest {
   bool left_hand = false;
   bool layers = false;  ///< give bridges and tunnels a height of 5 m a layer, so that traffic on
                         ///< them is kept apart
-  std::vector<NodeGroup> joins;  ///< none: netconvert joins as it sees fit
-  double time_limit = 1800.0;    ///< [s]
+  /// To make one junction each, of the network that stands in `network`; none: netconvert joins as
+  /// it sees fit.
+  std::vector<NodeGroup> joins;
+  double time_limit = 1800.0;  ///< [s]
   std::function<bool()> should_stop;
 };
 

@@ -28,8 +28,8 @@ bool is_swallowed(const RoadNetwork& road, const Edge& edge) {
   });
 }
 
-/// The nodes that a junction's name tells it was made of: netconvert's cluster_A_B_#2more of A, B
-/// and others.
+}  // namespace
+
 NodeGroup nodes_of(const std::string& junction) {
   static const std::string kCluster = "cluster_";
   if (!junction.starts_with(kCluster)) return {junction};
@@ -41,8 +41,6 @@ NodeGroup nodes_of(const std::string& junction) {
   }
   return nodes;
 }
-
-}  // namespace
 
 std::vector<NodeGroup> swallowed_roads(const RoadNetwork& road) {
   std::vector<NodeGroup> groups;

@@ -11,6 +11,10 @@ namespace sumogamma::osm {
 /// Nodes of the map that are to be one junction.
 using NodeGroup = std::set<std::string>;
 
+/// The nodes that a junction's name tells it was made of: netconvert's cluster_A_B_#2more of A, B
+/// and others.
+NodeGroup nodes_of(const std::string& junction);
+
 /// Two junctions that are nearer to each other than each of them is wide swallow the road between
 /// them, and netconvert draws what is left of it outside of both: a lane that begins beyond the
 /// node where it ends. Its own joining of junctions leaves such pairs where it reduces a large

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "road/sumo_net_reader.h"
 
 namespace sumogamma::osm {
 namespace {
@@ -37,6 +38,43 @@ TEST(ReadJoins, TakesTheGroupsOfAFile) {
   EXPECT_THROW(read_joins(file), Error);
   std::filesystem::remove(file);
   EXPECT_THROW(read_joins(file), Error);
+}
+
+// a main road with two side roads 8 m apart, one to each side
+constexpr const char* kStaggered = R"xml(<?xml version="1.0"?>
+<osm version="0.6">
+  <node id="1" lat="51.0000" lon="-1.0015"/>
+  <node id="2" lat="51.0002" lon="-1.0000"/>
+  <node id="3" lat="51.0002" lon="-0.9999"/>
+  <node id="4" lat="51.0000" lon="-0.9984"/>
+  <node id="5" lat="51.0012" lon="-1.0000"/>
+  <node id="6" lat="50.9992" lon="-0.9999"/>
+  <way id="10"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="4"/><tag k="highway" v="primary"/></way>
+  <way id="11"><nd ref="5"/><nd ref="2"/><tag k="highway" v="residential"/></way>
+  <way id="12"><nd ref="6"/><nd ref="3"/><tag k="highway" v="residential"/></way>
+</osm>)xml";
+
+// netconvert 1.15 loses the place of what it is told to join in a network with left-hand traffic
+TEST(RunNetconvert, JoinsNodesWhereTheyAre) {
+  for (const bool left_hand : {false, true}) {
+    NetconvertRequest request;
+    request.folder = std::filesystem::temp_directory_path() /
+                     ("sumogamma_netconvert_" + std::to_string(getpid()));
+    std::filesystem::create_directories(request.folder / "work");
+    std::ofstream(request.folder / request.prepared) << kStaggered;
+    request.projection = "+proj=tmerc +lat_0=51 +lon_0=-1 +ellps=WGS84 +units=m +no_defs";
+    request.left_hand = left_hand;
+    run_netconvert(request);
+    request.joins = {{"2", "3"}};
+    run_netconvert(request);
+    const RoadNetwork road = read_sumo_net(request.folder / request.network);
+    std::filesystem::remove_all(request.folder);
+    ASSERT_TRUE(road.junction_by_name.contains("cluster_2_3"));
+    const Vec2 joined = road.junction(road.junction_by_name.at("cluster_2_3")).position;
+    EXPECT_NEAR(joined.x(), 3.5, 1.0);
+    EXPECT_NEAR(joined.y(), 22.3, 1.0);
+    EXPECT_LT((road.upper_corner - road.lower_corner).norm(), 500.0);
+  }
 }
 
 }  // namespace
