@@ -10,30 +10,44 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kRoom = 2.9;       ///< between the middles of a waiting and a turning vehicle [m]
+// between the middles of a waiting and a turning vehicle: as wide as roads are; on paths as
+// bicycles turn, and of those who have turned a share of the widths [m]
+constexpr double kRoom = 2.9, kRoomToTurn = 1.9, kRoomOfWidth = 0.95;
 constexpr double kFarthest = 10.0;  ///< [m]
 constexpr double kBody = 6.0;       ///< of a waiting vehicle, behind its front [m]
 constexpr double kStep = 0.5;       ///< [m]
 constexpr double kAfter = 10.0;     ///< of the road turned into that is looked at [m]
 
-/// The way over a junction and into the road behind it.
-Polyline way_through(const RoadNetwork& network, ConnectionId id) {
-  const Polyline& after = network.lane(network.connection(id).to).centerline;
-  std::vector<Vec2> points = link_geometry(network, id).points();
-  append_span(after, 0.0, std::min(kAfter, after.length()), points);
-  return Polyline(std::move(points));
+/// The way over a junction, the one into the road behind it, and how wide that is [m].
+struct Way {
+  Polyline link, after;
+  double width = 0;
+};
+
+Way way_through(const RoadNetwork& network, ConnectionId id) {
+  const Lane& to = network.lane(network.connection(id).to);
+  std::vector<Vec2> after;
+  append_span(to.centerline, 0.0, std::min(kAfter, to.centerline.length()), after);
+  return {link_geometry(network, id), Polyline(std::move(after)), to.width};
+}
+
+/// Is a place on a lane so near to a way that who waits there is in the way?
+bool is_near(const Vec2& place, const Lane& lane, const Way& way) {
+  const double beside = std::min(kRoom, kRoomOfWidth * 0.5 * (lane.width + way.width));
+  return way.after.project(place).distance < beside ||
+         way.link.project(place).distance < std::min(kRoom, std::max(beside, kRoomToTurn));
 }
 
 /// How far before its end the front must halt on `lane` so that none of the places from there to
 /// 6 m behind it lies on the `ways` of those who come otherwise; 0 where that is too far.
-double setback_on(const Lane& lane, const std::vector<Polyline>& ways) {
+double setback_on(const Lane& lane, const std::vector<Way>& ways) {
   const Polyline& line = lane.centerline;
   const double length = line.length();
   double clear_from = 0.0;
   for (double back = 0.0; back <= std::min(kFarthest + kBody, length); back += kStep) {
     const Vec2 place = line.point_at(length - back);
     if (std::any_of(ways.begin(), ways.end(),
-                    [&](const Polyline& way) { return way.project(place).distance < kRoom; }))
+                    [&](const Way& way) { return is_near(place, lane, way); }))
       clear_from = back + kStep;
   }
   return clear_from <= std::min(kFarthest, 0.5 * length) ? clear_from : 0.0;
@@ -120,11 +134,11 @@ void set_back_stop_lines(RoadNetwork& network) {
       by_junction[index_of(network.connections[i].junction)].push_back(id);
   }
   for (const std::vector<ConnectionId>& links : by_junction) {
-    std::vector<Polyline> ways;
+    std::vector<Way> ways;
     for (const ConnectionId id : links) ways.push_back(way_through(network, id));
     for (const ConnectionId id : links) {
       const Lane& lane = network.lane(network.connection(id).from);
-      std::vector<Polyline> others;
+      std::vector<Way> others;
       for (std::size_t k = 0; k < links.size(); ++k)
         if (network.lane(network.connection(links[k]).from).edge != lane.edge)
           others.push_back(ways[k]);

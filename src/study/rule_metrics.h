@@ -63,7 +63,7 @@ struct RedLightEvent {
 /// nobody's fault). Where the lane's links don't show the same, judgement waits until the vehicle
 /// is on an edge that one of them leads to. Red light, pedestrians: the centre gets kEntered deep
 /// into a signalled crossing that showed red already when it was stepped on; who is pressed off it
-/// sideways and comes back within kAside is still on it. Wrong way: faster than
+/// sideways and comes back within kAside is still on it. Wrong way: forward and faster than
 /// kMoving, on a normal lane, off junctions, more than 120 degrees from every lane of the place
 /// that vehicles may use. Lanes on another storey than one's own don't count (bridges).
 ///

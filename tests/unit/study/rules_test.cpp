@@ -269,6 +269,13 @@ TEST_F(Rules, CreepingBackIsNotWrongWay) {
   EXPECT_EQ(counts().wrong_way_s, 0);
 }
 
+TEST_F(Rules, BackingUpIsNotWrongWay) {
+  add("car", {80, 0}, {-1, 0});
+  scene_.heading[0] = 0;
+  run(2);
+  EXPECT_EQ(counts().wrong_way_s, 0);
+}
+
 TEST_F(Rules, OffRoadAndSidewalk) {
   add("car", {20, 30}, {0, 0});
   run(1);
