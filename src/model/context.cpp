@@ -10,7 +10,7 @@ namespace sumogamma {
 namespace {
 constexpr double kCreep = 1.0;        // [m/s]
 constexpr double kReturn = 1.5;       // to the place aimed at, at the least [s]
-constexpr double kRoundOthers = 4.0;  // beyond the boundary [m]
+constexpr double kRoundOthers = 2.2;  // beyond the boundary, of the own width
 }  // namespace
 
 void append_contextual_constraints(const Model& model, const Scene& scene, std::size_t row,
@@ -39,7 +39,7 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
           0.9 * std::abs(heading_of(back_is_right ? trackable.right : trackable.left));
       const double away = std::asin(std::clamp(forward.dot(outward), -1.0, 1.0));
       // who is wedged may find its way round whoever it is wedged against
-      const double farthest = is_wedged(scene, row) ? -kRoundOthers : 0.0;
+      const double farthest = is_wedged(scene, row) ? -kRoundOthers * type.width : 0.0;
       if (room < farthest && away > turn) {
         const Vec2 inmost = from_body(direction_of(back_is_right ? -turn : turn), forward);
         constraints.append({Vec2::Zero(), back_is_right ? Vec2(-left_of(inmost)) : left_of(inmost)},

@@ -170,7 +170,10 @@ LinkDecision decide_beyond(const View& view, const Course& course, const Travell
                            const PathLink& link) {
   constexpr double kPatience = 20.0;  // [s]
   constexpr double kFarthest = 20.0;  // [m]
+  constexpr double kSetOut = 0.3;     // [m]
   if (view.scene.waiting_time[course.row] > kPatience) return {};
+  // nor does it halt again who has set out from a place short of the line
+  if (traveller.front > link.halt + kSetOut && link.stop_line > link.halt + kSetOut) return {};
   const PathLink* last = &link;
   for (const PathLink& next : course.path.links) {
     // who waits with its rear on a junction already goes as far as it can

@@ -269,6 +269,7 @@ BuildResult build_network(const BuildRequest& request) {
   PrepareOptions options;
   options.box = result.box;
   options.clip = request.bbox.has_value() || result.box_from_file;
+  options.left_hand = result.left_hand;
   prepare_map(map, options, result.log);
   check_roads(map, request);
 

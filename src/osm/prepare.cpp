@@ -220,6 +220,19 @@ bool is_one_way(const MapWay& way) {
 
 bool is_reversed(const MapWay& way) { return tag_is(way.tags, "oneway", {"-1", "reverse"}); }
 
+/// "a||c" for "c||a".
+std::string reversed_list(const std::string& list) {
+  std::string reversed;
+  for (std::size_t end = list.size();;) {
+    const std::size_t bar = end == 0 ? std::string::npos : list.rfind('|', end - 1);
+    const std::size_t begin = bar == std::string::npos ? 0 : bar + 1;
+    reversed += list.substr(begin, end - begin);
+    if (begin == 0) return reversed;
+    reversed += '|';
+    end = bar;
+  }
+}
+
 }  // namespace
 
 void normalise_tags(OsmMap& map, IssueLog& log) {
@@ -242,6 +255,18 @@ void normalise_tags(OsmMap& map, IssueLog& log) {
         log.add(Severity::Note, std::string("ignored_") + key, "tags that SUMO 1.15 does not read",
                 way_name(way));
   }
+}
+
+void reverse_turn_lanes(OsmMap& map, IssueLog& log) {
+  for (MapWay& way : map.ways)
+    for (const char* key : {"turn:lanes", "turn:lanes:forward", "turn:lanes:backward"}) {
+      const auto found = way.tags.find(key);
+      if (found == way.tags.end()) continue;
+      found->second = reversed_list(found->second);
+      log.add(Severity::Note, "turn_lanes_reversed",
+              "turn lanes that netconvert 1.15 reads in the wrong order where traffic keeps left",
+              way_name(way));
+    }
 }
 
 namespace {
@@ -634,6 +659,7 @@ void filter_restrictions(OsmMap& map, IssueLog& log) {
 void prepare_map(OsmMap& map, const PrepareOptions& options, IssueLog& log) {
   select_ways(map, log);
   normalise_tags(map, log);
+  if (options.left_hand) reverse_turn_lanes(map, log);
   if (options.clip) {
     clip_ways(map, options.box.grown(options.clip_margin), log);
     split_carriageway_ends(map, options.box, log);

@@ -12,6 +12,7 @@ struct PrepareOptions {
   bool clip = true;  ///< cut ways at the box; false where the extract does not say what it covers
   double clip_margin = 60.0;   ///< [m] beyond the box, so that junctions at its edge stay whole
   double signal_reach = 60.0;  ///< [m] from a stop line downstream to its junction
+  bool left_hand = false;      ///< traffic keeps left
 };
 
 /// Leaves only ways that somebody may travel: no private, planned, indoor or underground-walk ways,
@@ -22,6 +23,11 @@ void select_ways(OsmMap& map, IssueLog& log);
 /// Rewrites tags that netconvert 1.15 ignores or misreads: sidewalk:left and kin,
 /// sidewalk=separate, junction=circular, missing lanes of two-way main roads, highway=road.
 void normalise_tags(OsmMap& map, IssueLog& log);
+
+/// Turns the order of turn:lanes round, for maps where traffic keeps left: OSM counts lanes from
+/// the left, netconvert 1.15 reads these ones from the kerb in any case (SUMO issue 13549), and
+/// those who turn left would cross the way of those who turn right.
+void reverse_turn_lanes(OsmMap& map, IssueLog& log);
 
 /// Cuts ways at the box: pieces outside vanish, new nodes stand on its edge (never within 1 m of
 /// another node: netconvert would merge them). The first piece keeps the way's id.

@@ -155,6 +155,21 @@ TEST_F(ContextTest, WhoPointsOutwardComesBackTheShortWay) {
   }
 }
 
+// who is wedged finds its way round others beyond the boundary, no further than its own width asks
+// for: bicycles left a path of a metre by three, and came back through those who came
+TEST_F(ContextTest, WhoIsWedgedGetsRoundByItsOwnWidth) {
+  const std::vector<Vec2> line = {{-10, 0}, {60, 0}};
+  for (const auto& [name, goes] : {std::pair{"bicycle", false}, std::pair{"car", true}}) {
+    const std::size_t own = add_on(line, name, "in_1", -1.5, 20.0, 0.3);
+    here_.scene.wedge_left[own] = 5.0;
+    here_.scene.heading[own] = 0.5 * kPi;
+    here_.scene.velocity[own] = Vec2(0, 0.3);
+    here_.update();
+    EXPECT_LT(here_.context(own).room_left, -1.5);
+    EXPECT_EQ(admits(own, {0, 0.3}), goes) << name;
+  }
+}
+
 // bicycles that a turn had carried onto the other side took 20 m to come back
 TEST_F(ContextTest, TheBoundaryBeyondItsLaneSlowsNobodyWhoComesBack) {
   const std::size_t own = here_.add("bicycle", {"in", "out"}, 40, 4);

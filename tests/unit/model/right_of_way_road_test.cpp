@@ -366,6 +366,17 @@ TEST(JunctionsThatFollowClosely, AreKeptClearForSomeTimeThoughSomebodyCreeps) {
   here.scene.waiting_time[own] = 25;
   here.update();
   EXPECT_GT(here.context(own).allowed_speed, 0.3) << "it goes as far as B";
+
+  // where it waits short of the line it doesn't halt again on its way from there to the line
+  here.scene.standing_time[own] = here.scene.waiting_time[own] = 0;
+  auto path = std::make_shared<Path>(here.path(own));
+  path->links[0].halt -= 3.0;
+  here.road.paths[static_cast<std::size_t>(here.scene.path[own])] = path;
+  for (const double beyond : {-0.6, 1.0}) {
+    here.move(own, path->links[0].halt + beyond - 2.25);
+    here.update();
+    EXPECT_EQ(here.context(own).allowed_speed > 0.3, beyond > 0.0) << beyond;
+  }
 }
 
 // a bus and a car had both waited on a junction for long, both tried, and met nose to nose
