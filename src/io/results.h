@@ -135,7 +135,8 @@ const char* name_of_reason(LimitReason reason);
 template <typename NameOf>
 std::string stuck_csv(const std::vector<StuckAgent>& stuck, const AgentTypeTable& types,
                       const RoadNetwork& network, NameOf&& name_of) {
-  std::string text = "agent,type,lane,x,y,since_s,standing_s,moved_on,reason,foe\n";
+  std::string text =
+      "agent,type,lane,x,y,since_s,standing_s,moved_on,reason,foe,head,head_reason\n";
   char line[160];
   for (const StuckAgent& agent : stuck) {
     text += std::string(name_of(agent.id)) + ',' + type_of(types, agent.type).name + ',';
@@ -144,9 +145,13 @@ std::string stuck_csv(const std::vector<StuckAgent>& stuck, const AgentTypeTable
                   agent.position.y(), agent.since, agent.standing, agent.moved_on ? "yes" : "no",
                   name_of_reason(agent.reason));
     text += line;
-    if (agent.foe >= 0)
-      text += std::string(name_of(AgentId{static_cast<std::uint32_t>(agent.foe)}));
-    text += '\n';
+    const auto named = [&](std::int64_t id) {
+      return id < 0 ? "" : std::string(name_of(AgentId{static_cast<std::uint32_t>(id)}));
+    };
+    const std::string why = agent.ring        ? "ring"
+                            : agent.head >= 0 ? name_of_reason(agent.head_reason)
+                                              : "";
+    text += named(agent.foe) + ',' + named(agent.head) + ',' + why + '\n';
   }
   return text;
 }

@@ -4,6 +4,28 @@
 
 namespace sumogamma {
 
+namespace {
+
+/// Fills in who is at the head of the chain of agents that wait for one another from `row` on.
+void find_head(const Scene& scene, std::size_t row, StuckAgent& agent) {
+  std::vector<std::size_t> chain;
+  for (std::size_t at = row; !agent.ring;) {
+    const RoadContext& context = scene.context[at];
+    chain.push_back(at);
+    if (at != row) {
+      agent.head = scene.id[at].value;
+      agent.head_reason = context.active ? context.reason : LimitReason::None;
+    }
+    if (!context.active || context.foe < 0) return;
+    at = find_row(scene, AgentId{static_cast<std::uint32_t>(context.foe)});
+    if (at == scene.size()) return;
+    agent.ring = std::find(chain.begin(), chain.end(), at) != chain.end();
+  }
+  agent.head = -1;
+}
+
+}  // namespace
+
 void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const RoadState& road) {
   by_type_.resize(types.size());
   red_lights_.update(road);
@@ -57,6 +79,7 @@ void FlowMonitor::add_standing(const Scene& scene, std::size_t row, State& state
     agent.since = state.stopped_at;
     agent.reason = context.active ? context.reason : LimitReason::None;
     agent.foe = context.active ? context.foe : -1;
+    find_head(scene, row, agent);
     stuck_.push_back(agent);
     if (!state.ever_stuck) ++stuck_agents_;
     state.ever_stuck = true;

@@ -35,6 +35,11 @@ struct StuckAgent {
   bool moved_on = false;                   ///< false: still stuck in the end, or gone while stuck
   LimitReason reason = LimitReason::None;  ///< at that moment; None for agents that SUMO drives
   std::int64_t foe = -1;                   ///< id of the agent that it waited for, -1 where unknown
+  /// Who waits for nobody, at the end of the chain from `foe` on; -1 where there is no foe, or
+  /// where the chain closes to a ring.
+  std::int64_t head = -1;
+  LimitReason head_reason = LimitReason::None;  ///< why that one waited
+  bool ring = false;
 };
 
 /// Speeds, distances and standstills. An agent stands below kStanding. Standing time counts while

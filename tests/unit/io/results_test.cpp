@@ -145,9 +145,13 @@ TEST_F(Results, StuckAgentsAsCsv) {
   agent.standing = 75.25;
   agent.reason = LimitReason::Leader;
   agent.foe = 9;
+  agent.head = 7;
+  agent.head_reason = LimitReason::Signal;
   const std::string csv = stuck_csv({agent}, types, RoadNetwork{},
                                     [](AgentId id) { return "v" + std::to_string(id.value); });
-  EXPECT_NE(csv.find("\nv4,bus,,1.50,-2.00,10.00,75.25,no,leader,v9\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\nv4,bus,,1.50,-2.00,10.00,75.25,no,leader,v9,v7,signal\n"),
+            std::string::npos)
+      << csv;
 }
 
 TEST_F(Results, CollisionsAsCsv) {

@@ -97,6 +97,37 @@ TEST_F(Flow, ARedLightSuspendsTheCountButDoesNotResetIt) {
   EXPECT_EQ(monitor_.result(types_).stuck_agents, 1u) << "75 s of green without moving";
 }
 
+TEST_F(Flow, StuckAgentsKnowTheHeadOfTheirQueue) {
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t row = add("car", {50.0 + 8 * k, 0}, "out_0", 30.0 + 8 * k);
+    scene_.context[row].active = true;
+    scene_.context[row].reason = LimitReason::Leader;
+    scene_.context[row].foe = k + 1;
+  }
+  scene_.context[2].reason = LimitReason::Merge;
+  scene_.context[2].foe = -1;
+  run(61);
+  ASSERT_EQ(monitor_.stuck().size(), 3u);
+  EXPECT_EQ(monitor_.stuck()[0].head, 2);
+  EXPECT_EQ(monitor_.stuck()[0].head_reason, LimitReason::Merge);
+  EXPECT_EQ(monitor_.stuck()[2].head, -1) << "it waits for nobody";
+  EXPECT_FALSE(monitor_.stuck()[0].ring);
+}
+
+TEST_F(Flow, WhoWaitForOneAnotherAreARing) {
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t row = add("car", {50.0 + 8 * k, 0}, "out_0", 30.0 + 8 * k);
+    scene_.context[row].active = true;
+    scene_.context[row].reason = LimitReason::Yield;
+    scene_.context[row].foe = k < 2 ? k + 1 : 1;
+  }
+  run(61);
+  ASSERT_EQ(monitor_.stuck().size(), 3u);
+  EXPECT_TRUE(monitor_.stuck()[0].ring) << "behind a ring, too";
+  EXPECT_EQ(monitor_.stuck()[0].head, -1);
+  EXPECT_TRUE(monitor_.stuck()[2].ring);
+}
+
 TEST_F(Flow, PlannedHaltsAndSignalsOfTheModelExcuse) {
   const std::size_t row = add("bus", {50, 0}, "out_0", 30);
   scene_.context[row].active = true;
