@@ -42,12 +42,10 @@ void bound_walking_areas(const RoadNetwork& network, double least, Path& path) {
       piece.lane_from = stretch.lane_from + piece.from - stretch.from;
       const double middle = 0.5 * (piece.from + piece.to);
       const Vec2 point = path.line.point_at(middle), left = left_of(path.line.direction_at(middle));
-      const bool inside = ring_contains(area.outline, point);
-      const auto room = [&](const Vec2& side) {
-        return inside ? std::max(room_within(area.outline, point, side), least) : 2.0 * least;
-      };
-      piece.room_left = room(left);
-      piece.room_right = room(-left);
+      if (ring_contains(area.outline, point)) {
+        piece.room_left = std::max(room_within(area.outline, point, left), least);
+        piece.room_right = std::max(room_within(area.outline, point, -left), least);
+      }
       pieces.push_back(piece);
     }
   }

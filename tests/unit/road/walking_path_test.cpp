@@ -164,11 +164,7 @@ TEST_P(WalkingPath, AreasAreOpenGroundAsFarAsTheirKerb) {
     const Vec2 here = path->line.point_at(middle), left = left_of(path->line.direction_at(middle));
     for (const double room : {stretch.room_left, -stretch.room_right}) {
       EXPECT_GE(std::abs(room), 0.75) << "two get past each other";
-      if (std::abs(room) == 0.75) continue;
-      if (!ring_contains(area.outline, here)) {  // on the crossing already
-        EXPECT_EQ(std::abs(room), 1.5);
-        continue;
-      }
+      if (std::abs(room) == 0.75 || std::isinf(room)) continue;  // infinite on the crossing already
       EXPECT_LT(distance_to_ring(area.outline, here + room * left), 1e-6);
       EXPECT_TRUE(ring_contains(area.outline, here + 0.99 * room * left));
       ++at_kerb;
