@@ -89,7 +89,7 @@ Place place_of(const NodeGroup& group, const pugi::xml_node& network) {
   Place place;
   for (const pugi::xml_node junction : network.children("junction")) {
     const NodeGroup made_of = nodes_of(junction.attribute("id").value());
-    if (!group.contains(*made_of.begin())) continue;
+    if (made_of.empty() || !group.contains(*made_of.begin())) continue;
     const auto nodes = static_cast<double>(made_of.size());
     place.x += nodes * junction.attribute("x").as_double();
     place.y += nodes * junction.attribute("y").as_double();
@@ -114,6 +114,7 @@ void write_joins(const NetconvertRequest& request, const std::filesystem::path& 
     join.append_attribute("nodes") = names.c_str();
     if (!request.left_hand) continue;
     const Place place = place_of(group, network.child("net"));
+    if (place.nodes == 0) continue;  // none of them is in the network any more
     join.append_attribute("x") = place.x / place.nodes;
     join.append_attribute("y") = place.y / place.nodes;
     join.append_attribute("z") = place.z / place.nodes;
