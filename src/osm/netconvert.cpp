@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/subprocess.h"
+#include "osm/network_file.h"
 
 namespace sumogamma::osm {
 namespace {
@@ -80,44 +81,50 @@ void save(const pugi::xml_document& document, const std::filesystem::path& file)
     throw Error(file.string(), "cannot be written: is the disk full?");
 }
 
-/// Where a group of nodes lies [m]: the mean of the junctions that a network makes of them.
-struct Place {
+/// Places of junctions [m], each as often as it has nodes, and how many nodes that is.
+struct Places {
   double x = 0, y = 0, z = 0, nodes = 0;
 };
 
-Place place_of(const NodeGroup& group, const pugi::xml_node& network) {
-  Place place;
+/// The junctions of a network, each by one of the nodes that it was made of.
+std::map<std::string, Places> places_by_node(const pugi::xml_node& network) {
+  std::map<std::string, Places> places;
   for (const pugi::xml_node junction : network.children("junction")) {
     const NodeGroup made_of = nodes_of(junction.attribute("id").value());
-    if (made_of.empty() || !group.contains(*made_of.begin())) continue;
+    if (made_of.empty()) continue;
     const auto nodes = static_cast<double>(made_of.size());
-    place.x += nodes * junction.attribute("x").as_double();
-    place.y += nodes * junction.attribute("y").as_double();
-    place.z += nodes * junction.attribute("z").as_double();
-    place.nodes += nodes;
+    places[*made_of.begin()] = {nodes * junction.attribute("x").as_double(),
+                                nodes * junction.attribute("y").as_double(),
+                                nodes * junction.attribute("z").as_double(), nodes};
   }
-  return place;
+  return places;
 }
 
-/// Writes the groups of nodes to join. Where traffic keeps left each of them needs its place:
-/// without one netconvert 1.15 mirrors what stands for none, puts the junction 1e9 m off, and cuts
-/// the roads there to fit.
+/// Writes the groups of nodes to join. Where traffic keeps left each of them needs its place, the
+/// mean of what the network as it stands makes of it: without one netconvert 1.15 mirrors what
+/// stands for none, puts the junction 1e9 m off, and cuts the roads there to fit.
 void write_joins(const NetconvertRequest& request, const std::filesystem::path& file) {
-  const std::filesystem::path network_file = request.folder / request.network;
-  pugi::xml_document network, document;
-  if (!network.load_file(network_file.c_str())) throw Error(network_file.string(), "not a network");
+  std::map<std::string, Places> places;
+  if (request.left_hand)
+    places = places_by_node(load_network(request.folder / request.network).child("net"));
+  pugi::xml_document document;
   pugi::xml_node nodes = document.append_child("nodes");
   for (const NodeGroup& group : request.joins) {
     std::string names;
-    for (const std::string& node : group) names += (names.empty() ? "" : " ") + node;
+    Places sum;
+    for (const std::string& node : group) {
+      names += (names.empty() ? "" : " ") + node;
+      const auto found = places.find(node);
+      if (found == places.end()) continue;
+      const Places& place = found->second;
+      sum = {sum.x + place.x, sum.y + place.y, sum.z + place.z, sum.nodes + place.nodes};
+    }
     pugi::xml_node join = nodes.append_child("join");
     join.append_attribute("nodes") = names.c_str();
-    if (!request.left_hand) continue;
-    const Place place = place_of(group, network.child("net"));
-    if (place.nodes == 0) continue;  // none of them is in the network any more
-    join.append_attribute("x") = place.x / place.nodes;
-    join.append_attribute("y") = place.y / place.nodes;
-    join.append_attribute("z") = place.z / place.nodes;
+    if (sum.nodes == 0) continue;
+    join.append_attribute("x") = sum.x / sum.nodes;
+    join.append_attribute("y") = sum.y / sum.nodes;
+    join.append_attribute("z") = sum.z / sum.nodes;
   }
   save(document, file);
 }
@@ -198,8 +205,8 @@ void append_carriageways(const pugi::xml_node& network, const CarriagewayPlan& p
 
 void write_patch(const std::filesystem::path& network_file, const NetworkPatch& patch,
                  const std::filesystem::path& edge_file, const std::filesystem::path& node_file) {
-  pugi::xml_document network, edge_document, node_document;
-  if (!network.load_file(network_file.c_str())) throw Error(network_file.string(), "not a network");
+  const pugi::xml_document network = load_network(network_file);
+  pugi::xml_document edge_document, node_document;
   std::map<std::string, std::string> start;
   for (const pugi::xml_node edge : network.child("net").children("edge"))
     start[edge.attribute("id").value()] = edge.attribute("from").value();

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <pugixml.hpp>
 #include <set>
 #include <sstream>
 
-#include "base/error.h"
 #include "osm/lane_overlap.h"
+#include "osm/network_file.h"
 #include "road/sumo_net_reader.h"
 
 namespace sumogamma::osm {
@@ -82,8 +81,7 @@ std::vector<std::vector<std::string>> unmarked_roundabouts(const std::filesystem
   std::set<std::string> ways;
   for (const MapWay& way : map.ways)
     if (tag_is(way.tags, "junction", {"roundabout"})) ways.insert(std::to_string(way.id));
-  pugi::xml_document document;
-  if (!document.load_file(network.c_str())) throw Error(network.string(), "not a network");
+  const pugi::xml_document document = load_network(network);
 
   std::set<std::string> marked;
   for (const pugi::xml_node ring : document.child("net").children("roundabout")) {

@@ -5,12 +5,11 @@
 #include <cstdio>
 #include <limits>
 #include <map>
-#include <pugixml.hpp>
 #include <sstream>
 #include <string>
 #include <utility>
 
-#include "base/error.h"
+#include "osm/network_file.h"
 
 namespace sumogamma::osm {
 namespace {
@@ -38,8 +37,7 @@ Line parse_line(const std::string& text) {
 
 /// The lines along which netconvert lays lanes: an edge's shape, or else from node to node.
 std::map<std::string, Line> read_lines(const std::filesystem::path& file) {
-  pugi::xml_document document;
-  if (!document.load_file(file.c_str())) throw Error(file.string(), "not a network");
+  const pugi::xml_document document = load_network(file);
   const pugi::xml_node net = document.child("net");
   std::map<std::string, std::string> nodes;
   for (const pugi::xml_node junction : net.children("junction")) {

@@ -8,20 +8,20 @@ namespace {
 
 /// Fills in who is at the head of the chain of agents that wait for one another from `row` on.
 void find_head(const Scene& scene, std::size_t row, StuckAgent& agent) {
-  std::vector<std::size_t> chain;
-  for (std::size_t at = row; !agent.ring;) {
-    const RoadContext& context = scene.context[at];
-    chain.push_back(at);
-    if (at != row) {
-      agent.head = scene.id[at].value;
-      agent.head_reason = context.active ? context.reason : LimitReason::None;
-    }
-    if (!context.active || context.foe < 0) return;
-    at = find_row(scene, AgentId{static_cast<std::uint32_t>(context.foe)});
-    if (at == scene.size()) return;
-    agent.ring = std::find(chain.begin(), chain.end(), at) != chain.end();
+  std::vector<std::size_t> chain{row};
+  for (;;) {
+    const RoadContext& context = scene.context[chain.back()];
+    if (!context.active || context.foe < 0) break;
+    const std::size_t foe = find_row(scene, AgentId{static_cast<std::uint32_t>(context.foe)});
+    if (foe == scene.size()) break;
+    agent.ring = std::find(chain.begin(), chain.end(), foe) != chain.end();
+    if (agent.ring) return;
+    chain.push_back(foe);
   }
-  agent.head = -1;
+  if (chain.size() == 1) return;
+  const RoadContext& context = scene.context[chain.back()];
+  agent.head = scene.id[chain.back()].value;
+  agent.head_reason = context.active ? context.reason : LimitReason::None;
 }
 
 }  // namespace

@@ -141,8 +141,8 @@ void RuleMonitor::judge_ground(const Row& agent, State& state) {
         lane.kind != LaneKind::Crossing)
       on_walkway = true;
   }
-  const bool forward = velocity.dot(direction_of(agent.scene.heading[agent.row])) > 0.0;
-  if (against && !explained && !junction && forward && speed > kMoving) {
+  if (against && !explained && !junction && speed > kMoving &&
+      velocity.dot(direction_of(agent.scene.heading[agent.row])) > 0.0) {
     agent.counts.wrong_way_s += step_;
     extend(Offence::WrongWay, agent, state);
   }
