@@ -18,6 +18,7 @@
 #include "osm/osm_reader.h"
 #include "osm/osm_writer.h"
 #include "osm/prepare.h"
+#include "osm/signal_offsets.h"
 #include "osm/swallowed_roads.h"
 #include "road/sumo_net_reader.h"
 
@@ -170,6 +171,18 @@ std::optional<RoadNetwork> convert_map(NetconvertRequest& netconvert, BuildResul
   return read_sumo_net(network);
 }
 
+/// Sets signals that follow each other closely so that who gets over one gets over the next.
+void coordinate_signals(const std::filesystem::path& network, const RoadNetwork& road,
+                        BuildResult& result) {
+  const auto offsets = signal_offsets(road, read_signal_programs(network));
+  if (offsets.empty()) return;
+  set_signal_offsets(network, offsets);
+  for (const auto& [signal, offset] : offsets)
+    result.log.add(Severity::Note, "signals_coordinated",
+                   "signals less than 60 m from another that were set to its times",
+                   signal + " offset " + std::to_string(offset) + " s");
+}
+
 /// Builds net.net.xml; false where it was stopped.
 bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result) {
   NetconvertRequest netconvert;
@@ -199,9 +212,10 @@ bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result
   // edges that lay on each other were partly swallowed by their junctions: only now all of them is
   // there
   const OverlapLength left = overlap_length(*road, find_lane_overlaps(*road));
-  if (left.wheels + left.walking > kWorthAnotherPass * left.all_wheels &&
-      !patch_apart(netconvert, *road, NetworkPatch{}, result))
-    return false;
+  if (left.wheels + left.walking > kWorthAnotherPass * left.all_wheels)
+    road = patch_apart(netconvert, *road, NetworkPatch{}, result);
+  if (!road) return false;
+  coordinate_signals(network, *road, result);
   std::filesystem::remove_all(request.folder / "work");
   result.netconvert_messages = count_message_kinds(read_text(request.folder / netconvert.log));
   return true;

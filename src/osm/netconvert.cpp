@@ -76,11 +76,6 @@ std::vector<std::string> run(const NetconvertRequest& request, std::vector<std::
   return arguments;
 }
 
-void save(const pugi::xml_document& document, const std::filesystem::path& file) {
-  if (!document.save_file(file.c_str()))
-    throw Error(file.string(), "cannot be written: is the disk full?");
-}
-
 /// Places of junctions [m], each as often as it has nodes, and how many nodes that is.
 struct Places {
   double x = 0, y = 0, z = 0, nodes = 0;
@@ -126,7 +121,7 @@ void write_joins(const NetconvertRequest& request, const std::filesystem::path& 
     join.append_attribute("y") = sum.y / sum.nodes;
     join.append_attribute("z") = sum.z / sum.nodes;
   }
-  save(document, file);
+  save_xml(document, file);
 }
 
 }  // namespace
@@ -229,8 +224,8 @@ void write_patch(const std::filesystem::path& network_file, const NetworkPatch& 
     node.append_attribute("id") = junction.c_str();
     node.append_attribute("type") = type.c_str();
   }
-  save(edge_document, edge_file);
-  save(node_document, node_file);
+  save_xml(edge_document, edge_file);
+  save_xml(node_document, node_file);
 }
 
 }  // namespace

@@ -15,4 +15,10 @@ inline pugi::xml_document load_network(const std::filesystem::path& file) {
   return network;
 }
 
+/// Writes an XML file. Throws Error where it cannot be written.
+inline void save_xml(const pugi::xml_document& document, const std::filesystem::path& file) {
+  if (!document.save_file(file.c_str(), "    "))
+    throw Error(file.string(), "cannot be written: is the disk full?");
+}
+
 }  // namespace sumogamma::osm

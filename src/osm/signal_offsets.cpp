@@ -1,0 +1,175 @@
+#include "osm/signal_offsets.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osm/network_file.h"
+
+namespace sumogamma::osm {
+
+namespace {
+
+constexpr double kClose = 60.0;   // [m]
+constexpr double kSpeed = 8.0;    // of who has just set out, at the most [m/s]
+constexpr double kStart = 1.0;    // it takes to set out [s]
+constexpr double kTurning = 0.3;  // weight of a turn
+constexpr double kVehicle = 7.0;  // a shorter road has no more room than none [m]
+
+/// Who comes over one signal and to the next.
+struct Passage {
+  std::string from, to;
+  std::vector<int> greens;  ///< seconds of the first one's cycle
+  std::vector<int> waits;   ///< by second of the second one's cycle, until it is green [s]
+  int way = 0;              ///< [s]
+  double weight = 0;
+};
+
+bool is_green(const SignalProgram& program, std::size_t second, int link) {
+  const char letter = program.states[second][static_cast<std::size_t>(link)];
+  return letter == 'G' || letter == 'g';
+}
+
+std::vector<int> green_seconds(const SignalProgram& program, int link) {
+  std::vector<int> greens;
+  for (std::size_t second = 0; second < program.states.size(); ++second)
+    if (is_green(program, second, link)) greens.push_back(static_cast<int>(second));
+  return greens;
+}
+
+/// Of a link that has green at some time.
+std::vector<int> waits_for_green(const SignalProgram& program, int link) {
+  const std::size_t cycle = program.states.size();
+  std::vector<int> waits(cycle);
+  int wait = 0;
+  for (std::size_t second = 2 * cycle; second-- > 0;) {
+    wait = is_green(program, second % cycle, link) ? 0 : wait + 1;
+    waits[second % cycle] = wait;
+  }
+  return waits;
+}
+
+double weight_of(const Connection& link) { return link.direction == 's' ? 1.0 : kTurning; }
+
+std::vector<Passage> close_passages(const RoadNetwork& road,
+                                    const std::vector<SignalProgram>& programs) {
+  std::map<std::string, const SignalProgram*> by_name;
+  for (const SignalProgram& program : programs) by_name[program.name] = &program;
+  // with a program that knows the link
+  auto program_of = [&](const Connection& link) -> const SignalProgram* {
+    if (link.signal == kNoSignal || link.direction == 't') return nullptr;
+    const auto found = by_name.find(road.signals[index_of(link.signal)].name);
+    if (found == by_name.end() || link.signal_link < 0) return nullptr;
+    const auto size = static_cast<std::size_t>(link.signal_link) + 1;
+    return std::all_of(found->second->states.begin(), found->second->states.end(),
+                       [&](const std::string& state) { return state.size() >= size; })
+               ? found->second
+               : nullptr;
+  };
+  std::vector<Passage> passages;
+  for (const Lane& lane : road.lanes) {
+    if (lane.kind != LaneKind::Normal || lane.length > kClose) continue;
+    for (const ConnectionId in : lane.incoming) {
+      const Connection& first = road.connection(in);
+      const SignalProgram* before = program_of(first);
+      if (before == nullptr) continue;
+      for (const ConnectionId out : lane.outgoing) {
+        const Connection& second = road.connection(out);
+        const SignalProgram* behind = program_of(second);
+        if (behind == nullptr || behind == before || behind->states.size() != before->states.size())
+          continue;
+        Passage passage{
+            before->name, behind->name, green_seconds(*before, first.signal_link), {}, 0, 0.0};
+        if (passage.greens.empty() || green_seconds(*behind, second.signal_link).empty()) continue;
+        passage.waits = waits_for_green(*behind, second.signal_link);
+        const double junction = first.via == kNoLane ? 0.0 : road.lane(first.via).length;
+        const double speed = std::clamp(lane.speed_limit, 1.0, kSpeed);
+        passage.way = static_cast<int>(std::lround(kStart + (lane.length + junction) / speed));
+        passage.weight = weight_of(first) * weight_of(second) / std::max(lane.length, kVehicle);
+        passages.push_back(std::move(passage));
+      }
+    }
+  }
+  return passages;
+}
+
+/// Mean wait at the second signal [s], weighted.
+double cost(const Passage& passage, const std::map<std::string, int>& offsets) {
+  const int cycle = static_cast<int>(passage.waits.size());
+  const int shift = passage.way + offsets.at(passage.from) - offsets.at(passage.to) + cycle;
+  long sum = 0;
+  for (const int second : passage.greens)
+    sum += passage.waits[static_cast<std::size_t>((second + shift) % cycle)];
+  return passage.weight * static_cast<double>(sum) / static_cast<double>(passage.greens.size());
+}
+
+}  // namespace
+
+std::vector<SignalProgram> read_signal_programs(const std::filesystem::path& network) {
+  std::vector<SignalProgram> programs;
+  const pugi::xml_document document = load_network(network);
+  for (const pugi::xml_node logic : document.child("net").children("tlLogic")) {
+    SignalProgram program{logic.attribute("id").value(), {}};
+    bool whole = true;
+    for (const pugi::xml_node phase : logic.children("phase")) {
+      const double duration = phase.attribute("duration").as_double();
+      whole = whole && duration > 0.0 && duration < 1e4 && duration == std::round(duration);
+      if (!whole) break;
+      program.states.insert(program.states.end(), static_cast<std::size_t>(duration),
+                            phase.attribute("state").value());
+    }
+    if (whole && !program.states.empty()) programs.push_back(std::move(program));
+  }
+  return programs;
+}
+
+std::map<std::string, int> signal_offsets(const RoadNetwork& road,
+                                          const std::vector<SignalProgram>& programs) {
+  constexpr int kRounds = 10;
+  constexpr double kBetter = 1e-6;
+  const std::vector<Passage> passages = close_passages(road, programs);
+  std::map<std::string, int> offsets;
+  std::map<std::string, std::vector<const Passage*>> at;
+  for (const Passage& passage : passages) {
+    for (const std::string& name : {passage.from, passage.to}) {
+      offsets[name] = 0;
+      at[name].push_back(&passage);
+    }
+  }
+  bool better = true;
+  for (int round = 0; better && round < kRounds; ++round) {
+    better = false;
+    for (auto& [name, offset] : offsets) {
+      auto cost_here = [&] {
+        double sum = 0.0;
+        for (const Passage* passage : at[name]) sum += cost(*passage, offsets);
+        return sum;
+      };
+      const int cycle = static_cast<int>(at[name].front()->waits.size());
+      double least = cost_here();
+      int best = offset;
+      for (offset = 0; offset < cycle; ++offset) {
+        const double sum = cost_here();
+        if (sum > least - kBetter) continue;
+        least = sum;
+        best = offset;
+        better = true;
+      }
+      offset = best;
+    }
+  }
+  return offsets;
+}
+
+void set_signal_offsets(const std::filesystem::path& network,
+                        const std::map<std::string, int>& offsets) {
+  pugi::xml_document document = load_network(network);
+  for (pugi::xml_node logic : document.child("net").children("tlLogic")) {
+    const auto offset = offsets.find(logic.attribute("id").value());
+    if (offset == offsets.end()) continue;
+    if (!logic.attribute("offset")) logic.append_attribute("offset");
+    logic.attribute("offset") = offset->second;
+  }
+  save_xml(document, network);
+}
+
+}  // namespace sumogamma::osm
