@@ -191,6 +191,8 @@ const char* name_of_reason(LimitReason reason) {
       return "backed out";
     case LimitReason::TurningRoom:
       return "turning room";
+    case LimitReason::LetsIn:
+      return "lets in";
   }
   return "none";
 }

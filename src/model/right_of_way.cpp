@@ -70,6 +70,7 @@ bool lets_go_first(const Model& model, const Scene& scene, const ApproachTable& 
     case LimitReason::BlockedJunction:
     case LimitReason::GivesWay:
     case LimitReason::TurningRoom:
+    case LimitReason::LetsIn:
     case LimitReason::Merge:
     case LimitReason::Leader:  // it stands in a queue, be it behind us
       return true;
@@ -153,11 +154,12 @@ struct Judge {
       return blocks_if(zone.yields && !foe_inside && !foe.stands && ours.begin < theirs.begin &&
                        cuts_in(zone, foe, foe_top));
     // who has backed out of a deadlock lets everybody past, wherever it stands, and so does who
-    // leaves room for a long body; whom bodies hold isn't coming, and past the line it is no use to
-    // wait for it
+    // leaves room for a long body or lets one in; whom bodies hold isn't coming, and past the line
+    // it is no use to wait for it
     const Waiting& waiting = approaches.waiting(foe.row);
-    const bool lets_past =
-        waiting.reason == LimitReason::GivesWay || waiting.reason == LimitReason::TurningRoom;
+    const bool lets_past = waiting.reason == LimitReason::GivesWay ||
+                           waiting.reason == LimitReason::TurningRoom ||
+                           waiting.reason == LimitReason::LetsIn;
     if (foe.stands && lets_past) return Verdict::Held;
     if (foe.stands && waiting.blocked && (!foe_inside || on_junction())) return Verdict::Held;
     const bool waits_for_us = foe.stands && waiting.foe == scene.id[traveller.row].value;

@@ -62,25 +62,64 @@ double next_queue_head(const View& view, const Course& course, const PathLink& l
   return std::numeric_limits<double>::infinity();
 }
 
-/// Length [m] of who has stood for long at its line, waiting to give way to the row, for the lane
-/// that `link` leads into; of the longest there, 0 where nobody does.
-double waits_to_join(const View& view, const Course& course, const PathLink& link) {
-  constexpr double kLong = 20.0;  // [s]
+/// Calls `visit` for everybody who has halted at its line, to give way to the row for the lane that
+/// `link` leads into, and isn't past the place that both need.
+template <typename Visit>
+void visit_joining(const View& view, const Course& course, const PathLink& link, Visit visit) {
   const LaneId to = view.model.road.connection(link.connection).to;
-  double length = 0.0;
   for (const ConflictZone& zone : view.model.conflicts[index_of(link.connection)]) {
     if (zone.yields || view.model.road.connection(zone.foe).to != to) continue;
     for (const Approach& foe : view.approaches.of(zone.foe)) {
       const Waiting& waiting = view.approaches.waiting(foe.row);
-      const bool gives_way = waiting.reason == LimitReason::Yield ||
-                             waiting.reason == LimitReason::Crossing ||
-                             waiting.reason == LimitReason::BlockedJunction;
-      if (foe.row != course.row && foe.stands && gives_way && waiting.halted_for == zone.foe &&
-          view.scene.time - waiting.halted_at > kLong)
-        length = std::max(length, foe.length);
+      if (foe.row != course.row && waiting.halted_for == zone.foe && foe.front < zone.foe_end)
+        visit(foe, waiting);
     }
   }
+}
+
+/// Length [m] of who has stood for long at its line and waits to join; of the longest there, 0
+/// where nobody does.
+double waits_to_join(const View& view, const Course& course, const PathLink& link) {
+  constexpr double kLong = 20.0;  // [s]
+  double length = 0.0;
+  visit_joining(view, course, link, [&](const Approach& foe, const Waiting& waiting) {
+    const bool gives_way = waiting.reason == LimitReason::Yield ||
+                           waiting.reason == LimitReason::Crossing ||
+                           waiting.reason == LimitReason::BlockedJunction;
+    if (foe.stands && gives_way && view.scene.time - waiting.halted_at > kLong)
+      length = std::max(length, foe.length);
+  });
   return length;
+}
+
+/// The teeth of a zipper where a road is full: who has the right of way there, but has come to
+/// stand before the junction, lets one in who came to its line before, some time ago. Not into the
+/// short roads of rings, where everybody waits for who is let in.
+LinkDecision let_one_in(const View& view, const Course& course, const Traveller& traveller,
+                        const PathLink& link) {
+  constexpr double kStands = 2.0, kSomeTime = 10.0;  // [s]
+  constexpr double kAtLine = 6.0, kShort = 40.0;     // [m]
+  const Connection& connection = view.model.road.connection(link.connection);
+  if (traveller.front > link.stop_line + 0.3 || traveller.front < link.halt - kAtLine ||
+      view.scene.waiting_time[course.row] < kStands || connection.signal != kNoSignal ||
+      view.model.road.lane(connection.to).length < kShort)
+    return {};
+  const Waiting& own = view.approaches.waiting(course.row);
+  const double came = own.halted_for == link.connection ? own.halted_at : view.scene.time;
+  const auto id = static_cast<std::int64_t>(view.scene.id[course.row].value);
+  LinkDecision decision;
+  visit_joining(view, course, link, [&](const Approach& foe, const Waiting& waiting) {
+    const bool first = waiting.halted_at <= came && view.scene.time - waiting.halted_at > kSomeTime;
+    // not for somebody who has others to wait for
+    const bool comes = waiting.reason == LimitReason::None ||
+                       waiting.reason == LimitReason::Leader ||
+                       waiting.reason == LimitReason::BlockedJunction ||
+                       (waiting.reason == LimitReason::Yield && waiting.foe == id);
+    if (foe.front > -kAtLine && first && comes)
+      decision = {true, link.halt - kStopMargin, LimitReason::LetsIn,
+                  static_cast<std::int64_t>(view.scene.id[foe.row].value)};
+  });
+  return decision;
 }
 
 /// Keep clear: is there room behind a link for the body, should everybody ahead close up and stop?
@@ -309,6 +348,7 @@ void set_allowed_speed(const View& view, const Course& course, double dt, RoadCo
     }
     if (!decision.must_stop && !takes_turning_room(model.road, scene, course, link))
       decision = leave_turning_room(model, road, scene, approaches, traveller, link);
+    if (!decision.must_stop) decision = let_one_in(view, course, traveller, link);
     if (!decision.must_stop) continue;
     const double gap = decision.stop_at - traveller.front + type.min_gap;
     context.to_halt = std::max(decision.stop_at - traveller.front, 0.0);

@@ -21,8 +21,9 @@ enum class LimitReason : std::uint8_t {
   Leader,
   Stop,
   Merge,
-  GivesWay,    ///< after backing out of a deadlock
-  TurningRoom  ///< that a long body needs where it turns
+  GivesWay,     ///< after backing out of a deadlock
+  TurningRoom,  ///< that a long body needs where it turns
+  LetsIn        ///< somebody into a full road
 };
 
 /// Over which RoadContext::bend is taken: as far as avoidance between vehicles on a road looks [s].

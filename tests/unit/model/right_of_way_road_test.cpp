@@ -289,6 +289,42 @@ TEST_F(PriorityTest, IntoAFullRoadDriversLetOneInWhoHasWaitedForLong) {
   EXPECT_NE(here_.context(own).reason, LimitReason::BlockedJunction);
 }
 
+// who had the right of way drove off with every surge of its queue, and nobody else ever got in
+TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  const PathLink& link = here_.path(own).links.front();
+  here_.move(own, link.stop_line - 2.25 - 0.6);
+  const std::size_t minor = here_.add("car", {"SC", "CE"}, 0, 0);
+  const PathLink& turn = here_.path(minor).links.front();
+  here_.move(minor, turn.stop_line - 2.25 - 0.6);
+  here_.scene.time = 100;
+  auto came = [&](double own_at, double minor_at) {
+    here_.scene.halted_for = {link.connection, turn.connection};
+    here_.scene.halted_at = {own_at, minor_at};
+    here_.scene.context.assign(2, {});
+    here_.scene.waiting_time = {3.0, 100.0 - minor_at};
+    here_.update(2);  // the other one sees that it is let in
+  };
+  came(60, 50);
+  EXPECT_EQ(here_.context(own).reason, LimitReason::LetsIn);
+  EXPECT_EQ(here_.context(own).foe, here_.scene.id[minor].value);
+  EXPECT_NE(here_.context(minor).reason, LimitReason::Yield);
+  came(40, 50);
+  EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn) << "the other one came later";
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
+  came(97, 95);
+  EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn) << "but just before";
+  // who is let in and then has somebody else to wait for is left behind
+  const std::size_t other = here_.add("car", {"EC", "CW"}, 100, 0);
+  here_.scene.context.assign(3, {});
+  here_.scene.halted_at[own] = 60;
+  here_.scene.halted_at[minor] = 50;
+  here_.scene.context[minor].reason = LimitReason::Yield;
+  here_.scene.context[minor].foe = here_.scene.id[other].value;
+  here_.update();
+  EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn);
+}
+
 // a bus came to rest at the edge of the place where their ways cross, took itself for being in
 // there, rolled on and met the other nose to nose
 TEST_F(PriorityTest, WhoHasComeToRestAtAZonesEdgeWaitsThereForWhoMoves) {
