@@ -73,6 +73,7 @@ Json rule_counts_json(const RuleCounts& counts) {
           {"red_lights_met", counts.red_lights_met},
           {"mid_block_crossings", counts.mid_block_crossings},
           {"wrong_way_s", counts.wrong_way_s},
+          {"overtaking_s", counts.overtaking_s},
           {"off_road_s", counts.off_road_s},
           {"sidewalk_by_vehicle_s", counts.sidewalk_by_vehicle_s}};
 }
@@ -295,6 +296,7 @@ void print_results_table(std::FILE* stream, const RunResults& results) {
                                    std::to_string(results.rules.all.signal_crossings) +
                                    " signalled crossings");
   table.number("wrong way", results.rules.all.wrong_way_s, "s");
+  table.number("overtaking over the middle", results.rules.all.overtaking_s, "s");
   table.number("off the road", results.rules.all.off_road_s, "s");
   table.number("vehicles on sidewalks", results.rules.all.sidewalk_by_vehicle_s, "s");
   table.heading("smoothness (vehicles, 95th percentile)");

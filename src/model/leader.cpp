@@ -199,7 +199,8 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
                           std::max(0.0, scene.velocity[other].dot(direction)),
                           taken,
                           narrow ? kClearOf : kOvertakingGap - 0.2,
-                          narrow ? 0.48 : 0.9};
+                          narrow ? 0.48 : 0.9,
+                          narrow ? 0.5 : 1.5};
       cap_passing(passing_speed(passed, type), scene.id[other].value, ahead);
       if (narrow && gap > 0.0 && passed.aside() > 0.0)
         ahead.turning_way = std::min(ahead.turning_way, gap);

@@ -71,7 +71,8 @@ double straight_ahead(const Path& path, double along, double most) {
 double overtaking_room(const Model& model, const RoadState& road, const Scene& scene,
                        const SpatialGrid& grid, const Surroundings& around, std::size_t row,
                        Surroundings& far) {
-  constexpr double kMargin = 2.4, kKept = 1.2;  // [s]
+  constexpr double kMargin = 2.8, kKept = 1.2;  // [s]
+  constexpr double kStarts = 1.0;               // more where somebody may start [s]
   constexpr double kClear = 15.0;               // before a junction [m]
   const Path& path = *road.path(scene.path[row]);
   const PathStretch& here = path.stretch_at(around.along);
@@ -96,15 +97,21 @@ double overtaking_room(const Model& model, const RoadState& road, const Scene& s
   const double top = std::min(free_speed, overtaken.speed + kFaster);
   if (!overtaken.open || top < overtaken.speed + 2.0) return 0.0;
   const double target = overtaken.offset + kOvertakingGap + around.half_width;
+  const double front = around.along + around.half_length;
   const double out = std::max(target - aside_now, 0.0) / kSideways;
   const double past = overtaken.front + kRoomToReturn - (around.along - around.half_length);
-  const double passing = time_to_cover(past, std::max(around.speed - overtaken.speed, 0.0),
-                                       top - overtaken.speed, 0.9 * type.max_acceleration);
+  const double beside = past - std::max(overtaken.rear - front, 0.0);
+  auto time_for = [&](double way, double from) {
+    return time_to_cover(way, std::max(from, 0.0), top - overtaken.speed,
+                         0.9 * type.max_acceleration);
+  };
+  // it gathers speed while it gets aside, and is aside before it gets beside
+  const double passing = std::max(time_for(past, around.speed - overtaken.speed),
+                                  out + time_for(beside, 0.5 * (top - overtaken.speed)));
   const double over = std::max(target + around.half_width - 0.5 * lane.width, 0.0);
-  const double time = out + passing + over / kSideways;
+  const double time = passing + over / kSideways;
   const double mean_speed = 0.5 * (std::max(around.speed, overtaken.speed) + top);
   const double way = mean_speed * time;
-  const double front = around.along + around.half_length;
 
   // abreast already it is safer to get past
   if (begun && front > overtaken.rear) return opposite.width;
@@ -120,7 +127,8 @@ double overtaking_room(const Model& model, const RoadState& road, const Scene& s
   // begins somebody may start, but hardly just now
   const bool begins = opposite.incoming.empty() && around.along + sight > here.to - 1.0;
   const double closing_speed = mean_speed + opposite.speed_limit;
-  const double unseen = begins ? way + closing_speed * margin : closing_speed * (time + margin);
+  const double unseen =
+      begins ? way + closing_speed * (margin + kStarts) : closing_speed * (time + margin);
   if (!begun && sight < unseen) return 0.0;
 
   // nobody comes, neither towards it nor from behind

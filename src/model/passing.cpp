@@ -93,7 +93,6 @@ double filtering_speed(double clearance) {
 }
 
 double passing_speed(const Passed& passed, const AgentType& type) {
-  constexpr double kCloses = 0.5;  // of the way in a second
   constexpr double kThere = 0.05;  // [m]
   constexpr double kLock = 0.55;   // of its tightest turn
   const double past = filtering_speed(passed.meant);
@@ -106,7 +105,7 @@ double passing_speed(const Passed& passed, const AgentType& type) {
   const double curvature = kLock * std::tan(type.max_steering) / type.wheelbase;
   const double spare = std::max(passed.gap - way_aside(aside, passed.turned, curvature), 0.0);
   const double least = passed.taken ? 0.0 : passed.sideways;
-  const double steady = std::min(passed.sideways * passed.gap / aside, kCloses * spare);
+  const double steady = std::min(passed.sideways * passed.gap / aside, passed.closes * spare);
   return passed.speed + std::min(far, std::max(least, steady));
 }
 

@@ -23,6 +23,7 @@ struct Passed {
   bool taken = false;      ///< somebody is beside the vehicle where it means to be
   double clear = 0.3;      ///< far enough aside [m]
   double sideways = 0.48;  ///< how fast the vehicle gets aside [m/s]
+  double closes = 0.5;     ///< of the way to where it has to be aside, in a second
 
   /// How far the vehicle still has to move over before it is beside [m].
   double aside() const { return std::min(meant, clear) - now; }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "model/passing.h"
 #include "scene/storey.h"
 
 namespace sumogamma {
@@ -42,6 +43,12 @@ bool leads_over(const RoadNetwork& network, LaneId own, const Lane& lane) {
 double front_reach(const Footprint& footprint) {
   double reach = 0;
   for (const Vec2& vertex : footprint.outline()) reach = std::max(reach, vertex.x());
+  return reach;
+}
+
+double side_reach(const Footprint& footprint) {
+  double reach = 0;
+  for (const Vec2& vertex : footprint.outline()) reach = std::max(reach, vertex.y());
   return reach;
 }
 
@@ -113,6 +120,23 @@ void RuleMonitor::extend(Offence kind, const Row& agent, State& state) {
                        agent.scene.position[agent.row], now - step_, step_});
 }
 
+bool RuleMonitor::overtakes(const Row& agent, const LaneHit& hit) const {
+  const LaneId own = network_.lane(hit.lane).opposite;
+  if (own == kNoLane) return false;
+  const Lane& lane = network_.lane(own);
+  const Scene& scene = agent.scene;
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    const Vec2& position = scene.position[row];
+    if (row == agent.row || (position - scene.position[agent.row]).norm() > kBeside) continue;
+    if (!is_narrow(2.0 * side_reach(scene.footprint[row])) ||
+        direction_of(scene.heading[row]).dot(hit.direction) > -0.5 ||
+        scene.speed[row] > scene.speed[agent.row] + kFaster)
+      continue;
+    if (lane.centerline.project(position).distance < 0.5 * lane.width) return true;
+  }
+  return false;
+}
+
 void RuleMonitor::judge_ground(const Row& agent, State& state) {
   const Vec2& center = agent.scene.position[agent.row];
   find_lanes(agent, center, hits_);
@@ -127,13 +151,14 @@ void RuleMonitor::judge_ground(const Row& agent, State& state) {
   const Vec2& velocity = agent.scene.velocity[agent.row];
   const double speed = velocity.norm();
   const double limit = -0.5 * speed;  // cos 120 degrees
-  bool on_road = false, on_walkway = false, against = false, explained = false;
+  bool on_road = false, on_walkway = false, explained = false;
+  const LaneHit* against = nullptr;
   for (const LaneHit& hit : hits_) {
     const Lane& lane = network_.lane(hit.lane);
     if (for_vehicles(lane)) {
       on_road = on_road || (lane.allowed & kMotor);
       if (velocity.dot(hit.direction) < limit)
-        against = against || lane.kind == LaneKind::Normal;
+        against = lane.kind == LaneKind::Normal ? &hit : against;
       else
         explained = true;
     }
@@ -143,8 +168,12 @@ void RuleMonitor::judge_ground(const Row& agent, State& state) {
   }
   if (against && !explained && !junction && speed > kMoving &&
       velocity.dot(direction_of(agent.scene.heading[agent.row])) > 0.0) {
-    agent.counts.wrong_way_s += step_;
-    extend(Offence::WrongWay, agent, state);
+    if (overtakes(agent, *against)) {
+      agent.counts.overtaking_s += step_;
+    } else {
+      agent.counts.wrong_way_s += step_;
+      extend(Offence::WrongWay, agent, state);
+    }
   }
   const bool motor = vehicle_class_from_name(agent.type.sumo_class) & kMotor;
   if (motor && on_walkway && !on_road) {
@@ -369,6 +398,7 @@ RuleResult RuleMonitor::result(const AgentTypeTable& types) const {
     result.all.red_lights_met += counts.red_lights_met;
     result.all.mid_block_crossings += counts.mid_block_crossings;
     result.all.wrong_way_s += counts.wrong_way_s;
+    result.all.overtaking_s += counts.overtaking_s;
     result.all.off_road_s += counts.off_road_s;
     result.all.sidewalk_by_vehicle_s += counts.sidewalk_by_vehicle_s;
   }

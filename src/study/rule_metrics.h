@@ -24,6 +24,7 @@ struct RuleCounts {
       0;  ///< encounters of an agent that could go with a red light: the base of a rate of running
   std::uint64_t mid_block_crossings = 0;  ///< roads crossed on foot between junctions
   double wrong_way_s = 0;                 ///< against every lane of the place
+  double overtaking_s = 0;                ///< likewise, but past somebody narrow: no offence
   double off_road_s = 0;                  ///< on no lane and no junction
   double sidewalk_by_vehicle_s = 0;       ///< motor vehicles on ground for people on foot
 };
@@ -65,7 +66,9 @@ struct RedLightEvent {
 /// into a signalled crossing that showed red already when it was stepped on; who is pressed off it
 /// sideways and comes back within kAside is still on it. Wrong way: forward and faster than
 /// kMoving, on a normal lane, off junctions, more than 120 degrees from every lane of the place
-/// that vehicles may use. Lanes on another storey than one's own don't count (bridges).
+/// that vehicles may use. Lanes on another storey than one's own don't count (bridges). Overtaking:
+/// the same, on a lane that the network calls the opposite one of a lane on which somebody narrow
+/// goes the same way, no further off than kBeside and no more than kFaster faster.
 ///
 /// Roads crossed between junctions: the pieces of a walk over a road (Path::over_road) that were
 /// walked to their end. Only a path says what somebody means: plain SUMO's people have none.
@@ -82,6 +85,8 @@ class RuleMonitor {
   static constexpr double kStands = 0.2;   ///< [m/s]
   static constexpr double kMoving = 0.5;   ///< [m/s]
   static constexpr double kEntered = 0.5;  ///< [m]
+  static constexpr double kBeside = 20.0;  ///< from middle to middle [m]
+  static constexpr double kFaster = 1.0;   ///< [m/s]
   static constexpr double kAside = 10.0;   ///< [s]
   static constexpr double kPause = 1.0;    ///< [s]
   static constexpr double kJudgement =
@@ -124,6 +129,8 @@ class RuleMonitor {
     const AgentType& type;
     RuleCounts& counts;
   };
+  /// Does an agent on a lane that leads the other way get past somebody narrow?
+  bool overtakes(const Row& agent, const LaneHit& hit) const;
   void judge_ground(const Row& agent, State& state);
   void extend(Offence kind, const Row& agent, State& state);
   void judge_stop_line(const Row& agent, State& state, const Vec2& front, const RoadState& road);

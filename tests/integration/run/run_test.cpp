@@ -150,7 +150,7 @@ TEST_F(RunTest, EveryKeyOfTheResultsIsThere) {
                "deep_pairs", "by_types", "worst_penetration_m"});
   expect_keys(results["flow"], {"mean_speed", "distance_km", "stuck_agents", "longest_standstill_s",
                                 "waiting_time_mean_s"});
-  expect_keys(results["rules"], {"red_light_crossings", "wrong_way_s", "off_road_s",
+  expect_keys(results["rules"], {"red_light_crossings", "wrong_way_s", "overtaking_s", "off_road_s",
                                  "sidewalk_by_vehicle_s", "by_types"});
   expect_keys(results["smoothness"],
               {"accel_p95", "jerk_p95", "yaw_rate_p95", "lateral_slip_p95", "reversals"});

@@ -256,6 +256,27 @@ TEST_F(Rules, WrongWayNeedsALaneAgainstAndNoneWith) {
   EXPECT_NEAR(counts().wrong_way_s, 2.0, 1e-9) << "its own lane";
 }
 
+TEST_F(Rules, OvertakingOverTheMiddleIsNoOffence) {
+  // what a car does for a second on the lane that leads the other way, the other one 8 m ahead of
+  // it on the lane beside
+  auto counted = [&](const char* other, const Vec2& velocity) {
+    RuleMonitor monitor(kStep, net_, locator_);
+    scene_ = Scene{};
+    add("car", {80, 0}, {-5, 0});
+    add(other, {72, -3.2}, velocity);
+    for (int tick = 0; tick < 10; ++tick) monitor.add(scene_, types_, road_);
+    return monitor.result(types_).all;
+  };
+  EXPECT_NEAR(counted("bicycle", {-4, 0}).wrong_way_s, 1.0, 1e-9) << "the network doesn't let it";
+  const LaneId against = net_.lane_by_name.at("in_1"), own = net_.lane_by_name.at("back_0");
+  net_.lanes[index_of(against)].opposite = own;
+  EXPECT_NEAR(counted("bicycle", {-4, 0}).overtaking_s, 1.0, 1e-9);
+  EXPECT_EQ(counted("bicycle", {-4, 0}).wrong_way_s, 0.0);
+  EXPECT_NEAR(counted("car", {-4, 0}).wrong_way_s, 1.0, 1e-9) << "past a queue of cars";
+  EXPECT_NEAR(counted("bicycle", {4, 0}).wrong_way_s, 2.0, 1e-9) << "against its lane, too";
+  EXPECT_NEAR(counted("bicycle", {-7, 0}).wrong_way_s, 1.0, 1e-9) << "it is faster";
+}
+
 TEST_F(Rules, CrossingALaneSidewaysIsNotWrongWay) {
   add("car", {20, -6}, {0, 5});
   run(2);
