@@ -414,6 +414,51 @@ void follow_on_foot(const View& view, const Course& course, RoadContext& context
   });
 }
 
+bool is_on(const Lane& crossing, const Vec2& place) {
+  const PolylinePosition at = crossing.centerline.project(place);
+  return at.along > 0.0 && at.along < crossing.centerline.length() &&
+         at.distance < 0.5 * crossing.width;
+}
+
+/// Who makes way for others beside a crossing doesn't step onto it while it is red: its edge bounds
+/// the room beside the path of somebody on foot who doesn't cross there.
+void keep_off_red_crossings(const View& view, const Course& course, RoadContext& context) {
+  constexpr double kNear = 2.0, kStep = 0.1;  // [m]
+  const RoadNetwork& network = view.model.road;
+  const Vec2& position = view.scene.position[course.row];
+  const Vec2 left = left_of(context.tangent);
+  const double extent = half_extent(view.scene, course.row, left);
+  auto bound = [&](const Lane& crossing) {
+    if (is_on(crossing, position)) return;
+    for (double aside = kStep; aside < extent + kNear; aside += kStep) {
+      if (aside - extent < context.room_left && is_on(crossing, position + aside * left))
+        context.room_left = aside - extent;
+      if (aside - extent < context.room_right && is_on(crossing, position - aside * left))
+        context.room_right = aside - extent;
+    }
+  };
+  for (const PathStretch& stretch : course.path.stretches) {
+    if (stretch.to < course.along - kNear || stretch.from > course.along + kNear) continue;
+    const Lane& area = network.lane(stretch.lane);
+    if (area.kind != LaneKind::WalkingArea) continue;
+    auto look = [&](LaneId beside) {
+      const Lane& crossing = network.lane(beside);
+      // one of its two directions has the light
+      const auto& ways = crossing.incoming;
+      const bool red = std::any_of(ways.begin(), ways.end(), [&](ConnectionId id) {
+        return is_red(view.road.signal(network.connection(id)));
+      });
+      const auto& own = course.path.stretches;
+      if (crossing.kind == LaneKind::Crossing && red &&
+          std::none_of(own.begin(), own.end(),
+                       [&](const PathStretch& other) { return other.lane == beside; }))
+        bound(crossing);
+    };
+    for (const ConnectionId id : area.outgoing) look(network.connection(id).to);
+    for (const ConnectionId id : area.incoming) look(network.connection(id).from);
+  }
+}
+
 /// Where somebody on foot waits for a crossing [m along its path]: where its way off the road ends,
 /// or before its place beside the path gets onto the crossing, as inside the corner in which the
 /// way turns there; behind the crossing before, in the middle of what is between the two where that
@@ -513,6 +558,7 @@ void update_road_contexts(const Model& model, const RoadState& road, const Spati
                      scene.preferred_speed[row]);
         set_geometry(model, scene, course, context);
         if (path->walking) {
+          keep_off_red_crossings(view, course, context);
           follow_on_foot(view, course, context);
           set_walker_limit(view, course, context);
         } else {

@@ -881,6 +881,44 @@ TEST_F(CrossingTest, WalkersDoNotStepInFrontOfWhoCanNotStop) {
   EXPECT_LT(here_.context(walker).allowed_speed, 1.3);
 }
 
+// who made way for others at the corner got onto a crossing that was red, and not its own
+TEST(SignalledCorner, NobodyStepsAsideOntoACrossingThatIsRed) {
+  const RoadNetwork net =
+      read_plain_net(crossroads("traffic_light", {"--sidewalks.guess", "--crossings.guess"}));
+  RoadScene here{net};
+  // round the south-western corner, between two crossings
+  const std::size_t walker = here.add("pedestrian", {"WC", "CS"}, 0, 1.3, 195, 5);
+  ASSERT_TRUE(here.path(walker).links.empty());
+  // as where its way lies outside of the walking area
+  Path open = here.path(walker);
+  for (PathStretch& stretch : open.stretches)
+    stretch.room_left = stretch.room_right = std::numeric_limits<double>::infinity();
+  here.road.paths.at(0) = std::make_shared<const Path>(open);
+  auto room_at = [&](double along, char signal) {
+    here.road.signal_states.assign(net.signals.size(), std::string(32, signal));
+    here.move(walker, along);
+    here.update();
+    return std::min(here.context(walker).room_left, here.context(walker).room_right);
+  };
+  int bounded = 0;
+  for (const PathStretch& stretch : here.path(walker).stretches) {
+    if (net.lane(stretch.lane).kind != LaneKind::WalkingArea) continue;
+    const double middle = 0.5 * (stretch.from + stretch.to);
+    const double at_green = room_at(middle, 'G'), at_red = room_at(middle, 'r');
+    EXPECT_LE(at_red, at_green);
+    if (at_red > at_green - 0.05) continue;
+    ++bounded;
+    // aside by that much, and a step more, it would be on a crossing
+    const Vec2 place = here.path(walker).line.point_at(middle);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Lane& lane : net.lanes)
+      if (lane.kind == LaneKind::Crossing)
+        least = std::min(least, lane.centerline.project(place).distance - 0.5 * lane.width);
+    EXPECT_GE(at_red + 0.3, least) << "further from it than it need be";
+  }
+  EXPECT_GT(bounded, 0);
+}
+
 TEST_F(CrossingTest, AnEmptyCrossingHoldsNobody) {
   const std::size_t driver = here_.add("car", {"EC", "CW"}, 0, 6, 0, -1, "EC_1");
   here_.move(driver, here_.path(driver).links.at(0).stop_line - 14);
