@@ -1,0 +1,192 @@
+#include "model/keep_clear.h"
+
+#include <algorithm>
+
+namespace sumogamma {
+
+namespace {
+
+// kept clear at the most, and driven on for so long then. Round a block whose roads are full nobody
+// would ever move on: somebody has to lend the queue the room of the junction [s]
+constexpr double kKeepsClear = 40.0, kGoesOn = 10.0;
+
+/// Where the next queue behind a link may have its head [m along the path]: before the next link
+/// at which somebody might have to wait, infinite where none is near.
+double next_queue_head(const RoadView& view, const Course& course, const PathLink& link) {
+  constexpr double kNear = 80.0;  // [m]
+  for (const PathLink& next : course.path.links) {
+    if (next.stop_line <= link.stop_line) continue;
+    if (next.stop_line > link.end + kNear) break;
+    const Connection& connection = view.model.road.connection(next.connection);
+    const char signal = view.road.signal(connection);
+    const bool first = signal == 'G' || (signal == 'O' && connection.state == 'M');
+    if (!first && has_crossing_traffic(view.model, next.connection)) return next.halt;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+/// Calls `visit` for everybody who has halted at its line, to give way to the row for the lane that
+/// `link` leads into, and isn't past the place that both need.
+template <typename Visit>
+void visit_joining(const RoadView& view, const Course& course, const PathLink& link, Visit visit) {
+  const LaneId to = view.model.road.connection(link.connection).to;
+  for (const ConflictZone& zone : view.model.conflicts[index_of(link.connection)]) {
+    if (zone.yields || view.model.road.connection(zone.foe).to != to) continue;
+    for (const Approach& foe : view.approaches.of(zone.foe)) {
+      const Waiting& waiting = view.approaches.waiting(foe.row);
+      if (foe.row != course.row && waiting.halted_for == zone.foe && foe.front < zone.foe_end)
+        visit(foe, waiting);
+    }
+  }
+}
+
+/// Length [m] of who has stood for long at its line and waits to join; of the longest there, 0
+/// where nobody does.
+double waits_to_join(const RoadView& view, const Course& course, const PathLink& link) {
+  constexpr double kLong = 20.0;  // [s]
+  double length = 0.0;
+  visit_joining(view, course, link, [&](const Approach& foe, const Waiting& waiting) {
+    const bool gives_way = waiting.reason == LimitReason::Yield ||
+                           waiting.reason == LimitReason::Crossing ||
+                           waiting.reason == LimitReason::BlockedJunction;
+    if (foe.stands && gives_way && view.scene.time - waiting.halted_at > kLong)
+      length = std::max(length, foe.length);
+  });
+  return length;
+}
+
+/// Keep clear: is there room behind a link for the body, should everybody ahead close up and stop?
+/// Into a full road drivers let one in who has waited for long, and count its body as well. Id of
+/// who takes the room, -1 where there is enough. Sorts `ahead`.
+std::int64_t blocks_exit(const RoadView& view, DrivingAhead& ahead, const Course& course,
+                         const PathLink& link) {
+  constexpr double kBraking = 3.5;   // [m/s^2]
+  constexpr double kDrives = 3.0;    // [m/s]
+  constexpr double kStarts = 0.8;    // likewise of who follows those who drive [m/s]
+  constexpr double kClosedUp = 1.0;  // [m]
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (ahead.count == 0) return -1;
+  const auto begin = ahead.vehicles.begin(), end = begin + static_cast<std::ptrdiff_t>(ahead.count);
+  std::sort(begin, end, [](const auto& a, const auto& b) {
+    return a.rear != b.rear ? a.rear > b.rear : a.id < b.id;
+  });
+  // where each comes to rest at the least, from the far end of the queue
+  const double head = next_queue_head(view, course, link);
+  double rest = kNever;
+  for (auto vehicle = begin; vehicle != end; ++vehicle) {
+    // who drives and has nobody slow ahead goes on, as far as to the next place where it may have
+    // to wait
+    const LimitReason why = view.approaches.waiting(vehicle->row).reason;
+    const bool starts = rest == kNever && vehicle->speed > kStarts &&
+                        (why == LimitReason::None || why == LimitReason::Leader);
+    const double alone = vehicle->speed > kDrives || starts
+                             ? kNever
+                             : vehicle->rear + vehicle->speed * vehicle->speed / (2.0 * kBraking);
+    if (vehicle->front < head) rest = std::min(rest, head + kClosedUp);
+    rest = std::min(alone, rest - kClosedUp - (vehicle->front - vehicle->rear));
+  }
+  if (rest == kNever) return -1;
+  const double joining = waits_to_join(view, course, link);
+  const double needed = link.end + 2.0 * course.half_length + course.type.min_gap + 0.3 +
+                        (joining > 0.0 ? joining + kClosedUp : 0.0);
+  return rest < needed ? (end - 1)->id : -1;
+}
+
+/// Keep clear of junctions that follow each other closely: who would have to wait before the next
+/// one with its rear still on this one waits here already, for some time.
+LinkDecision decide_beyond(const RoadView& view, const Course& course, const Traveller& traveller,
+                           const PathLink& link) {
+  constexpr double kPatience = 20.0;  // [s]
+  constexpr double kFarthest = 20.0;  // [m]
+  constexpr double kSetOut = 0.3;     // [m]
+  if (view.scene.waiting_time[course.row] > kPatience) return {};
+  // nor does it halt again who has set out from a place short of the line
+  if (traveller.front > link.halt + kSetOut && link.stop_line > link.halt + kSetOut) return {};
+  const PathLink* last = &link;
+  for (const PathLink& next : course.path.links) {
+    // who waits with its rear on a junction already goes as far as it can
+    if (next.stop_line < link.stop_line && next.end > link.halt - kStopMargin - traveller.length)
+      return {};
+    if (next.stop_line <= link.stop_line) continue;
+    if (next.halt - kStopMargin - traveller.length > last->end ||
+        next.stop_line > link.stop_line + kFarthest)
+      break;
+    const LinkDecision decision =
+        decide_link(view.model, view.road, view.scene, view.approaches, traveller, next);
+    if (decision.must_stop) return decision;
+    last = &next;
+  }
+  return {};
+}
+
+}  // namespace
+
+LinkDecision keep_clear(const RoadView& view, const Course& course, const Traveller& traveller,
+                        const PathLink& link, DrivingAhead& ahead) {
+  // who waits on the junction goes no further, either
+  const double front = course.along + course.half_length;
+  if (std::max(link.stop_line, link.inside) <= front - 0.3 ||
+      view.scene.keeps_clear[course.row] > kKeepsClear ||
+      !has_crossing_traffic(view.model, link.connection))
+    return {};
+  const std::int64_t blocker = blocks_exit(view, ahead, course, link);
+  const LinkDecision decision = blocker >= 0
+                                    ? LinkDecision{true, 0.0, LimitReason::BlockedJunction, blocker}
+                                    : decide_beyond(view, course, traveller, link);
+  if (!decision.must_stop) return {};
+  const double line = link.halt > front              ? link.halt
+                      : link.stop_line > front - 0.3 ? link.stop_line
+                                                     : link.inside;
+  return {true, line - kStopMargin, decision.reason, decision.foe};
+}
+
+LinkDecision let_one_in(const RoadView& view, const Course& course, const Traveller& traveller,
+                        const PathLink& link) {
+  constexpr double kStands = 2.0, kSomeTime = 10.0;  // [s]
+  constexpr double kAtLine = 6.0, kShort = 40.0;     // [m]
+  const Connection& connection = view.model.road.connection(link.connection);
+  if (traveller.front > link.stop_line + 0.3 || traveller.front < link.halt - kAtLine ||
+      view.scene.waiting_time[course.row] < kStands || connection.signal != kNoSignal ||
+      view.model.road.lane(connection.to).length < kShort)
+    return {};
+  const Waiting& own = view.approaches.waiting(course.row);
+  const double came = own.halted_for == link.connection ? own.halted_at : view.scene.time;
+  const auto id = static_cast<std::int64_t>(view.scene.id[course.row].value);
+  LinkDecision decision;
+  visit_joining(view, course, link, [&](const Approach& foe, const Waiting& waiting) {
+    const bool first = waiting.halted_at <= came && view.scene.time - waiting.halted_at > kSomeTime;
+    // not for somebody who has others to wait for
+    const bool comes = waiting.reason == LimitReason::None ||
+                       waiting.reason == LimitReason::Leader ||
+                       waiting.reason == LimitReason::BlockedJunction ||
+                       (waiting.reason == LimitReason::Yield && waiting.foe == id);
+    if (foe.front > -kAtLine && first && comes)
+      decision = {true, link.halt - kStopMargin, LimitReason::LetsIn,
+                  static_cast<std::int64_t>(view.scene.id[foe.row].value)};
+  });
+  return decision;
+}
+
+bool takes_turning_room(const RoadNetwork& network, const Scene& scene, const Course& course,
+                        const PathLink& link) {
+  constexpr double kCycles = 180.0;  // [s]
+  const bool signalled = network.connection(link.connection).signal != kNoSignal;
+  return scene.keeps_clear[course.row] > kKeepsClear &&
+         (!signalled || scene.waiting_time[course.row] > kCycles);
+}
+
+void note_keeping_clear(const Course& course, const RoadContext& context, double dt, Scene& scene) {
+  double& kept = scene.keeps_clear[course.row];
+  const bool for_others =
+      context.reason == LimitReason::BlockedJunction || context.reason == LimitReason::TurningRoom;
+  if (for_others && course.speed < 0.3) {
+    kept += dt;
+    if (kept > kKeepsClear) kept = kKeepsClear + kGoesOn;
+  } else if (kept > kKeepsClear) {
+    kept = kept - dt > kKeepsClear ? kept - dt : 0.0;
+  } else if (scene.waiting_time[course.row] == 0.0) {
+    kept = 0.0;
+  }
+}
+
+}  // namespace sumogamma

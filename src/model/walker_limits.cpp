@@ -1,0 +1,164 @@
+#include "model/walker_limits.h"
+
+#include <algorithm>
+
+#include "model/jaywalking.h"
+#include "model/right_of_way.h"
+#include "scene/storey.h"
+
+namespace sumogamma {
+
+namespace {
+
+/// People who walk the same way one behind the other keep a distance that grows with their speed,
+/// as on any sidewalk (Seyfried et al. 2005: 0.36 m + 1.06 s v from middle to middle); whoever
+/// comes towards them is left to avoidance.
+void follow_on_foot(const RoadView& view, const Course& course, RoadContext& context) {
+  constexpr double kReach = 2.5;   // [m]
+  constexpr double kFile = 0.05;   // two who overlap sideways by more than this walk in file [m]
+  constexpr double kBeside = 0.1;  // who is no further ahead is beside [m]
+  const Scene& scene = view.scene;
+  const std::size_t row = course.row;
+  const Vec2 left = left_of(context.tangent);
+  const double half_width = half_extent(scene, row, left);
+  view.grid.visit_within(scene.position[row], kReach, [&](std::size_t other, double) {
+    if (other == row || on_other_storey(view.model.road, scene, row, other)) return;
+    if (type_of(view.model.types, scene.type[other]).kinematics != Kinematics::Holonomic) return;
+    const Vec2 offset = scene.position[other] - scene.position[row];
+    const double ahead = offset.dot(context.tangent);
+    const double aside = half_width + half_extent(scene, other, left) - kFile;
+    if (ahead < kBeside || std::abs(offset.dot(left)) > aside) return;
+    if (direction_of(scene.heading[other]).dot(context.tangent) < 0.5) return;
+    const double gap = ahead - course.half_length - half_extent(scene, other, context.tangent);
+    const double allowed = std::max(gap, 0.0) / (course.type.headway * course.headway_factor);
+    if (allowed >= context.allowed_speed || allowed >= context.speed_limit) return;
+    context.allowed_speed = allowed;
+    context.reason = LimitReason::Leader;
+    context.foe = scene.id[other].value;
+  });
+}
+
+bool is_on(const Lane& crossing, const Vec2& place) {
+  const PolylinePosition at = crossing.centerline.project(place);
+  return at.along > 0.0 && at.along < crossing.centerline.length() &&
+         at.distance < 0.5 * crossing.width;
+}
+
+/// Who makes way for others beside a crossing doesn't step onto it while it is red: its edge bounds
+/// the room beside the path of somebody on foot who doesn't cross there.
+void keep_off_red_crossings(const RoadView& view, const Course& course, RoadContext& context) {
+  constexpr double kNear = 2.0, kStep = 0.1;  // [m]
+  const RoadNetwork& network = view.model.road;
+  const Vec2& position = view.scene.position[course.row];
+  const Vec2 left = left_of(context.tangent);
+  const double extent = half_extent(view.scene, course.row, left);
+  auto bound = [&](const Lane& crossing) {
+    if (is_on(crossing, position)) return;
+    for (double aside = kStep; aside < extent + kNear; aside += kStep) {
+      if (aside - extent < context.room_left && is_on(crossing, position + aside * left))
+        context.room_left = aside - extent;
+      if (aside - extent < context.room_right && is_on(crossing, position - aside * left))
+        context.room_right = aside - extent;
+    }
+  };
+  for (const PathStretch& stretch : course.path.stretches) {
+    if (stretch.to < course.along - kNear || stretch.from > course.along + kNear) continue;
+    const Lane& area = network.lane(stretch.lane);
+    if (area.kind != LaneKind::WalkingArea) continue;
+    auto look = [&](LaneId beside) {
+      const Lane& crossing = network.lane(beside);
+      // one of its two directions has the light
+      const auto& ways = crossing.incoming;
+      const bool red = std::any_of(ways.begin(), ways.end(), [&](ConnectionId id) {
+        return is_red(view.road.signal(network.connection(id)));
+      });
+      const auto& own = course.path.stretches;
+      if (crossing.kind == LaneKind::Crossing && red &&
+          std::none_of(own.begin(), own.end(),
+                       [&](const PathStretch& other) { return other.lane == beside; }))
+        bound(crossing);
+    };
+    for (const ConnectionId id : area.outgoing) look(network.connection(id).to);
+    for (const ConnectionId id : area.incoming) look(network.connection(id).from);
+  }
+}
+
+/// Where somebody on foot waits for a crossing [m along its path]: where its way off the road ends,
+/// or before its place beside the path gets onto the crossing, as inside the corner in which the
+/// way turns there; behind the crossing before, in the middle of what is between the two where that
+/// is no deeper than a body.
+double kerb_halt(const Model& model, const Course& course, const PathLink& link) {
+  constexpr double kFarthest = 4.0, kStep = 0.2, kOnIt = 0.2;  // [m]
+  const Polyline& line = course.path.line;
+  const Vec2 begin = line.point_at(link.stop_line), way = line.point_at(link.end) - begin;
+  if (way.norm() < kOnIt) return link.halt;
+  const Vec2 across = way.normalized();
+  const LaneId crossing = course.path.stretch_at(0.5 * (link.stop_line + link.end)).lane;
+  const double half_width = 0.5 * model.road.lane(crossing).width;
+  double crossed = -std::numeric_limits<double>::infinity();
+  for (const PathLink& before : course.path.links)
+    if (before.stop_line < link.stop_line) crossed = std::max(crossed, before.end);
+  if (link.halt - kStopMargin - 2.0 * course.half_length < crossed)
+    return 0.5 * (crossed + link.stop_line) + course.half_length + kStopMargin;
+  const double least = std::max(link.stop_line - kFarthest, crossed + kStep);
+  double halt = link.halt;
+  for (double along = link.stop_line; along > least; along -= kStep) {
+    const Vec2 beside = course.offset * left_of(line.direction_at(along));
+    const Vec2 place = line.point_at(along) + beside - begin;
+    if (place.dot(across) > kOnIt && std::abs(cross(across, place)) < half_width)
+      halt = std::min(halt, along - kStep);
+  }
+  return halt;
+}
+
+/// Walkers stop dead at a kerb, and otherwise leave each other to avoidance.
+void set_walker_limit(const RoadView& view, const Course& course, RoadContext& context) {
+  constexpr double kStep = 0.4;     // [m]
+  constexpr double kOnIt = 0.7;     // whose front is further past the line crosses [m]
+  constexpr double kPressed = 3.0;  // likewise who waited for the light, and was pressed on [m]
+  const bool was_held = view.scene.context[course.row].reason == LimitReason::Signal;
+  const double front = course.along + course.half_length;
+  const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed,
+                            context.speed_limit};
+  auto halt = [&](const LinkDecision& decision) {
+    const double allowed = std::max(0.0, (decision.stop_at - front) / 0.7);
+    context.to_halt = std::max(decision.stop_at - front, 0.0);
+    context.allowed_speed = std::min(context.allowed_speed, allowed);
+    context.reason = decision.reason;
+    context.foe = decision.foe;
+  };
+  const LinkDecision at_kerb =
+      decide_at_kerb(view.model, view.road, view.scene, view.grid, traveller);
+  if (at_kerb.must_stop) return halt(at_kerb);
+  for (PathLink link : course.path.links) {
+    const double past = front - link.stop_line;
+    if (link.end < course.along || past > (was_held ? kPressed : kOnIt)) continue;
+    if (link.halt > front + 8.0) break;
+    link.halt = kerb_halt(view.model, course, link);
+    if (link.halt > front + 4.0) continue;
+    Traveller waiting = traveller;
+    waiting.front = std::min(front, link.stop_line + kOnIt);
+    const LinkDecision decision =
+        decide_link(view.model, view.road, view.scene, view.approaches, waiting, link);
+    if (!decision.must_stop) continue;
+    if (past > kOnIt && decision.reason != LimitReason::Signal) continue;
+    const double beyond = front - (link.halt - kStopMargin);
+    if (beyond <= (link.halt < link.stop_line ? kStep : 1.0)) return halt(decision);
+    // on the road already when the light changed, or pressed on: back to where nobody drives
+    context.sub_goal = course.path.line.point_at(course.along - beyond);
+    context.allowed_speed = std::min(beyond / 0.7, 1.0);
+    context.reason = decision.reason;
+    context.foe = decision.foe;
+    return;
+  }
+}
+
+}  // namespace
+
+void set_walker_limits(const RoadView& view, const Course& course, RoadContext& context) {
+  keep_off_red_crossings(view, course, context);
+  follow_on_foot(view, course, context);
+  set_walker_limit(view, course, context);
+}
+
+}  // namespace sumogamma
