@@ -61,10 +61,15 @@ void keep_off_red_crossings(const RoadView& view, const Course& course, RoadCont
         context.room_right = aside - extent;
     }
   };
-  for (const PathStretch& stretch : course.path.stretches) {
-    if (stretch.to < course.along - kNear || stretch.from > course.along + kNear) continue;
-    const Lane& area = network.lane(stretch.lane);
-    if (area.kind != LaneKind::WalkingArea) continue;
+  const auto& own = course.path.stretches;
+  LaneId looked_at = kNoLane;
+  for (auto stretch =
+           std::lower_bound(own.begin(), own.end(), course.along - kNear,
+                            [](const PathStretch&other, double along) { return other.to < along; });
+       stretch != own.end() && stretch->from <= course.along + kNear; ++stretch) {
+    const Lane& area = network.lane(stretch->lane);
+    if (area.kind != LaneKind::WalkingArea || stretch->lane == looked_at) continue;
+    looked_at = stretch->lane;
     auto look = [&](LaneId beside) {
       const Lane& crossing = network.lane(beside);
       // one of its two directions has the light
@@ -72,7 +77,6 @@ void keep_off_red_crossings(const RoadView& view, const Course& course, RoadCont
       const bool red = std::any_of(ways.begin(), ways.end(), [&](ConnectionId id) {
         return is_red(view.road.signal(network.connection(id)));
       });
-      const auto& own = course.path.stretches;
       if (crossing.kind == LaneKind::Crossing && red &&
           std::none_of(own.begin(), own.end(),
                        [&](const PathStretch& other) { return other.lane == beside; }))
