@@ -111,8 +111,7 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
     if (next.halt - kStopMargin - traveller.length > last->end ||
         next.stop_line > link.stop_line + kFarthest)
       break;
-    const LinkDecision decision =
-        decide_link(view.model, view.road, view.scene, view.approaches, traveller, next);
+    const LinkDecision decision = decide_link(view, traveller, next);
     if (decision.must_stop) return decision;
     last = &next;
   }

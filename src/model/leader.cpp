@@ -47,11 +47,7 @@ constexpr double kCrawl = 1.0;        // [m/s]
 constexpr double kHaltsBefore = 0.5;  // who leaves the way for a nose [m]
 constexpr double kPatience = 6.0;     // with somebody on foot who stands in the way [s]
 
-/// How somebody is passed: see Passed.
-struct Manner {
-  double clear, sideways, closes;
-};
-constexpr Manner kFiltering{0.3, 0.48, 0.5}, kOvertaking{kOvertakingGap - 0.2, 0.9, 1.5};
+constexpr Manner kOvertaking{kOvertakingGap - 0.2, 0.9, 1.5};
 
 /// Has somebody stood for long at its gate, waiting for a gap in the lane beside?
 bool waits_long(const Scene& scene, std::size_t row) {
@@ -197,16 +193,13 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
       const double reach_aside =
           gap < 0.0 ? half_extent(scene, row, left_of(tangent)) : own_half_width;
       const double apart = own_offset - place.offset;
-      const Manner& manner = narrow ? kFiltering : kOvertaking;
       const Passed passed{gap,
                           std::abs(apart) - half_width - reach_aside,
                           clearance,
                           std::copysign(1.0, apart) * cross(tangent, forward),
                           std::max(0.0, scene.velocity[other].dot(direction)),
                           taken,
-                          manner.clear,
-                          manner.sideways,
-                          manner.closes};
+                          narrow ? Manner{} : kOvertaking};
       cap_passing(passing_speed(passed, type), scene.id[other].value, ahead);
       if (narrow && gap > 0.0 && passed.aside() > 0.0)
         ahead.turning_way = std::min(ahead.turning_way, gap);

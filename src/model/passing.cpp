@@ -97,15 +97,16 @@ double passing_speed(const Passed& passed, const AgentType& type) {
   constexpr double kLock = 0.55;   // of its tightest turn
   const double past = filtering_speed(passed.meant);
   if (passed.gap <= 0.0)
-    return passed.speed + std::clamp(filtering_speed(passed.now), passed.sideways,
-                                     std::max(past, passed.sideways));
+    return passed.speed + std::clamp(filtering_speed(passed.now), passed.manner.sideways,
+                                     std::max(past, passed.manner.sideways));
   const double far = std::sqrt(past * past + 2.0 * type.comfortable_deceleration * passed.gap);
   const double aside = passed.aside();
   if (aside < kThere) return passed.speed + far;
   const double curvature = kLock * std::tan(type.max_steering) / type.wheelbase;
   const double spare = std::max(passed.gap - way_aside(aside, passed.turned, curvature), 0.0);
-  const double least = passed.taken ? 0.0 : passed.sideways;
-  const double steady = std::min(passed.sideways * passed.gap / aside, passed.closes * spare);
+  const double least = passed.taken ? 0.0 : passed.manner.sideways;
+  const double steady =
+      std::min(passed.manner.sideways * passed.gap / aside, passed.manner.closes * spare);
   return passed.speed + std::min(far, std::max(least, steady));
 }
 

@@ -13,20 +13,25 @@ bool is_narrow(double width);
 /// between their sides: 0 where that is too little to go by at all.
 double filtering_speed(double clearance);
 
-/// Somebody whom a vehicle means to pass.
-struct Passed {
-  double gap = 0;          ///< way ahead [m], negative beside
-  double now = 0;          ///< clear between the sides as the vehicle is [m]
-  double meant = 0;        ///< likewise where it means to be [m]
-  double turned = 0;       ///< its heading to the side on which it passes, a sine
-  double speed = 0;        ///< of the other [m/s]
-  bool taken = false;      ///< somebody is beside the vehicle where it means to be
+/// How somebody is passed; as it is, between queues.
+struct Manner {
   double clear = 0.3;      ///< far enough aside [m]
   double sideways = 0.48;  ///< how fast the vehicle gets aside [m/s]
   double closes = 0.5;     ///< of the way to where it has to be aside, in a second
+};
+
+/// Somebody whom a vehicle means to pass.
+struct Passed {
+  double gap = 0;      ///< way ahead [m], negative beside
+  double now = 0;      ///< clear between the sides as the vehicle is [m]
+  double meant = 0;    ///< likewise where it means to be [m]
+  double turned = 0;   ///< its heading to the side on which it passes, a sine
+  double speed = 0;    ///< of the other [m/s]
+  bool taken = false;  ///< somebody is beside the vehicle where it means to be
+  Manner manner = {};
 
   /// How far the vehicle still has to move over before it is beside [m].
-  double aside() const { return std::min(meant, clear) - now; }
+  double aside() const { return std::min(meant, manner.clear) - now; }
 };
 
 /// The most speed at which a narrow vehicle goes by [m/s]. Ways aside are made at a slow walk: so

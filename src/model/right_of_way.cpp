@@ -112,11 +112,7 @@ enum class Verdict {
   Blocks,  ///< it has to be waited for
 };
 
-struct Judge {
-  const Model& model;
-  const RoadState& road;
-  const Scene& scene;
-  const ApproachTable& approaches;
+struct Judge : RoadView {
   const Traveller& traveller;
   const PathLink& link;
   bool at_red = false;  ///< the traveller goes over this link at red, where the way is free
@@ -443,9 +439,8 @@ void keep_zones_free(const Model& model, const RoadState& road, const Scene& sce
 
 }  // namespace
 
-LinkDecision decide_link(const Model& model, const RoadState& road, const Scene& scene,
-                         const ApproachTable& approaches, const Traveller& traveller,
-                         const PathLink& link) {
+LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const PathLink& link) {
+  const auto& [model, road, scene, grid, approaches] = view;
   const Connection& connection = model.road.connection(link.connection);
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const char signal = road.signal(connection);
@@ -468,7 +463,7 @@ LinkDecision decide_link(const Model& model, const RoadState& road, const Scene&
     decision = {true, stop_at, at_red ? LimitReason::Signal : LimitReason::Yield, -1};
 
   const bool free_green = signal == 'G';
-  const Judge judge{model, road, scene, approaches, traveller, link, at_red};
+  const Judge judge{view, traveller, link, at_red};
   for (const ConflictZone& zone_of_table : model.conflicts[index_of(link.connection)]) {
     ConflictZone zone = zone_of_table;
     const Piece ours_to_cover = as_travelled(own_path, link.stop_line, zone.begin, zone.end);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/approaches.h"
+#include "model/road_view.h"
 
 namespace sumogamma {
 
@@ -25,9 +25,7 @@ struct Traveller {
 };
 
 /// Signals, priority and occupied conflict zones (facts of the network) applied to one link.
-LinkDecision decide_link(const Model& model, const RoadState& road, const Scene& scene,
-                         const ApproachTable& approaches, const Traveller& traveller,
-                         const PathLink& link);
+LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const PathLink& link);
 
 /// Does anybody cross or join at a link but those who come from the next lane of the same road?
 bool has_crossing_traffic(const Model& model, ConnectionId link);

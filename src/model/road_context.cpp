@@ -148,11 +148,11 @@ void set_allowed_speed(const RoadView& view, const Course& course, double dt,
       limit(std::max(zipped, -type.comfortable_deceleration), LimitReason::Leader, teeth.id,
             binding, context);
     }
-    LinkDecision decision = decide_link(model, road, scene, approaches, traveller, link);
+    LinkDecision decision = decide_link(view, traveller, link);
     // who gets over the edge of its lane just before its line isn't too near to halt for that
     if (!decision.must_stop && traveller.front > front && link.stop_line > front) {
       const Traveller own{course.row, front, length, course.speed, free_speed};
-      const LinkDecision held = decide_link(model, road, scene, approaches, own, link);
+      const LinkDecision held = decide_link(view, own, link);
       if (held.must_stop && held.reason == LimitReason::Signal) decision = held;
     }
     if (first) context.at_red = decision.must_stop && decision.reason == LimitReason::Signal;

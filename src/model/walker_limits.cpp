@@ -63,9 +63,7 @@ void keep_off_red_crossings(const RoadView& view, const Course& course, RoadCont
   };
   const auto& own = course.path.stretches;
   LaneId looked_at = kNoLane;
-  for (auto stretch =
-           std::lower_bound(own.begin(), own.end(), course.along - kNear,
-                            [](const PathStretch&other, double along) { return other.to < along; });
+  for (auto stretch = own.begin() + (&course.path.stretch_at(course.along - kNear) - own.data());
        stretch != own.end() && stretch->from <= course.along + kNear; ++stretch) {
     const Lane& area = network.lane(stretch->lane);
     if (area.kind != LaneKind::WalkingArea || stretch->lane == looked_at) continue;
@@ -142,8 +140,7 @@ void set_walker_limit(const RoadView& view, const Course& course, RoadContext& c
     if (link.halt > front + 4.0) continue;
     Traveller waiting = traveller;
     waiting.front = std::min(front, link.stop_line + kOnIt);
-    const LinkDecision decision =
-        decide_link(view.model, view.road, view.scene, view.approaches, waiting, link);
+    const LinkDecision decision = decide_link(view, waiting, link);
     if (!decision.must_stop) continue;
     if (past > kOnIt && decision.reason != LimitReason::Signal) continue;
     const double beyond = front - (link.halt - kStopMargin);

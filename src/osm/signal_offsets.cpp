@@ -24,9 +24,11 @@ struct Passage {
   double weight = 0;
 };
 
+/// Never where the program doesn't know the link.
 bool is_green(const SignalProgram& program, std::size_t second, int link) {
-  const char letter = program.states[second][static_cast<std::size_t>(link)];
-  return letter == 'G' || letter == 'g';
+  const std::string& state = program.states[second];
+  const auto place = static_cast<std::size_t>(link);
+  return place < state.size() && (state[place] == 'G' || state[place] == 'g');
 }
 
 std::vector<int> green_seconds(const SignalProgram& program, int link) {
@@ -54,16 +56,10 @@ std::vector<Passage> close_passages(const RoadNetwork& road,
                                     const std::vector<SignalProgram>& programs) {
   std::map<std::string, const SignalProgram*> by_name;
   for (const SignalProgram& program : programs) by_name[program.name] = &program;
-  // with a program that knows the link
   auto program_of = [&](const Connection& link) -> const SignalProgram* {
-    if (link.signal == kNoSignal || link.direction == 't') return nullptr;
+    if (link.signal == kNoSignal || link.signal_link < 0 || link.direction == 't') return nullptr;
     const auto found = by_name.find(road.signals[index_of(link.signal)].name);
-    if (found == by_name.end() || link.signal_link < 0) return nullptr;
-    const auto size = static_cast<std::size_t>(link.signal_link) + 1;
-    return std::all_of(found->second->states.begin(), found->second->states.end(),
-                       [&](const std::string& state) { return state.size() >= size; })
-               ? found->second
-               : nullptr;
+    return found == by_name.end() ? nullptr : found->second;
   };
   std::vector<Passage> passages;
   for (const Lane& lane : road.lanes) {
@@ -72,20 +68,20 @@ std::vector<Passage> close_passages(const RoadNetwork& road,
       const Connection& first = road.connection(in);
       const SignalProgram* before = program_of(first);
       if (before == nullptr) continue;
+      const std::vector<int> greens = green_seconds(*before, first.signal_link);
+      if (greens.empty()) continue;
       for (const ConnectionId out : lane.outgoing) {
         const Connection& second = road.connection(out);
         const SignalProgram* behind = program_of(second);
         if (behind == nullptr || behind == before || behind->states.size() != before->states.size())
           continue;
-        Passage passage{
-            before->name, behind->name, green_seconds(*before, first.signal_link), {}, 0, 0.0};
-        if (passage.greens.empty() || green_seconds(*behind, second.signal_link).empty()) continue;
-        passage.waits = waits_for_green(*behind, second.signal_link);
+        if (green_seconds(*behind, second.signal_link).empty()) continue;
         const double junction = first.via == kNoLane ? 0.0 : road.lane(first.via).length;
         const double speed = std::clamp(lane.speed_limit, 1.0, kSpeed);
-        passage.way = static_cast<int>(std::lround(kStart + (lane.length + junction) / speed));
-        passage.weight = weight_of(first) * weight_of(second) / std::max(lane.length, kVehicle);
-        passages.push_back(std::move(passage));
+        passages.push_back(
+            {before->name, behind->name, greens, waits_for_green(*behind, second.signal_link),
+             static_cast<int>(std::lround(kStart + (lane.length + junction) / speed)),
+             weight_of(first) * weight_of(second) / std::max(lane.length, kVehicle)});
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "model/approaches.h"
 #include "model/passing.h"
 #include "scene/storey.h"
 
@@ -43,12 +44,6 @@ bool leads_over(const RoadNetwork& network, LaneId own, const Lane& lane) {
 double front_reach(const Footprint& footprint) {
   double reach = 0;
   for (const Vec2& vertex : footprint.outline()) reach = std::max(reach, vertex.x());
-  return reach;
-}
-
-double side_reach(const Footprint& footprint) {
-  double reach = 0;
-  for (const Vec2& vertex : footprint.outline()) reach = std::max(reach, vertex.y());
   return reach;
 }
 
@@ -128,9 +123,9 @@ bool RuleMonitor::overtakes(const Row& agent, const LaneHit& hit) const {
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const Vec2& position = scene.position[row];
     if (row == agent.row || (position - scene.position[agent.row]).norm() > kBeside) continue;
-    if (!is_narrow(2.0 * side_reach(scene.footprint[row])) ||
-        direction_of(scene.heading[row]).dot(hit.direction) > -0.5 ||
-        scene.speed[row] > scene.speed[agent.row] + kFaster)
+    const Vec2 forward = direction_of(scene.heading[row]);
+    if (!is_narrow(2.0 * half_extent(scene, row, left_of(forward))) ||
+        forward.dot(hit.direction) > -0.5 || scene.speed[row] > scene.speed[agent.row] + kFaster)
       continue;
     if (lane.centerline.project(position).distance < 0.5 * lane.width) return true;
   }
