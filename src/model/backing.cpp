@@ -19,6 +19,7 @@ constexpr double kLeast = 8.0;          // wedged for so long before anybody bac
 constexpr double kStagger = 8.0;        // and up to so much longer, so that not all do at once [s]
 constexpr double kTries = 14.0;         // rolls back for so long at the most [s]
 constexpr double kMakesRoom = 12.0;     // likewise who lets somebody back out [s]
+constexpr double kStepsBack = 5.0;      // likewise who stands in somebody's way [s]
 constexpr double kHeldUp = 8.0;         // and has stood for so long before [s]
 constexpr double kGivesWay = 6.0;       // then let others go first, for so long at the least [s]
 constexpr double kStaggerAfter = 18.0;  // and up to so much longer [s]
@@ -86,14 +87,48 @@ bool makes_room(const Scene& scene, std::size_t row) {
   constexpr double kTried = 1.0;  // [s]
   const RoadContext& context = scene.context[row];
   if (context.reason != LimitReason::Leader || scene.standing_time[row] < kHeldUp) return false;
-  const std::size_t leader = find_row(scene, AgentId{static_cast<std::uint32_t>(context.foe)});
+  const std::size_t leader = foe_row(scene, row);
   return leader < scene.size() && scene.standing_time[leader] > kHeldUp &&
          scene.backing_left[leader] > 0.0 && scene.backing_left[leader] < kTries - kTried;
 }
 
+/// Does this row wait for another, or for whoever waits for it?
+bool waits_for(const Scene& scene, std::size_t row, std::size_t other) {
+  constexpr int kLongest = 12;
+  for (int k = 0; k < kLongest && row < scene.size(); ++k) {
+    row = foe_row(scene, row);
+    if (row == other) return true;
+  }
+  return false;
+}
+
+/// Does this row stand in the way of somebody wedged, for whom it waits itself?
+bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                       std::size_t row) {
+  constexpr double kLong = 25.0;               // [s]
+  constexpr double kWay = 2.0, kBeside = 0.4;  // [m]
+  const AgentGeometry& own = geometry.agent[row];
+  if (scene.standing_time[row] < kLong || !own.on_wheels || !own.is_box || is_wedged(scene, row) ||
+      waits_at_red(scene.context[row]))
+    return false;
+  bool found = false;
+  geometry.grid.visit_within(own.position, own.radius + 12.0, [&](std::size_t other, double) {
+    const AgentGeometry& their = geometry.agent[other];
+    if (found || other == row || !their.on_wheels || !their.is_box || !is_wedged(scene, other) ||
+        on_other_storey(model.road, scene, row, other))
+      return;
+    const OrientedBox box = their.box();
+    const OrientedBox room{box.center + 0.5 * (kWay - kBeside) * box.forward, box.forward,
+                           box.half + Vec2(0.5 * (kWay + kBeside), kBeside)};
+    found = separation(own.box(), room) < 0.0 && waits_for(scene, row, other);
+  });
+  return found;
+}
+
 }  // namespace
 
-void update_backing(double dt, Scene& scene, std::size_t row) {
+void update_backing(const Model& model, const TickGeometry& geometry, double dt, Scene& scene,
+                    std::size_t row) {
   double& left = scene.backing_left[row];
   double& gives_way = scene.gives_way_left[row];
   gives_way = std::max(0.0, gives_way - dt);
@@ -105,13 +140,16 @@ void update_backing(double dt, Scene& scene, std::size_t row) {
       // who made room for somebody follows it again
       const bool rolled = scene.standing_time[row] < kTries;
       const bool for_itself = scene.context[row].reason != LimitReason::Leader;
-      gives_way = rolled && for_itself && !moved_on ? courtesy(scene, row) : 0.0;
+      gives_way = !rolled || moved_on ? 0.0 : for_itself ? courtesy(scene, row) : gives_way;
     }
   } else if (gives_way <= 0.0 && !waits_at_red(scene.context[row]) && is_wedged(scene, row) &&
              scene.blocked_time[row] > patience(scene, row)) {
     left = kTries;
   } else if (gives_way <= 0.0 && makes_room(scene, row)) {
     left = kMakesRoom;
+  } else if (gives_way <= 0.0 && stands_in_the_way(model, scene, geometry, row)) {
+    left = kStepsBack;
+    gives_way = kStepsBack + kGivesWay;
   }
 }
 
@@ -129,9 +167,10 @@ std::optional<BodyState> back_out(const Model& model, const RoadState& road, con
   const double speed = std::min({kPace, now + kThrottle * dt, kBrake * scene.backing_left[row]});
   const double to_stop = speed * dt + 0.5 * speed * speed / kBrake;
   const double way = now <= kStill ? kRoomToBegin : to_stop;
-  // back along its path, or else straight or to a side: who stands beside may leave just that
+  // back along its path, or else straight or to a side: who stands beside may leave just that. Who
+  // makes room stays on its road
   const double along_path = lock_along_path(*path, scene, type, row);
-  const double most = std::tan(type.max_steering);
+  const double most = is_wedged(scene, row) ? std::tan(type.max_steering) : 0.0;
   for (const double lock : {along_path, 0.0, most, -most})
     if (keeps_clear(model.road, scene, geometry, row, roll_back(type, body, lock, way / dt, dt)))
       return roll_back(type, body, lock, speed, dt);

@@ -95,6 +95,12 @@ std::size_t find_row(const Scene& scene, AgentId id) {
                                              : scene.size();
 }
 
+std::size_t foe_row(const Scene& scene, std::size_t row) {
+  const RoadContext& context = scene.context[row];
+  if (!context.active || context.foe < 0) return scene.size();
+  return find_row(scene, AgentId{static_cast<std::uint32_t>(context.foe)});
+}
+
 std::uint64_t hash_state(const Scene& scene, std::uint64_t hash) {
   auto add = [&](std::uint64_t bits) {
     for (int byte = 0; byte < 8; ++byte)

@@ -108,6 +108,10 @@ void remove_agents(Scene& scene, const std::vector<bool>& removed);
 /// Row of an id, or size() where it is not present. O(log n).
 std::size_t find_row(const Scene& scene, AgentId id);
 
+/// Row of the agent that a row waits for on a road (RoadContext::foe), or size() where there is
+/// none.
+std::size_t foe_row(const Scene& scene, std::size_t row);
+
 /// 64-bit FNV-1a hash continued from `hash` over every agent's id and exact state bits.
 std::uint64_t hash_state(const Scene& scene, std::uint64_t hash = kFnvBasis);
 

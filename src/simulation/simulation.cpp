@@ -104,7 +104,7 @@ void tick(Simulation& sim, World& world) {
     }
     count_standing(sim.dt, scene, row);
     update_wedge(sim.dt, scene, row);
-    update_backing(sim.dt, scene, row);
+    update_backing(sim.model, sim.geometry, sim.dt, scene, row);
   }
   ++scene.tick;
   scene.time += sim.dt;

@@ -10,9 +10,7 @@ namespace {
 void find_head(const Scene& scene, std::size_t row, StuckAgent& agent) {
   std::vector<std::size_t> chain{row};
   for (;;) {
-    const RoadContext& context = scene.context[chain.back()];
-    if (!context.active || context.foe < 0) break;
-    const std::size_t foe = find_row(scene, AgentId{static_cast<std::uint32_t>(context.foe)});
+    const std::size_t foe = foe_row(scene, chain.back());
     if (foe == scene.size()) break;
     agent.ring = std::find(chain.begin(), chain.end(), foe) != chain.end();
     if (agent.ring) return;

@@ -411,11 +411,9 @@ void SumoWorld::hold_followers(const Scene& scene) {
     Known& known = known_[scene.id[row].value];
     if (known.is_person) continue;
     const RoadContext& context = scene.context[row];
-    bool bound = false;
-    if (context.active && context.foe >= 0 && context.allowed_speed < scene.speed[row] + 1.0) {
-      const std::size_t foe = find_row(scene, AgentId{static_cast<std::uint32_t>(context.foe)});
-      bound = foe < scene.size() && scene.control[foe] == Control::Gamma;
-    }
+    const std::size_t foe = foe_row(scene, row);
+    const bool bound = foe < scene.size() && scene.control[foe] == Control::Gamma &&
+                       context.allowed_speed < scene.speed[row] + 1.0;
     if (bound)
       backend_.set_speed(known.sumo_id, context.allowed_speed);
     else if (known.speed_held)

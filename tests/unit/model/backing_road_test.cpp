@@ -41,13 +41,18 @@ class BackingTest : public ::testing::Test {
       here_.scene.standing_time[row] =
           here_.scene.velocity[row].norm() < 0.3 ? here_.scene.standing_time[row] + kDt : 0.0;
       update_wedge(kDt, here_.scene, row);
-      update_backing(kDt, here_.scene, row);
+      update_backing(here_.model, here_.geometry, kDt, here_.scene, row);
       gave_way_ = gave_way_ || here_.scene.gives_way_left[row] > 0.0;
       farthest = std::max(farthest, (from - here_.scene.position[row]).dot(forward));
       fastest_ = std::max(fastest_, here_.scene.velocity[row].norm());
       here_.scene.time += kDt;
     }
     return farthest;
+  }
+
+  void update(std::size_t row) {
+    prepare_tick(here_.model, here_.scene, workers_, here_.geometry);
+    update_backing(here_.model, here_.geometry, kDt, here_.scene, row);
   }
 
   RoadScene here_{net()};
@@ -89,12 +94,13 @@ TEST_F(BackingTest, AQueueMakesRoomOneAfterTheOther) {
   here_.scene.standing_time = {20.0, 20.0, 20.0};
   here_.scene.backing_left[first] = 5.0;
   for (const std::size_t row : {second, third}) {
+    here_.scene.context[row].active = true;
     here_.scene.context[row].reason = LimitReason::Leader;
     here_.scene.context[row].foe = static_cast<std::int64_t>(row) - 1;
   }
-  update_backing(kDt, here_.scene, second);
+  update(second);
   EXPECT_GT(here_.scene.backing_left[second], 0.0);
-  update_backing(kDt, here_.scene, third);
+  update(third);
   EXPECT_GT(here_.scene.backing_left[third], 0.0);
 }
 
@@ -103,10 +109,52 @@ TEST_F(BackingTest, NobodyMakesRoomForWhoCanRollBack) {
   const std::size_t second = here_.add("car", {"WC", "CE"}, 94, 0);
   here_.scene.standing_time = {0.0, 20.0};
   here_.scene.backing_left[first] = 5.0;
+  here_.scene.context[second].active = true;
   here_.scene.context[second].reason = LimitReason::Leader;
   here_.scene.context[second].foe = 0;
-  update_backing(kDt, here_.scene, second);
+  update(second);
   EXPECT_EQ(here_.scene.backing_left[second], 0.0);
+}
+
+// a motorcycle could not leave a small ring for a lorry that stood across its exit, behind a van
+// that waited for those behind the motorcycle: each for the next, fifteen of them until the end
+TEST_F(BackingTest, WhoStandsAcrossTheWayOfSomebodyWedgedStepsBack) {
+  const std::size_t own = here_.add("truck", {"WC", "CE"}, 100, 0);
+  const std::size_t wedged = here_.add("motorcycle", {"SC", "CN"}, 0, 0);
+  const std::size_t behind = here_.add("car", {"SC", "CN"}, 0, 0);
+  const AgentType& type = type_of(here_.model.types, here_.scene.type[own]);
+  const Vec2 forward = direction_of(here_.scene.heading[own]);
+  here_.scene.heading[wedged] = here_.scene.heading[own] + 0.5 * kPi;
+  here_.scene.position[wedged] =
+      here_.scene.position[own] + 2.0 * forward -
+      (0.5 * type.width + 1.1 + 1.0) * direction_of(here_.scene.heading[wedged]);
+  here_.scene.standing_time = {30.0, 30.0, 30.0};
+  auto waits = [&](std::size_t row, std::size_t foe) {
+    here_.scene.context[row].active = true;
+    here_.scene.context[row].reason = LimitReason::Leader;
+    here_.scene.context[row].foe = here_.scene.id[foe].value;
+  };
+  waits(own, behind);
+  waits(behind, wedged);
+  update(own);
+  EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "for nobody who isn't wedged";
+  here_.scene.wedge_left[wedged] = 10.0;
+  waits(behind, own);
+  update(own);
+  EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "nor for whom it doesn't wait";
+  waits(behind, wedged);
+  update(own);
+  EXPECT_GT(here_.scene.backing_left[own], 0.0);
+  EXPECT_GT(here_.scene.gives_way_left[own], here_.scene.backing_left[own]);
+  // not in front of a red light, nor before it has stood for long
+  here_.scene.backing_left[own] = here_.scene.gives_way_left[own] = 0.0;
+  here_.scene.standing_time[own] = 10.0;
+  update(own);
+  EXPECT_EQ(here_.scene.backing_left[own], 0.0);
+  here_.scene.standing_time[own] = 30.0;
+  here_.scene.context[own].at_red = true;
+  update(own);
+  EXPECT_EQ(here_.scene.backing_left[own], 0.0);
 }
 
 // along its path it would have swung into the lorry beside it; both stood for minutes
