@@ -11,6 +11,7 @@ namespace {
 constexpr double kCreep = 1.0;        // [m/s]
 constexpr double kReturn = 1.5;       // to the place aimed at, at the least [s]
 constexpr double kRoundOthers = 2.2;  // beyond the boundary, of the own width
+constexpr double kToRed = 0.5;        // onto a red crossing, at the least [s]
 }  // namespace
 
 void append_contextual_constraints(const Model& model, const Scene& scene, std::size_t row,
@@ -54,6 +55,10 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
   };
   boundary(context.room_left, left);
   boundary(context.room_right, -left);
+  for (const Vec2& way : context.to_red) {
+    if (way.isZero()) break;
+    constraints.append({way / kToRed, -way.normalized()}, {ConstraintKind::LaneBoundary, -1});
+  }
 
   // driving direction: wheeled agents never go against their path; one that was turned away from it
   // has to turn back first

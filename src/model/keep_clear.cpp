@@ -141,11 +141,12 @@ LinkDecision keep_clear(const RoadView& view, const Course& course, const Travel
 
 LinkDecision let_one_in(const RoadView& view, const Course& course, const Traveller& traveller,
                         const PathLink& link) {
-  constexpr double kStands = 2.0, kSomeTime = 10.0;  // [s]
-  constexpr double kAtLine = 6.0, kShort = 40.0;     // [m]
+  constexpr double kStands = 2.0, kSomeTime = 10.0, kLong = 50.0;  // [s]
+  constexpr double kAtLine = 6.0, kFirst = 2.5, kShort = 40.0;     // [m]
   const Connection& connection = view.model.road.connection(link.connection);
   if (traveller.front > link.stop_line + 0.3 || traveller.front < link.halt - kAtLine ||
-      view.scene.waiting_time[course.row] < kStands || connection.signal != kNoSignal ||
+      view.scene.waiting_time[course.row] < kStands ||
+      view.scene.waiting_time[course.row] > kLong || connection.signal != kNoSignal ||
       view.model.road.lane(connection.to).length < kShort)
     return {};
   const Waiting& own = view.approaches.waiting(course.row);
@@ -154,9 +155,10 @@ LinkDecision let_one_in(const RoadView& view, const Course& course, const Travel
   LinkDecision decision;
   visit_joining(view, course, link, [&](const Approach& foe, const Waiting& waiting) {
     const bool first = waiting.halted_at <= came && view.scene.time - waiting.halted_at > kSomeTime;
-    // not for somebody who has others to wait for
+    // not for somebody who has others to wait for; who follows somebody may be the first at its
+    // line
     const bool comes = waiting.reason == LimitReason::None ||
-                       waiting.reason == LimitReason::Leader ||
+                       (waiting.reason == LimitReason::Leader && foe.front > -kFirst) ||
                        waiting.reason == LimitReason::BlockedJunction ||
                        (waiting.reason == LimitReason::Yield && waiting.foe == id);
     if (foe.front > -kAtLine && first && comes)

@@ -38,48 +38,59 @@ void follow_on_foot(const RoadView& view, const Course& course, RoadContext& con
   });
 }
 
-bool is_on(const Lane& crossing, const Vec2& place) {
-  const PolylinePosition at = crossing.centerline.project(place);
-  return at.along > 0.0 && at.along < crossing.centerline.length() &&
-         at.distance < 0.5 * crossing.width;
+/// The shortest way onto a crossing [m]; zero for who is on it.
+Vec2 way_onto(const Lane& crossing, const Vec2& place) {
+  const auto& points = crossing.centerline.points();
+  const Vec2 along = points.back() - points.front();
+  const double length = along.norm();
+  if (length <= 0.0) return Vec2::Zero();
+  const Vec2 forward = along / length;
+  const Vec2 here = to_body(place - points.front(), forward);
+  const double half_width = 0.5 * crossing.width;
+  const Vec2 nearest(std::clamp(here.x(), 0.0, length),
+                     std::clamp(here.y(), -half_width, half_width));
+  return from_body(nearest - here, forward);
 }
 
-/// Who makes way for others beside a crossing doesn't step onto it while it is red: its edge bounds
-/// the room beside the path of somebody on foot who doesn't cross there.
+/// Is a crossing red? One of its two directions has the light.
+bool is_red_for_walkers(const RoadView& view, const Lane& crossing) {
+  return std::any_of(crossing.incoming.begin(), crossing.incoming.end(), [&](ConnectionId id) {
+    return is_red(view.road.signal(view.model.road.connection(id)));
+  });
+}
+
+/// Who makes way for others beside a crossing doesn't step onto it while it is red, its own only
+/// where it waits for it.
 void keep_off_red_crossings(const RoadView& view, const Course& course, RoadContext& context) {
-  constexpr double kNear = 2.0, kStep = 0.1;  // [m]
+  constexpr double kNear = 2.0;    // [m]
+  constexpr double kLeast = 0.01;  // of a way that has a direction [m]
   const RoadNetwork& network = view.model.road;
   const Vec2& position = view.scene.position[course.row];
-  const Vec2 left = left_of(context.tangent);
-  const double extent = half_extent(view.scene, course.row, left);
-  auto bound = [&](const Lane& crossing) {
-    if (is_on(crossing, position)) return;
-    for (double aside = kStep; aside < extent + kNear; aside += kStep) {
-      if (aside - extent < context.room_left && is_on(crossing, position + aside * left))
-        context.room_left = aside - extent;
-      if (aside - extent < context.room_right && is_on(crossing, position - aside * left))
-        context.room_right = aside - extent;
+  const auto& own = course.path.stretches;
+  const bool waits = context.reason == LimitReason::Signal;
+  auto look = [&](LaneId beside) {
+    const Lane& crossing = network.lane(beside);
+    if (crossing.kind != LaneKind::Crossing || !is_red_for_walkers(view, crossing)) return;
+    const bool crosses = std::any_of(
+        own.begin(), own.end(), [&](const PathStretch& stretch) { return stretch.lane == beside; });
+    if (crosses && !waits) return;
+    Vec2 way = way_onto(crossing, position);
+    const double distance = way.norm();
+    if (distance == 0.0 || distance > kNear) return;
+    const double extent = half_extent(view.scene, course.row, way / distance);
+    way *= std::max(distance - extent, kLeast) / distance;
+    for (Vec2& kept : context.to_red) {
+      if (way == kept) return;
+      if (kept.isZero() || way.squaredNorm() < kept.squaredNorm()) std::swap(way, kept);
+      if (way.isZero()) return;
     }
   };
-  const auto& own = course.path.stretches;
   LaneId looked_at = kNoLane;
   for (auto stretch = own.begin() + (&course.path.stretch_at(course.along - kNear) - own.data());
        stretch != own.end() && stretch->from <= course.along + kNear; ++stretch) {
     const Lane& area = network.lane(stretch->lane);
     if (area.kind != LaneKind::WalkingArea || stretch->lane == looked_at) continue;
     looked_at = stretch->lane;
-    auto look = [&](LaneId beside) {
-      const Lane& crossing = network.lane(beside);
-      // one of its two directions has the light
-      const auto& ways = crossing.incoming;
-      const bool red = std::any_of(ways.begin(), ways.end(), [&](ConnectionId id) {
-        return is_red(view.road.signal(network.connection(id)));
-      });
-      if (crossing.kind == LaneKind::Crossing && red &&
-          std::none_of(own.begin(), own.end(),
-                       [&](const PathStretch& other) { return other.lane == beside; }))
-        bound(crossing);
-    };
     for (const ConnectionId id : area.outgoing) look(network.connection(id).to);
     for (const ConnectionId id : area.incoming) look(network.connection(id).from);
   }
@@ -157,9 +168,9 @@ void set_walker_limit(const RoadView& view, const Course& course, RoadContext& c
 }  // namespace
 
 void set_walker_limits(const RoadView& view, const Course& course, RoadContext& context) {
-  keep_off_red_crossings(view, course, context);
   follow_on_foot(view, course, context);
   set_walker_limit(view, course, context);
+  keep_off_red_crossings(view, course, context);
 }
 
 }  // namespace sumogamma

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "model/context.h"
 #include "model/gamma_velocity.h"
 #include "model/merging.h"
 #include "model/right_of_way.h"
@@ -314,6 +315,19 @@ TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
   EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
   came(97, 95);
   EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn) << "but just before";
+  came(60, 50);
+  EXPECT_EQ(here_.context(own).reason, LimitReason::LetsIn);
+  here_.scene.waiting_time[own] = 60.0;
+  here_.update();
+  EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn) << "not for ever";
+  came(60, 50);
+  // a bicycle let in the second of a queue, for 107 s
+  here_.move(minor, turn.stop_line - 2.25 - 4.0);
+  here_.scene.context[own].reason = LimitReason::Signal;
+  here_.scene.context[minor].reason = LimitReason::Leader;
+  here_.update();
+  EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn) << "nor who stands in a queue";
+  here_.move(minor, turn.stop_line - 2.25 - 0.6);
   // who is let in and then has somebody else to wait for is left behind
   const std::size_t other = here_.add("car", {"EC", "CW"}, 100, 0);
   here_.scene.context.assign(3, {});
@@ -782,6 +796,33 @@ TEST_F(WalkersAtRed, WhoWaitsForTheLightAndIsPressedOnStepsBack) {
   EXPECT_TRUE(steps_back(2.0)) << "it waited";
 }
 
+// pressed off the crossing again, it shuffled onto it round somebody who stood behind it
+TEST_F(WalkersAtRed, WhoWaitsBesideItsCrossingIsKeptOffIt) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.1, 195, 5);
+  const double kerb = here_.path(walker).links.at(0).stop_line;
+  const Vec2 across = here_.path(walker).line.direction_at(kerb);
+  auto admits = [&](const Vec2& velocity) {
+    ConstraintSet set;
+    append_contextual_constraints(here_.model, here_.scene, walker, set);
+    return std::all_of(set.planes.begin(), set.planes.end(),
+                       [&](const HalfPlane& plane) { return slack(plane, velocity) > -1e-9; });
+  };
+  // beside it on its first metre, and before it
+  const Vec2 aside = left_of(across);
+  here_.move(walker, kerb + 0.3);
+  here_.scene.position[walker] += 2.5 * aside;
+  here_.update();
+  ASSERT_EQ(here_.context(walker).reason, LimitReason::Signal);
+  EXPECT_NEAR(here_.context(walker).to_red[0].dot(-aside), 0.5 - 0.2, 0.1);
+  EXPECT_FALSE(admits(-0.9 * aside));
+  EXPECT_TRUE(admits(-0.3 * aside));
+  put(walker, kerb - 0.2);
+  EXPECT_GT(here_.context(walker).to_red[0].dot(across), 0.0);
+  for (std::string& states : here_.road.signal_states) states = std::string(100, 'G');
+  put(walker, kerb - 0.2);
+  EXPECT_TRUE(here_.context(walker).to_red[0].isZero());
+}
+
 // a lorry stood a whole green before somebody who waited on an island of 0.6 m with a foot on its
 // side
 TEST_F(WalkersAtRed, OnANarrowIslandPeopleStandInItsMiddle) {
@@ -889,32 +930,34 @@ TEST(SignalledCorner, NobodyStepsAsideOntoACrossingThatIsRed) {
   // round the south-western corner, between two crossings
   const std::size_t walker = here.add("pedestrian", {"WC", "CS"}, 0, 1.3, 195, 5);
   ASSERT_TRUE(here.path(walker).links.empty());
-  // as where its way lies outside of the walking area
-  Path open = here.path(walker);
-  for (PathStretch& stretch : open.stretches)
-    stretch.room_left = stretch.room_right = std::numeric_limits<double>::infinity();
-  here.road.paths.at(0) = std::make_shared<const Path>(open);
-  auto room_at = [&](double along, char signal) {
+  auto way_at = [&](double along, char signal) {
     here.road.signal_states.assign(net.signals.size(), std::string(32, signal));
     here.move(walker, along);
     here.update();
-    return std::min(here.context(walker).room_left, here.context(walker).room_right);
+    return here.context(walker).to_red[0];
   };
   int bounded = 0;
   for (const PathStretch& stretch : here.path(walker).stretches) {
     if (net.lane(stretch.lane).kind != LaneKind::WalkingArea) continue;
     const double middle = 0.5 * (stretch.from + stretch.to);
-    const double at_green = room_at(middle, 'G'), at_red = room_at(middle, 'r');
-    EXPECT_LE(at_red, at_green);
-    if (at_red > at_green - 0.05) continue;
+    EXPECT_TRUE(way_at(middle, 'G').isZero());
+    const Vec2 way = way_at(middle, 'r');
+    if (way.isZero()) continue;
     ++bounded;
-    // aside by that much, and a step more, it would be on a crossing
-    const Vec2 place = here.path(walker).line.point_at(middle);
+    const Vec2 edge = here.scene.position[walker] + way;
     double least = std::numeric_limits<double>::infinity();
-    for (const Lane& lane : net.lanes)
-      if (lane.kind == LaneKind::Crossing)
-        least = std::min(least, lane.centerline.project(place).distance - 0.5 * lane.width);
-    EXPECT_GE(at_red + 0.3, least) << "further from it than it need be";
+    for (const Lane& lane : net.lanes) {
+      if (lane.kind != LaneKind::Crossing) continue;
+      const auto& points = lane.centerline.points();
+      const double length = (points.back() - points.front()).norm();
+      const Vec2 at = to_body(edge - points.front(), (points.back() - points.front()) / length);
+      const Vec2 off(std::max({0.0, -at.x(), at.x() - length}),
+                     std::max(0.0, std::abs(at.y()) - 0.5 * lane.width));
+      least = std::min(least, off.norm());
+    }
+    const AgentType& type = type_of(here.model.types, here.scene.type[walker]);
+    EXPECT_LE(least, 0.5 * std::hypot(type.length, type.width) + 1e-6)
+        << "a crossing lies half a body further";
   }
   EXPECT_GT(bounded, 0);
 }
