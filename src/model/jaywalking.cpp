@@ -55,11 +55,11 @@ std::optional<Meeting> find_meeting(const Polyline& line, double along, double b
 }
 
 /// Does a vehicle that meets the piece have somebody on foot wait?
-bool holds(const Model& model, const RoadState& road, const Scene& scene, std::size_t row,
-           const Meeting& meeting, const Piece& piece) {
+bool holds(const RoadView& view, std::size_t row, const Meeting& meeting, const Piece& piece) {
   constexpr double kClear = 3.0;  // before who crawls [m]
   constexpr double kEasy = 2.0;   // to brake [m/s^2]
   constexpr double kSeen = 3.0;   // time for that at the least [s]
+  const auto& [model, road, scene, grid, approaches] = view;
   const AgentType& type = type_of(model.types, scene.type[row]);
   const double half_length = scene.footprint[row].radius;
   const double side = piece.half_width + kBeside;
@@ -81,8 +81,8 @@ bool holds(const Model& model, const RoadState& road, const Scene& scene, std::s
 }
 
 /// Id of the nearest vehicle that has somebody on foot wait, -1 where none does.
-std::int64_t find_who_comes(const Model& model, const RoadState& road, const Scene& scene,
-                            const SpatialGrid& grid, std::size_t row, const Piece& piece) {
+std::int64_t find_who_comes(const RoadView& view, std::size_t row, const Piece& piece) {
+  const Scene& scene = view.scene;
   constexpr double kFast = 17.0;       // [m/s]
   constexpr double kFarthest = 250.0;  // [m]
   const double width = (piece.end - piece.begin).norm();
@@ -90,17 +90,17 @@ std::int64_t find_who_comes(const Model& model, const RoadState& road, const Sce
   const double reach = std::min(kFast * time + width, kFarthest);
   std::int64_t foe = -1;
   double nearest = reach * reach;
-  grid.visit_within(scene.position[row], reach, [&](std::size_t other, double distance) {
+  view.grid.visit_within(scene.position[row], reach, [&](std::size_t other, double distance) {
     if (other == row || distance > nearest) return;
-    const Path* path = road.path(scene.path[other]);
+    const Path* path = view.road.path(scene.path[other]);
     if (path == nullptr || path->walking) return;
     const double half_length = scene.footprint[other].radius;
     const double least = std::sqrt(distance) - width - half_length;
-    if (least > time * top_speed(model, road, scene, other)) return;
-    if (on_other_storey(model.road, scene, row, other)) return;
+    if (least > time * top_speed(view.model, view.road, scene, other)) return;
+    if (on_other_storey(view.model.road, scene, row, other)) return;
     const auto meeting =
         find_meeting(path->line, scene.path_along[other], half_length + 1.0, reach, piece);
-    if (!meeting || !holds(model, road, scene, other, *meeting, piece)) return;
+    if (!meeting || !holds(view, other, *meeting, piece)) return;
     const std::int64_t id = scene.id[other].value;
     if (distance == nearest && foe >= 0 && foe < id) return;
     foe = id;
@@ -111,8 +111,8 @@ std::int64_t find_who_comes(const Model& model, const RoadState& road, const Sce
 
 }  // namespace
 
-LinkDecision decide_at_kerb(const Model& model, const RoadState& road, const Scene& scene,
-                            const SpatialGrid& grid, const Traveller& walker) {
+LinkDecision decide_at_kerb(const RoadView& view, const Traveller& walker) {
+  const auto& [model, road, scene, grid, approaches] = view;
   const Path& path = *road.path(scene.path[walker.row]);
   for (const RoadCrossing& over : path.over_road) {
     if (walker.front > over.begin + kOnIt) continue;
@@ -128,7 +128,7 @@ LinkDecision decide_at_kerb(const Model& model, const RoadState& road, const Sce
                       0.5 * type_of(model.types, scene.type[walker.row]).width,
                       std::max(walker.top_speed, 0.3),
                       scene.waiting_time[walker.row]};
-    const std::int64_t foe = find_who_comes(model, road, scene, grid, walker.row, piece);
+    const std::int64_t foe = find_who_comes(view, walker.row, piece);
     if (foe < 0) break;
     return {true, over.begin - kBefore, LimitReason::Crossing, foe};
   }

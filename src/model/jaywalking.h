@@ -1,6 +1,5 @@
 #pragma once
 
-#include "geometry/spatial_grid.h"
 #include "model/right_of_way.h"
 
 namespace sumogamma {
@@ -10,7 +9,6 @@ namespace sumogamma {
 /// way before it is past, or where that is gone first. Bodies that stand clear of the way are let
 /// be. The spare time shrinks while it waits; in the end it goes where nobody has to brake hard.
 /// Who has set out goes on: the rest is avoidance's, and the drivers'.
-LinkDecision decide_at_kerb(const Model& model, const RoadState& road, const Scene& scene,
-                            const SpatialGrid& grid, const Traveller& walker);
+LinkDecision decide_at_kerb(const RoadView& view, const Traveller& walker);
 
 }  // namespace sumogamma

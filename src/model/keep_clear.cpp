@@ -168,12 +168,11 @@ LinkDecision let_one_in(const RoadView& view, const Course& course, const Travel
   return decision;
 }
 
-bool takes_turning_room(const RoadNetwork& network, const Scene& scene, const Course& course,
-                        const PathLink& link) {
+bool takes_turning_room(const RoadView& view, const Course& course, const PathLink& link) {
   constexpr double kCycles = 180.0;  // [s]
-  const bool signalled = network.connection(link.connection).signal != kNoSignal;
-  return scene.keeps_clear[course.row] > kKeepsClear &&
-         (!signalled || scene.waiting_time[course.row] > kCycles);
+  const bool signalled = view.model.road.connection(link.connection).signal != kNoSignal;
+  return view.scene.keeps_clear[course.row] > kKeepsClear &&
+         (!signalled || view.scene.waiting_time[course.row] > kCycles);
 }
 
 void note_keeping_clear(const Course& course, const RoadContext& context, double dt, Scene& scene) {

@@ -22,8 +22,7 @@ LinkDecision let_one_in(const RoadView& view, const Course& course, const Travel
 
 /// Does the agent no longer leave others the room to turn? At a signal who stands in its way gets
 /// green while it waits, and whoever comes next halts further back: there it lets some cycles pass.
-bool takes_turning_room(const RoadNetwork& network, const Scene& scene, const Course& course,
-                        const PathLink& link);
+bool takes_turning_room(const RoadView& view, const Course& course, const PathLink& link);
 
 /// Counts for how long the agent has kept a junction, or the room that others need to turn, clear.
 void note_keeping_clear(const Course& course, const RoadContext& context, double dt, Scene& scene);

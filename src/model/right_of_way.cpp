@@ -519,9 +519,9 @@ bool has_crossing_traffic(const Model& model, ConnectionId link) {
   });
 }
 
-ZipperLeader find_zipper_leader(const Model& model, const Scene& scene,
-                                const ApproachTable& approaches, const Traveller& traveller,
+ZipperLeader find_zipper_leader(const RoadView& view, const Traveller& traveller,
                                 const PathLink& link) {
+  const auto& [model, road, scene, grid, approaches] = view;
   ZipperLeader leader;
   for (const ConflictZone& zone : model.conflicts[index_of(link.connection)]) {
     if (!runs_together(model, link.connection, zone.foe)) continue;

@@ -36,8 +36,7 @@ struct ZipperLeader {
   double gap = 0, speed = 0;  ///< between the fronts less the other's length [m]; of it [m/s]
   std::int64_t id = -1;       ///< -1: nobody
 };
-ZipperLeader find_zipper_leader(const Model& model, const Scene& scene,
-                                const ApproachTable& approaches, const Traveller& traveller,
+ZipperLeader find_zipper_leader(const RoadView& view, const Traveller& traveller,
                                 const PathLink& link);
 
 }  // namespace sumogamma

@@ -137,8 +137,8 @@ void set_allowed_speed(const RoadView& view, const Course& course, double dt,
   for (PathLink link : course.path.links) {
     if (link.end < course.along - course.half_length) continue;
     if (link.stop_line > front + looked_at) break;
-    link.halt = halt_for_long_bodies(model, scene, approaches, traveller, link);
-    const ZipperLeader teeth = find_zipper_leader(model, scene, approaches, traveller, link);
+    link.halt = halt_for_long_bodies(view, traveller, link);
+    const ZipperLeader teeth = find_zipper_leader(view, traveller, link);
     if (teeth.id >= 0) {
       // closer than it will follow afterwards: the gap opens while lanes run together
       const double headway = course.headway_factor * kept_headway(type, course.speed);
@@ -158,8 +158,8 @@ void set_allowed_speed(const RoadView& view, const Course& course, double dt,
     if (first) context.at_red = decision.must_stop && decision.reason == LimitReason::Signal;
     first = false;
     if (!decision.must_stop) decision = keep_clear(view, course, traveller, link, ahead);
-    if (!decision.must_stop && !takes_turning_room(model.road, scene, course, link))
-      decision = leave_turning_room(model, road, scene, approaches, traveller, link);
+    if (!decision.must_stop && !takes_turning_room(view, course, link))
+      decision = leave_turning_room(view, traveller, link);
     if (!decision.must_stop) decision = let_one_in(view, course, traveller, link);
     if (!decision.must_stop) continue;
     const double gap = decision.stop_at - traveller.front + type.min_gap;

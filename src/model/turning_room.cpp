@@ -27,8 +27,9 @@ bool comes_first(const Occupation& theirs, const Occupation& ours, bool there, b
 
 }  // namespace
 
-double halt_for_long_bodies(const Model& model, const Scene& scene, const ApproachTable& approaches,
-                            const Traveller& traveller, const PathLink& link) {
+double halt_for_long_bodies(const RoadView& view, const Traveller& traveller,
+                            const PathLink& link) {
+  const auto& [model, road, scene, grid, approaches] = view;
   double halt = link.halt;
   for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
     const double place = link.stop_line + way.begin;
@@ -43,9 +44,9 @@ double halt_for_long_bodies(const Model& model, const Scene& scene, const Approa
   return halt;
 }
 
-LinkDecision leave_turning_room(const Model& model, const RoadState& road, const Scene& scene,
-                                const ApproachTable& approaches, const Traveller& traveller,
+LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller,
                                 const PathLink& link) {
+  const auto& [model, road, scene, grid, approaches] = view;
   LinkDecision decision;
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const double front = traveller.front - link.stop_line;

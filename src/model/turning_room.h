@@ -6,14 +6,12 @@ namespace sumogamma {
 
 /// Where a front that waits before a link comes to rest [m along the path]: further back than the
 /// link's own place where a long body comes that will sweep the lane's end.
-double halt_for_long_bodies(const Model& model, const Scene& scene, const ApproachTable& approaches,
-                            const Traveller& traveller, const PathLink& link);
+double halt_for_long_bodies(const RoadView& view, const Traveller& traveller, const PathLink& link);
 
 /// Does an agent halt for the room that long bodies need where they turn? A long one lets those
 /// past first who stand where it will sweep, and others don't drive into its way (first come, first
 /// served).
-LinkDecision leave_turning_room(const Model& model, const RoadState& road, const Scene& scene,
-                                const ApproachTable& approaches, const Traveller& traveller,
+LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller,
                                 const PathLink& link);
 
 }  // namespace sumogamma

@@ -140,8 +140,7 @@ void set_walker_limit(const RoadView& view, const Course& course, RoadContext& c
     context.reason = decision.reason;
     context.foe = decision.foe;
   };
-  const LinkDecision at_kerb =
-      decide_at_kerb(view.model, view.road, view.scene, view.grid, traveller);
+  const LinkDecision at_kerb = decide_at_kerb(view, traveller);
   if (at_kerb.must_stop) return halt(at_kerb);
   for (PathLink link : course.path.links) {
     const double past = front - link.stop_line;

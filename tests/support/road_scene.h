@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/units.h"
-#include "model/approaches.h"
 #include "model/locate.h"
 #include "model/model.h"
 #include "model/road_context.h"
+#include "model/road_view.h"
 #include "model/tick_geometry.h"
 #include "support/plain_net.h"
 
@@ -105,6 +105,7 @@ class RoadScene {
 
   const Path& path(std::size_t row) const { return *road.path(scene.path[row]); }
   const RoadContext& context(std::size_t row) const { return scene.context[row]; }
+  RoadView view() const { return {model, road, scene, geometry.grid, approaches}; }
   /// Front of a row past a link's stop line [m].
   double past_line(std::size_t row, std::size_t link = 0) const {
     return scene.path_along[row] + half_extent(scene, row, direction_of(scene.heading[row])) -

@@ -34,8 +34,7 @@ class TurningRoomTest : public ::testing::Test {
   double halt_of(std::size_t row) {
     const PathLink& link = here_.path(row).links.front();
     const Traveller traveller{row, here_.scene.path_along[row] + 2.25, 4.5, 5.0, 13.0};
-    return link.halt -
-           halt_for_long_bodies(here_.model, here_.scene, here_.approaches, traveller, link);
+    return link.halt - halt_for_long_bodies(here_.view(), traveller, link);
   }
   RoadScene here_{net()};
 };
