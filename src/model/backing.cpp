@@ -1,7 +1,9 @@
 #include "model/backing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "base/random.h"
 #include "geometry/rotation.h"
@@ -27,6 +29,7 @@ constexpr double kClear = 0.25;         // kept to everybody behind [m]
 constexpr double kRoomToBegin = 0.5;    // [m]
 constexpr double kTarget = 3.0;         // behind the rear axle, aimed at on the path [m]
 constexpr double kStill = 0.01;         // [m/s]
+constexpr double kLargest = 12.0;       // from a body's position to its farthest corner [m]
 
 double backward_speed(const Scene& scene, std::size_t row) {
   return std::max(0.0, -scene.velocity[row].dot(direction_of(scene.heading[row])));
@@ -62,7 +65,7 @@ bool keeps_clear(const RoadNetwork& network, const Scene& scene, const TickGeome
   const Vec2 forward = direction_of(body.heading);
   const OrientedBox box{body.position + own.shift * forward, forward, own.half};
   bool clear = true;
-  geometry.grid.visit_within(body.position, own.radius + 12.0, [&](std::size_t other, double) {
+  geometry.grid.visit_within(body.position, own.radius + kLargest, [&](std::size_t other, double) {
     if (other == row || !clear || on_other_storey(network, scene, row, other)) return;
     const AgentGeometry& their = geometry.agent[other];
     const double kept = kClear + std::min(their.throttle_way, 0.3);
@@ -112,7 +115,7 @@ bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometr
       waits_at_red(scene.context[row]))
     return false;
   bool found = false;
-  geometry.grid.visit_within(own.position, own.radius + 12.0, [&](std::size_t other, double) {
+  geometry.grid.visit_within(own.position, own.radius + kLargest, [&](std::size_t other, double) {
     const AgentGeometry& their = geometry.agent[other];
     if (found || other == row || !their.on_wheels || !their.is_box || !is_wedged(scene, other) ||
         on_other_storey(model.road, scene, row, other))
@@ -140,7 +143,7 @@ void update_backing(const Model& model, const TickGeometry& geometry, double dt,
       // who made room for somebody follows it again
       const bool rolled = scene.standing_time[row] < kTries;
       const bool for_itself = scene.context[row].reason != LimitReason::Leader;
-      gives_way = !rolled || moved_on ? 0.0 : for_itself ? courtesy(scene, row) : gives_way;
+      gives_way = rolled && for_itself && !moved_on ? courtesy(scene, row) : 0.0;
     }
   } else if (gives_way <= 0.0 && !waits_at_red(scene.context[row]) && is_wedged(scene, row) &&
              scene.blocked_time[row] > patience(scene, row)) {
@@ -170,8 +173,9 @@ std::optional<BodyState> back_out(const Model& model, const RoadState& road, con
   // back along its path, or else straight or to a side: who stands beside may leave just that. Who
   // makes room stays on its road
   const double along_path = lock_along_path(*path, scene, type, row);
-  const double most = is_wedged(scene, row) ? std::tan(type.max_steering) : 0.0;
-  for (const double lock : {along_path, 0.0, most, -most})
+  const double most = std::tan(type.max_steering);
+  const std::array locks{along_path, 0.0, most, -most};
+  for (const double lock : std::span(locks).first(is_wedged(scene, row) ? 4 : 2))
     if (keeps_clear(model.road, scene, geometry, row, roll_back(type, body, lock, way / dt, dt)))
       return roll_back(type, body, lock, speed, dt);
   if (now <= kStill) return std::nullopt;

@@ -144,9 +144,9 @@ LinkDecision let_one_in(const RoadView& view, const Course& course, const Travel
   constexpr double kStands = 2.0, kSomeTime = 10.0, kLong = 50.0;  // [s]
   constexpr double kAtLine = 6.0, kFirst = 2.5, kShort = 40.0;     // [m]
   const Connection& connection = view.model.road.connection(link.connection);
+  const double waited = view.scene.waiting_time[course.row];
   if (traveller.front > link.stop_line + 0.3 || traveller.front < link.halt - kAtLine ||
-      view.scene.waiting_time[course.row] < kStands ||
-      view.scene.waiting_time[course.row] > kLong || connection.signal != kNoSignal ||
+      waited < kStands || waited > kLong || connection.signal != kNoSignal ||
       view.model.road.lane(connection.to).length < kShort)
     return {};
   const Waiting& own = view.approaches.waiting(course.row);

@@ -71,18 +71,17 @@ void keep_off_red_crossings(const RoadView& view, const Course& course, RoadCont
   auto look = [&](LaneId beside) {
     const Lane& crossing = network.lane(beside);
     if (crossing.kind != LaneKind::Crossing || !is_red_for_walkers(view, crossing)) return;
-    const bool crosses = std::any_of(
-        own.begin(), own.end(), [&](const PathStretch& stretch) { return stretch.lane == beside; });
-    if (crosses && !waits) return;
     Vec2 way = way_onto(crossing, position);
     const double distance = way.norm();
     if (distance == 0.0 || distance > kNear) return;
+    const bool crosses = std::any_of(
+        own.begin(), own.end(), [&](const PathStretch& stretch) { return stretch.lane == beside; });
+    if (crosses && !waits) return;
     const double extent = half_extent(view.scene, course.row, way / distance);
     way *= std::max(distance - extent, kLeast) / distance;
     for (Vec2& kept : context.to_red) {
       if (way == kept) return;
       if (kept.isZero() || way.squaredNorm() < kept.squaredNorm()) std::swap(way, kept);
-      if (way.isZero()) return;
     }
   };
   LaneId looked_at = kNoLane;
