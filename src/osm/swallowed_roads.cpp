@@ -6,26 +6,43 @@ namespace sumogamma::osm {
 
 namespace {
 
-/// Is the edge, for wheels, drawn wholly before the node where it begins, or behind the one where
-/// it ends?
+constexpr double kNear = 8.0;   ///< nodes no further apart may be one junction [m]
+constexpr double kDrawn = 1.0;  ///< netconvert leaves no less than 0.1 m of a lane [m]
+
+bool allows(const RoadNetwork& road, const Edge& edge, VehicleClassMask mask) {
+  return std::any_of(edge.lanes.begin(), edge.lanes.end(),
+                     [&](const LaneId id) { return (road.lane(id).allowed & mask) != 0; });
+}
+
+/// Is a lane drawn wholly before the node where it begins, or behind the one where it ends?
+bool is_drawn_outside(const Polyline& line, const Vec2& from, const Vec2& way) {
+  constexpr double kLongest = 20.0;  // [m]
+  const double apart = way.norm();
+  const double begin = way.dot(line.points().front() - from) / apart,
+               end = way.dot(line.points().back() - from) / apart;
+  return line.length() > kDrawn && line.length() < kLongest &&
+         (std::max(begin, end) <= 0.0 || std::min(begin, end) >= apart);
+}
+
+/// Of a road for wheels: is it drawn outside of both its nodes, or, between a signal and another
+/// junction, is nothing left of it for cars? Who waits at that signal would stand on the junction.
 bool is_swallowed(const RoadNetwork& road, const Edge& edge) {
-  constexpr double kNear = 8.0, kDrawn = 1.0, kLongest = 20.0;  // [m]
   if (edge.kind != LaneKind::Normal || edge.from == kNoJunction || edge.to == kNoJunction)
     return false;
-  const Vec2 from = road.junctions[index_of(edge.from)].position;
-  const Vec2 way = road.junctions[index_of(edge.to)].position - from;
-  const double apart = way.norm();
-  if (apart < 1e-3 || apart > kNear) return false;
-  const bool walked = std::all_of(edge.lanes.begin(), edge.lanes.end(), [&](const LaneId id) {
-    return road.lane(id).allowed == vehicle_class::kPedestrian;
-  });
-  return !walked && std::all_of(edge.lanes.begin(), edge.lanes.end(), [&](const LaneId id) {
-    const Polyline& line = road.lane(id).centerline;
-    const double begin = way.dot(line.points().front() - from) / apart,
-                 end = way.dot(line.points().back() - from) / apart;
-    return line.length() > kDrawn && line.length() < kLongest &&
-           (std::max(begin, end) <= 0.0 || std::min(begin, end) >= apart);
-  });
+  const Junction &from = road.junctions[index_of(edge.from)],
+                 &to = road.junctions[index_of(edge.to)];
+  const Vec2 way = to.position - from.position;
+  if (way.norm() < 1e-3 || way.norm() > kNear) return false;
+  const auto all_lines = [&](const auto& test) {
+    return std::all_of(edge.lanes.begin(), edge.lanes.end(),
+                       [&](const LaneId id) { return test(road.lane(id).centerline); });
+  };
+  if (allows(road, edge, ~vehicle_class::kPedestrian) &&
+      all_lines([&](const Polyline& line) { return is_drawn_outside(line, from.position, way); }))
+    return true;
+  return (from.type.starts_with("traffic_light") || to.type.starts_with("traffic_light")) &&
+         allows(road, edge, vehicle_class::kPassenger) &&
+         all_lines([](const Polyline& line) { return line.length() < kDrawn; });
 }
 
 }  // namespace

@@ -40,6 +40,19 @@ TEST(SwallowedRoads, LieOutsideOfBothTheirJunctions) {
   EXPECT_THAT(swallowed_roads(road), ElementsAre(ElementsAre("a", "b"), ElementsAre("c", "d")));
 }
 
+TEST(SwallowedRoads, OfCarsLeaveNoRoomAtASignal) {
+  RoadNetwork road;
+  add_road(road, "a", {0, 0}, "b", {7, 0}, {{4, 0}, {4.2, 0}});
+  EXPECT_THAT(swallowed_roads(road), IsEmpty()) << "no signal";
+  road.junctions[1].type = "traffic_light";
+  EXPECT_THAT(swallowed_roads(road), ElementsAre(ElementsAre("a", "b")));
+  road.lanes[0].allowed = vehicle_class::kBicycle;
+  EXPECT_THAT(swallowed_roads(road), IsEmpty()) << "a path for bicycles";
+  road.lanes[0].allowed = vehicle_class::kPassenger;
+  road.lanes[0].centerline = Polyline({{3, 0}, {5, 0}});
+  EXPECT_THAT(swallowed_roads(road), IsEmpty()) << "two metres are left";
+}
+
 TEST(SwallowedRoads, OthersAreLeftAlone) {
   RoadNetwork road;
   add_road(road, "a", {0, 0}, "b", {6, 0}, {{2, 0}, {4, 0}});     // short, and between them
