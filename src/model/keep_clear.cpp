@@ -93,26 +93,32 @@ std::int64_t blocks_exit(const RoadView& view, DrivingAhead& ahead, const Course
 }
 
 /// Keep clear of junctions that follow each other closely: who would have to wait before the next
-/// one with its rear still on this one waits here already, for some time.
+/// one with its rear still on this one waits here already, for some time, and for a light before
+/// which there is no room at all for cars as long as it takes, unless one here may end meanwhile.
+/// (Bicycles on a path of their own get over it one by one then.)
 LinkDecision decide_beyond(const RoadView& view, const Course& course, const Traveller& traveller,
                            const PathLink& link) {
   constexpr double kPatience = 20.0;  // [s]
   constexpr double kFarthest = 20.0;  // [m]
+  constexpr double kNoRoom = 2.0;     // between the two [m]
   constexpr double kSetOut = 0.3;     // [m]
-  if (view.scene.waiting_time[course.row] > kPatience) return {};
   // nor does it halt again who has set out from a place short of the line
   if (traveller.front > link.halt + kSetOut && link.stop_line > link.halt + kSetOut) return {};
+  const bool patient = view.scene.waiting_time[course.row] <= kPatience;
+  const Connection& here = view.model.road.connection(link.connection);
+  const bool for_cars = (view.model.road.lane(here.to).allowed & vehicle_class::kPassenger) != 0;
   const PathLink* last = &link;
   for (const PathLink& next : course.path.links) {
     // who waits with its rear on a junction already goes as far as it can
     if (next.stop_line < link.stop_line && next.end > link.halt - kStopMargin - traveller.length)
       return {};
     if (next.stop_line <= link.stop_line) continue;
-    if (next.halt - kStopMargin - traveller.length > last->end ||
-        next.stop_line > link.stop_line + kFarthest)
-      break;
+    const bool near = patient && next.stop_line <= link.stop_line + kFarthest;
+    const bool no_room =
+        for_cars && here.signal == kNoSignal && next.stop_line < last->end + kNoRoom;
+    if (next.halt - kStopMargin - traveller.length > last->end || !(near || no_room)) break;
     const LinkDecision decision = decide_link(view, traveller, next);
-    if (decision.must_stop) return decision;
+    if (decision.must_stop && (near || decision.reason == LimitReason::Signal)) return decision;
     last = &next;
   }
   return {};

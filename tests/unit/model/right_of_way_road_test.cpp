@@ -429,6 +429,49 @@ TEST(JunctionsThatFollowClosely, AreKeptClearForSomeTimeThoughSomebodyCreeps) {
   }
 }
 
+// Queues that waited for a light stood on the junction before it, across the ways of others.
+//
+//          NA   N
+//          |    |        netconvert leaves nothing of the road from A to B
+//    W ----A----B*---- E     * signal
+//          |    |
+//          SA   S
+TEST(JunctionsThatFollowClosely,
+     WhoHasNoRoomBeforeALightWaitsForItBeforeTheJunctionThatItWouldBlock) {
+  testing::PlainNet plain;
+  plain.nodes = R"(<node id='W' x='-100' y='0'/><node id='A' x='0' y='0' type='priority'/>
+    <node id='B' x='8' y='0' type='traffic_light'/><node id='E' x='120' y='0'/>
+    <node id='NA' x='0' y='100'/><node id='SA' x='0' y='-100'/>
+    <node id='N' x='8' y='100'/><node id='S' x='8' y='-100'/>)";
+  for (const char* ends : {"W A", "A B", "B E"})
+    plain.edges += std::string("<edge id='") + ends[0] + ends[2] + "' from='" + ends[0] + "' to='" +
+                   ends[2] + "' priority='1' speed='13'/>";
+  plain.edges +=
+      "<edge id='NAA' from='NA' to='A' priority='1' speed='13'/>"
+      "<edge id='ASA' from='A' to='SA' priority='1' speed='13'/>"
+      "<edge id='NB' from='N' to='B' priority='9' speed='13'/>"
+      "<edge id='BS' from='B' to='S' priority='9' speed='13'/>";
+  RoadScene here(read_plain_net(plain));
+  const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
+  const std::vector<PathLink> links = here.path(own).links;
+  ASSERT_LT(links.at(1).stop_line - links.at(0).end, 1.0) << "no room between the two";
+  here.move(own, links[0].halt - 2.25 - 0.6);
+  const auto show = [&](char letter) {
+    std::string& state = here.road.signal_states.at(0);
+    state.assign(here.model.road.signals.at(0).size, letter);
+  };
+  for (const double waited : {0.0, 60.0}) {
+    here.scene.standing_time[own] = here.scene.waiting_time[own] = waited;
+    show('r');
+    here.update();
+    EXPECT_EQ(here.context(own).reason, LimitReason::Signal) << "after " << waited << " s";
+    EXPECT_LT(here.context(own).allowed_speed, 0.3);
+    show('G');
+    here.update();
+    EXPECT_GT(here.context(own).allowed_speed, 0.3) << "after " << waited << " s";
+  }
+}
+
 // a bus and a car had both waited on a junction for long, both tried, and met nose to nose
 TEST_F(PriorityTest, OfTwoWhoHaveWaitedOnAJunctionForLongNobodyTriesWhileTheOtherDoes) {
   const std::size_t own = here_.add("car", {"SC", "CN"}, 0, 0.3);
