@@ -116,17 +116,33 @@ std::optional<std::pair<double, double>> near_span(const LinkShape& a, const Lin
   return span;
 }
 
+/// Are two lanes those of one road, in opposite directions?
+bool are_opposite(const RoadNetwork& network, LaneId a, LaneId b) {
+  const Edge &edge = network.edge(network.lane(a).edge),
+             &other = network.edge(network.lane(b).edge);
+  return edge.from == other.to && edge.to == other.from;
+}
+
 /// How near two ways must come to be in each other's way [m]. Those that start side by side are not
-/// yet, though bodies that swing may come near there: only from where they approach each other.
+/// yet, though bodies that swing may come near there: only from where they approach each other. Nor
+/// are one that starts beside the end of the other where the one who has to wait may do so on the
+/// junction, as who turns across those who come towards it.
 double conflict_reach(const RoadNetwork& network, ConnectionId a, ConnectionId b,
-                      const LinkShape& way_a, const LinkShape& way_b) {
+                      const LinkShape& way_a, const LinkShape& way_b, bool waits_inside) {
   constexpr double kAir = 0.3, kNearer = 0.4, kLeast = 1.5;  // [m]
-  const double reach = way_a.half_width + way_b.half_width + kAir;
-  const Lane &from = network.lane(network.connection(a).from),
-             &beside = network.lane(network.connection(b).from);
-  if (from.edge != beside.edge || from.index == beside.index) return reach;
-  const double apart = (way_a.samples.front() - way_b.samples.front()).norm();
-  return std::min(reach, std::max(apart - kNearer, kLeast));
+  double reach = way_a.half_width + way_b.half_width + kAir;
+  const auto from_apart = [&](const Vec2& end, const Vec2& other_end) {
+    reach = std::min(reach, std::max((end - other_end).norm() - kNearer, kLeast));
+  };
+  const Connection &own = network.connection(a), &other = network.connection(b);
+  const Lane &from = network.lane(own.from), &beside = network.lane(other.from);
+  if (from.edge == beside.edge && from.index != beside.index)
+    from_apart(way_a.samples.front(), way_b.samples.front());
+  if (waits_inside && are_opposite(network, own.from, other.to))
+    from_apart(way_a.samples.front(), way_b.samples.back());
+  if (waits_inside && are_opposite(network, own.to, other.from))
+    from_apart(way_a.samples.back(), way_b.samples.front());
+  return reach;
 }
 
 /// True where two links start on the same edge, or both are crossings.
@@ -135,6 +151,14 @@ bool same_origin(const RoadNetwork& network, ConnectionId a, ConnectionId b) {
   const bool both_on_foot = network.lane(first.to).kind == LaneKind::Crossing &&
                             network.lane(second.to).kind == LaneKind::Crossing;
   return both_on_foot || network.lane(first.from).edge == network.lane(second.from).edge;
+}
+
+/// Does the link with request index `row` give way to another one, and may it do so on the
+/// junction?
+bool waits_inside(const Junction& junction, std::size_t row, std::size_t other) {
+  if (row >= junction.requests.size()) return false;
+  const RightOfWay& request = junction.requests[row];
+  return request.may_stop_inside && other < request.yields_to.size() && request.yields_to[other];
 }
 
 void add_conflicts(const RoadNetwork& network, const Junction& junction, ConflictTable& table) {
@@ -152,7 +176,8 @@ void add_conflicts(const RoadNetwork& network, const Junction& junction, Conflic
       const bool ruled = yields || conflicts;
       if (!ruled && same_origin(network, junction.links[i], junction.links[k])) continue;
       const double reach =
-          conflict_reach(network, junction.links[i], junction.links[k], shapes[i], shapes[k]);
+          conflict_reach(network, junction.links[i], junction.links[k], shapes[i], shapes[k],
+                         waits_inside(junction, i, k) || waits_inside(junction, k, i));
       const auto own = near_span(shapes[i], shapes[k], reach);
       const auto other = near_span(shapes[k], shapes[i], reach);
       if (!own || !other) continue;

@@ -128,6 +128,30 @@ TEST(ConflictZones, OppositeTurnsOnANarrowJunctionConflictThoughTheMatrixSaysNo)
   EXPECT_EQ(zone->unruled, !ruled);
 }
 
+// with lanes of 2.8 m the oncoming way counted as met from the stop line on: nobody waited on the
+// junction, and none got over it at the end of its green
+TEST(ConflictZones, WhoTurnsAcrossThoseWhoComeTowardsItHasRoomToWaitOnTheJunction) {
+  PlainNet plain;
+  plain.nodes = R"(<node id="C" x="0" y="0" type="traffic_light"/><node id="W" x="-100" y="0"/>
+    <node id="E" x="100" y="0"/><node id="N" x="0" y="100"/>)";
+  for (const char* end : {"W", "E", "N"})
+    plain.edges += std::string("<edge id=\"") + end + "C\" from=\"" + end +
+                   "\" to=\"C\" numLanes=\"1\" width=\"2.8\" speed=\"13.9\"/><edge id=\"C" + end +
+                   "\" from=\"C\" to=\"" + end + "\" numLanes=\"1\" width=\"2.8\" speed=\"13.9\"/>";
+  plain.options = {"--default.junctions.radius", "6"};
+  const RoadNetwork network = read_plain_net(plain);
+  const ConflictTable conflicts = build_conflict_table(network);
+  const ConnectionId turn = link_between(network, "WC_0", "CN_0");
+  const ConnectionId oncoming = link_between(network, "EC_0", "CW_0");
+  const ConflictZone* zone = zone_between(conflicts, turn, oncoming);
+  ASSERT_NE(zone, nullptr);
+  EXPECT_TRUE(zone->yields);
+  EXPECT_GT(zone->begin, 2.0);
+  const ConflictZone* other = zone_between(conflicts, oncoming, turn);
+  ASSERT_NE(other, nullptr);
+  EXPECT_NEAR(other->end, zone->foe_end, 1e-9);
+}
+
 TEST(ConflictZones, DriversYieldOnACrossingOverItsWholeWidth) {
   const RoadNetwork network = testing::small_net();
   const ConflictTable conflicts = build_conflict_table(network);
