@@ -57,7 +57,7 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
   boundary(context.room_right, -left);
   for (const Vec2& way : context.to_red) {
     if (way.isZero()) break;
-    constraints.append({way / kToRed, -way.normalized()}, {ConstraintKind::LaneBoundary, -1});
+    constraints.append({way / kToRed, -way.normalized()}, {ConstraintKind::RoadLimit, -1});
   }
 
   // driving direction: wheeled agents never go against their path; one that was turned away from it
