@@ -162,6 +162,41 @@ TEST_F(ImportTest, ABridgeIsAboveTheRoadBelow) {
   EXPECT_NEAR(highest, 5.0, 0.5);
 }
 
+// tools/mirror_map.py: the same map for traffic on the other side
+TEST_F(ImportTest, AMirroredMapHasTheSameNetworkOnTheOtherSide) {
+  const auto mirrored = [&](const fs::path& map, const char* side) {
+    const fs::path file = folder_ / "mirrored.osm";
+    ProcessRequest mirror;
+    mirror.arguments = {(fs::path(SUMOGAMMA_SOURCE_DIR) / "tools/mirror_map.py").string(),
+                        map.string(), file.string(), side};
+    const ProcessResult result = run_process(mirror);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return file;
+  };
+  const std::string tags = content(
+      mirrored(put("tags.osm",
+                   R"(<osm version="0.6"><node id="1" lat="48" lon="11"/><way id="2"><nd ref="1"/>
+  <tag k="turn:lanes:forward" v="left|through;right"/><tag k="sidewalk" v="right"/>
+  <tag k="cycleway:left" v="track"/><tag k="name" v="Left Bank"/></way></osm>)"),
+               "right"));
+  for (const char* tag :
+       {R"(k="turn:lanes:forward" v="through;left|right")", R"(k="sidewalk" v="left")",
+        R"(k="cycleway:right" v="track")", R"(k="name" v="Left Bank")"})
+    EXPECT_THAT(tags, HasSubstr(tag));
+
+  nlohmann::json built[2];
+  for (const bool mirror : {false, true}) {
+    const fs::path map = kFixtures / "signalled_crossing_right.osm";
+    ASSERT_EQ(import(mirror ? mirrored(map, "right") : map, {"--force"}).exit_code, 0);
+    const auto report = nlohmann::json::parse(content(out() / "import.json"));
+    EXPECT_EQ(report["left_hand"], mirror);
+    built[mirror] = report["built"];
+  }
+  for (const char* what : {"edges", "lanes", "connections", "crossings", "junctions", "signals"})
+    EXPECT_EQ(built[0][what], built[1][what]) << what;
+  EXPECT_NEAR(built[0]["kilometres"], built[1]["kilometres"], 0.01);
+}
+
 TEST_F(ImportTest, MonacoRunsWithAHundredAlive) {
   const ProcessResult result = import(kMaps / "monaco.osm.pbf", {"--duration", "400"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
