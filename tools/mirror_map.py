@@ -14,7 +14,7 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 ENGLAND, GERMANY = (52.5, -1.5), (50.5, 9.0)  # latitude, longitude [degrees]
-FREE_TEXT = ("name", "note", "fixme", "source", "description", "addr", "ref")
+FREE_TEXT = ("name", "note", "source", "description", "addr", "ref")
 OTHER = {"left": "right", "right": "left"}
 
 
