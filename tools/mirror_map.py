@@ -34,7 +34,7 @@ def mirror_tag(tag):
 
 def main():
     if len(sys.argv) != 4 or sys.argv[3] not in ("left", "right"):
-        sys.exit("usage: mirror_map.py IN.osm OUT.osm left|right (the side that its traffic keeps to now)")
+        sys.exit(__doc__)
     try:
         tree = ElementTree.parse(sys.argv[1])
     except (OSError, ElementTree.ParseError) as error:
@@ -63,7 +63,10 @@ def main():
             bounds.set(key, value)
     for tag in tree.iter("tag"):
         mirror_tag(tag)
-    tree.write(sys.argv[2], encoding="utf-8", xml_declaration=True)
+    try:
+        tree.write(sys.argv[2], encoding="utf-8", xml_declaration=True)
+    except OSError as error:
+        sys.exit(f"mirror_map.py: {sys.argv[2]}: {error}; name a file that can be written")
 
 
 if __name__ == "__main__":

@@ -102,11 +102,12 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
   constexpr double kFarthest = 20.0;  // [m]
   constexpr double kNoRoom = 2.0;     // between the two [m]
   constexpr double kSetOut = 0.3;     // [m]
-  // nor does it halt again who has set out from a place short of the line
+  // who has set out from a place short of the line doesn't halt again
   if (traveller.front > link.halt + kSetOut && link.stop_line > link.halt + kSetOut) return {};
   const bool patient = view.scene.waiting_time[course.row] <= kPatience;
   const Connection& here = view.model.road.connection(link.connection);
   const bool for_cars = (view.model.road.lane(here.to).allowed & vehicle_class::kPassenger) != 0;
+  const bool waits_for_light = for_cars && here.signal == kNoSignal;
   const PathLink* last = &link;
   for (const PathLink& next : course.path.links) {
     // who waits with its rear on a junction already goes as far as it can
@@ -114,8 +115,7 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
       return {};
     if (next.stop_line <= link.stop_line) continue;
     const bool near = patient && next.stop_line <= link.stop_line + kFarthest;
-    const bool no_room =
-        for_cars && here.signal == kNoSignal && next.stop_line < last->end + kNoRoom;
+    const bool no_room = waits_for_light && next.stop_line < last->end + kNoRoom;
     if (next.halt - kStopMargin - traveller.length > last->end || !(near || no_room)) break;
     const LinkDecision decision = decide_link(view, traveller, next);
     if (decision.must_stop && (near || decision.reason == LimitReason::Signal)) return decision;

@@ -24,10 +24,7 @@ int count_components(const RoadNetwork& road, VehicleClassMask mask) {
   std::set<std::size_t> used;
   for (const Edge& edge : road.edges) {
     if (edge.kind != LaneKind::Normal) continue;
-    const bool usable = std::any_of(edge.lanes.begin(), edge.lanes.end(), [&](LaneId lane) {
-      return (road.lane(lane).allowed & mask) != 0;
-    });
-    if (!usable || edge.from == kNoJunction || edge.to == kNoJunction) continue;
+    if (!allows(road, edge, mask) || edge.from == kNoJunction || edge.to == kNoJunction) continue;
     group[find(index_of(edge.from))] = find(index_of(edge.to));
     used.insert(index_of(edge.from));
   }
@@ -128,10 +125,7 @@ std::map<std::string, std::string> stop_types(const RoadNetwork& road,
   if (stop_signs.empty()) return types;
   std::map<JunctionId, int> approaches;
   for (const Edge& edge : road.edges)
-    if (edge.kind == LaneKind::Normal &&
-        std::any_of(edge.lanes.begin(), edge.lanes.end(), [&](LaneId lane) {
-          return (road.lane(lane).allowed & vehicle_class::kPassenger) != 0;
-        }))
+    if (edge.kind == LaneKind::Normal && allows(road, edge, vehicle_class::kPassenger))
       ++approaches[edge.to];
   for (const auto& [node, signs] : stop_signs) {
     const auto junction = road.junction_by_name.find(std::to_string(node));

@@ -9,11 +9,6 @@ namespace {
 constexpr double kNear = 8.0;   ///< nodes no further apart may be one junction [m]
 constexpr double kDrawn = 1.0;  ///< netconvert leaves no less than 0.1 m of a lane [m]
 
-bool allows(const RoadNetwork& road, const Edge& edge, VehicleClassMask mask) {
-  return std::any_of(edge.lanes.begin(), edge.lanes.end(),
-                     [&](const LaneId id) { return (road.lane(id).allowed & mask) != 0; });
-}
-
 /// Is a lane drawn wholly before the node where it begins, or behind the one where it ends?
 bool is_drawn_outside(const Polyline& line, const Vec2& from, const Vec2& way) {
   constexpr double kLongest = 20.0;  // [m]

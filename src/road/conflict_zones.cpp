@@ -68,6 +68,7 @@ Path rounded_way(const RoadNetwork& network, ConnectionId id, double before, dou
 namespace {
 
 struct LinkShape {
+  ConnectionId link = kNoConnection;
   Polyline line;
   double half_width = 0;
   std::vector<Vec2> samples;  ///< every kStep
@@ -88,6 +89,7 @@ Polyline driven_way(const RoadNetwork& network, ConnectionId id) {
 
 LinkShape shape_of(const RoadNetwork& network, ConnectionId id) {
   LinkShape shape;
+  shape.link = id;
   shape.line = driven_way(network, id);
   const Connection& connection = network.connection(id);
   const Lane& lane = network.lane(connection.via != kNoLane ? connection.via : connection.to);
@@ -116,32 +118,28 @@ std::optional<std::pair<double, double>> near_span(const LinkShape& a, const Lin
   return span;
 }
 
-/// Are two lanes those of one road, in opposite directions?
-bool are_opposite(const RoadNetwork& network, LaneId a, LaneId b) {
-  const Edge &edge = network.edge(network.lane(a).edge),
-             &other = network.edge(network.lane(b).edge);
-  return edge.from == other.to && edge.to == other.from;
-}
-
 /// How near two ways must come to be in each other's way [m]. Those that start side by side are not
 /// yet, though bodies that swing may come near there: only from where they approach each other. Nor
 /// are one that starts beside the end of the other where the one who has to wait may do so on the
 /// junction, as who turns across those who come towards it.
-double conflict_reach(const RoadNetwork& network, ConnectionId a, ConnectionId b,
-                      const LinkShape& way_a, const LinkShape& way_b, bool waits_inside) {
+double conflict_reach(const RoadNetwork& network, const LinkShape& a, const LinkShape& b,
+                      bool waits_inside) {
   constexpr double kAir = 0.3, kNearer = 0.4, kLeast = 1.5;  // [m]
-  double reach = way_a.half_width + way_b.half_width + kAir;
+  double reach = a.half_width + b.half_width + kAir;
   const auto from_apart = [&](const Vec2& end, const Vec2& other_end) {
     reach = std::min(reach, std::max((end - other_end).norm() - kNearer, kLeast));
   };
-  const Connection &own = network.connection(a), &other = network.connection(b);
+  const auto edge_of = [&](LaneId lane) -> const Edge& {
+    return network.edge(network.lane(lane).edge);
+  };
+  const Connection &own = network.connection(a.link), &other = network.connection(b.link);
   const Lane &from = network.lane(own.from), &beside = network.lane(other.from);
   if (from.edge == beside.edge && from.index != beside.index)
-    from_apart(way_a.samples.front(), way_b.samples.front());
-  if (waits_inside && are_opposite(network, own.from, other.to))
-    from_apart(way_a.samples.front(), way_b.samples.back());
-  if (waits_inside && are_opposite(network, own.to, other.from))
-    from_apart(way_a.samples.back(), way_b.samples.front());
+    from_apart(a.samples.front(), b.samples.front());
+  if (waits_inside && are_opposite(edge_of(own.from), edge_of(other.to)))
+    from_apart(a.samples.front(), b.samples.back());
+  if (waits_inside && are_opposite(edge_of(own.to), edge_of(other.from)))
+    from_apart(a.samples.back(), b.samples.front());
   return reach;
 }
 
@@ -153,12 +151,10 @@ bool same_origin(const RoadNetwork& network, ConnectionId a, ConnectionId b) {
   return both_on_foot || network.lane(first.from).edge == network.lane(second.from).edge;
 }
 
-/// Does the link with request index `row` give way to another one, and may it do so on the
-/// junction?
-bool waits_inside(const Junction& junction, std::size_t row, std::size_t other) {
-  if (row >= junction.requests.size()) return false;
-  const RightOfWay& request = junction.requests[row];
-  return request.may_stop_inside && other < request.yields_to.size() && request.yields_to[other];
+/// Does the link with request index `row` have to let another one pass?
+bool gives_way(const Junction& junction, std::size_t row, std::size_t other) {
+  return row < junction.requests.size() && other < junction.requests[row].yields_to.size() &&
+         junction.requests[row].yields_to[other];
 }
 
 void add_conflicts(const RoadNetwork& network, const Junction& junction, ConflictTable& table) {
@@ -169,15 +165,15 @@ void add_conflicts(const RoadNetwork& network, const Junction& junction, Conflic
   for (std::size_t i = 0; i < junction.requests.size() && i < shapes.size(); ++i) {
     const RightOfWay& request = junction.requests[i];
     for (std::size_t k = 0; k < shapes.size(); ++k) {
-      const bool yields = k < request.yields_to.size() && request.yields_to[k];
+      const bool yields = gives_way(junction, i, k);
       const bool conflicts = k < request.conflicts.size() && request.conflicts[k];
       if (i == k || shapes[i].samples.empty() || shapes[k].samples.empty()) continue;
       // ways that part from one lane are one behind the other before they part
       const bool ruled = yields || conflicts;
       if (!ruled && same_origin(network, junction.links[i], junction.links[k])) continue;
-      const double reach =
-          conflict_reach(network, junction.links[i], junction.links[k], shapes[i], shapes[k],
-                         waits_inside(junction, i, k) || waits_inside(junction, k, i));
+      const bool waits_inside = (yields && request.may_stop_inside) ||
+                                (gives_way(junction, k, i) && junction.requests[k].may_stop_inside);
+      const double reach = conflict_reach(network, shapes[i], shapes[k], waits_inside);
       const auto own = near_span(shapes[i], shapes[k], reach);
       const auto other = near_span(shapes[k], shapes[i], reach);
       if (!own || !other) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <unordered_map>
@@ -155,6 +156,15 @@ struct RoadNetwork {
   const Connection& connection(ConnectionId id) const { return connections[index_of(id)]; }
   const Junction& junction(JunctionId id) const { return junctions[index_of(id)]; }
 };
+
+/// May any of these classes use a lane of the edge?
+inline bool allows(const RoadNetwork& network, const Edge& edge, VehicleClassMask classes) {
+  return std::any_of(edge.lanes.begin(), edge.lanes.end(),
+                     [&](LaneId id) { return (network.lane(id).allowed & classes) != 0; });
+}
+
+/// Does one edge lead straight back to where the other comes from?
+inline bool are_opposite(const Edge& a, const Edge& b) { return a.from == b.to && a.to == b.from; }
 
 /// The lane of an edge on which pedestrians walk: the lowest index that admits them, as in SUMO.
 inline LaneId walking_lane(const RoadNetwork& network, EdgeId edge) {

@@ -7,15 +7,6 @@
 
 namespace sumogamma {
 
-namespace {
-
-/// Does one edge lead straight back to where the other came from?
-bool turns_around(const Edge& from, const Edge& to) {
-  return to.from == from.to && to.to == from.from;
-}
-
-}  // namespace
-
 std::vector<EdgeId> fastest_route(const RoadNetwork& network, LaneId from, EdgeId destination,
                                   VehicleClassMask vehicle_class,
                                   std::span<const double> travel_time) {
@@ -29,7 +20,7 @@ std::vector<EdgeId> fastest_route(const RoadNetwork& network, LaneId from, EdgeI
       const Connection& link = network.connection(id);
       const Lane& target = network.lane(link.to);
       if ((target.allowed & vehicle_class) == 0 ||
-          turns_around(network.edge(lane.edge), network.edge(target.edge)))
+          are_opposite(network.edge(lane.edge), network.edge(target.edge)))
         continue;
       const double then = time + travel_time[index_of(target.edge)];
       if (then >= best[index_of(target.edge)]) continue;

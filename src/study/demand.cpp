@@ -55,11 +55,6 @@ struct ClassGraph {
   std::vector<double> length, speed;  ///< by network edge [m], [m/s]
 };
 
-bool allows(const RoadNetwork& road, const Edge& edge, VehicleClassMask mask) {
-  return std::any_of(edge.lanes.begin(), edge.lanes.end(),
-                     [&](LaneId lane) { return (road.lane(lane).allowed & mask) != 0; });
-}
-
 void link_vehicles(const RoadNetwork& road, VehicleClassMask mask, ClassGraph& graph) {
   for (const std::size_t edge : graph.edges)
     for (const LaneId lane : road.edges[edge].lanes) {
@@ -91,8 +86,7 @@ void link_walkers(const RoadNetwork& road, ClassGraph& graph) {
         if (other != edge) {
           graph.next[edge].push_back(other);
           // the other direction of the same road is no way on
-          others += road.edges[other].from != road.edges[edge].to ||
-                    road.edges[other].to != road.edges[edge].from;
+          others += !are_opposite(road.edges[other], road.edges[edge]);
         }
       at_rim = at_rim || others == 0;
     }
@@ -334,9 +328,9 @@ void measure(const RoadNetwork& road, const TypeWork& work, Trip& trip) {
 /// it is a U-turn in a cut-off street that nobody would drive.
 bool turns_back(const RoadNetwork& road, const std::vector<std::string>& edges) {
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    const Edge &a = road.edge(road.edge_by_name.at(edges[i])),
-               &b = road.edge(road.edge_by_name.at(edges[i + 1]));
-    if (a.from == b.to && a.to == b.from) return true;
+    if (are_opposite(road.edge(road.edge_by_name.at(edges[i])),
+                     road.edge(road.edge_by_name.at(edges[i + 1]))))
+      return true;
   }
   return false;
 }

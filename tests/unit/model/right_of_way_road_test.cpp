@@ -384,19 +384,22 @@ TEST_F(PriorityTest, WhoHasKeptAJunctionClearForLongGoesOnForAWhile) {
   EXPECT_GT(blocked, 40.0);
 }
 
-// A bicycle that rolled on by centimetres before the first of two junctions waited for ever.
-//
-//                N
-//        |       |        eight metres between A and B: who waits before B has its rear on A
-//    W --A-------B--- E
-//        |       |
-//                S
-TEST(JunctionsThatFollowClosely, AreKeptClearForSomeTimeThoughSomebodyCreeps) {
+/// A west-east road over two junctions so many metres apart, where another road crosses it each.
+///
+///         NA   N           edges are named after their ends: AB runs from A to B
+///         |    |
+///    W ---A----B--- E
+///         |    |
+///         SA   S
+RoadNetwork two_junctions(int apart, const std::string& type_of_b) {
   testing::PlainNet plain;
-  plain.nodes = R"(<node id='W' x='-100' y='0'/><node id='A' x='0' y='0' type='priority'/>
-    <node id='B' x='16' y='0' type='priority'/><node id='E' x='120' y='0'/>
-    <node id='NA' x='0' y='100'/><node id='SA' x='0' y='-100'/>
-    <node id='N' x='16' y='100'/><node id='S' x='16' y='-100'/>)";
+  const std::string b = std::to_string(apart);
+  plain.nodes =
+      "<node id='W' x='-100' y='0'/><node id='A' x='0' y='0' type='priority'/>"
+      "<node id='NA' x='0' y='100'/><node id='SA' x='0' y='-100'/>"
+      "<node id='E' x='120' y='0'/><node id='B' x='" +
+      b + "' y='0' type='" + type_of_b + "'/><node id='N' x='" + b + "' y='100'/><node id='S' x='" +
+      b + "' y='-100'/>";
   for (const char* ends : {"W A", "A B", "B E"})
     plain.edges += std::string("<edge id='") + ends[0] + ends[2] + "' from='" + ends[0] + "' to='" +
                    ends[2] + "' priority='1' speed='13'/>";
@@ -405,7 +408,13 @@ TEST(JunctionsThatFollowClosely, AreKeptClearForSomeTimeThoughSomebodyCreeps) {
       "<edge id='ASA' from='A' to='SA' priority='1' speed='13'/>"
       "<edge id='NB' from='N' to='B' priority='9' speed='13'/>"
       "<edge id='BS' from='B' to='S' priority='9' speed='13'/>";
-  RoadScene here(read_plain_net(plain));
+  return read_plain_net(plain);
+}
+
+// A bicycle that rolled on by centimetres before the first of two junctions waited for ever. Eight
+// metres are left between them: who waits before B has its rear on A.
+TEST(JunctionsThatFollowClosely, AreKeptClearForSomeTimeThoughSomebodyCreeps) {
+  RoadScene here(two_junctions(16, "priority"));
   const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
   here.move(own, here.path(own).links.at(0).stop_line - 2.25 - 0.6);
   const std::size_t foe = here.add("car", {"NB", "BS"}, 0, 10);
@@ -430,28 +439,9 @@ TEST(JunctionsThatFollowClosely, AreKeptClearForSomeTimeThoughSomebodyCreeps) {
 }
 
 // Queues that waited for a light stood on the junction before it, across the ways of others.
-//
-//          NA   N
-//          |    |        netconvert leaves nothing of the road from A to B
-//    W ----A----B*---- E     * signal
-//          |    |
-//          SA   S
 TEST(JunctionsThatFollowClosely,
      WhoHasNoRoomBeforeALightWaitsForItBeforeTheJunctionThatItWouldBlock) {
-  testing::PlainNet plain;
-  plain.nodes = R"(<node id='W' x='-100' y='0'/><node id='A' x='0' y='0' type='priority'/>
-    <node id='B' x='8' y='0' type='traffic_light'/><node id='E' x='120' y='0'/>
-    <node id='NA' x='0' y='100'/><node id='SA' x='0' y='-100'/>
-    <node id='N' x='8' y='100'/><node id='S' x='8' y='-100'/>)";
-  for (const char* ends : {"W A", "A B", "B E"})
-    plain.edges += std::string("<edge id='") + ends[0] + ends[2] + "' from='" + ends[0] + "' to='" +
-                   ends[2] + "' priority='1' speed='13'/>";
-  plain.edges +=
-      "<edge id='NAA' from='NA' to='A' priority='1' speed='13'/>"
-      "<edge id='ASA' from='A' to='SA' priority='1' speed='13'/>"
-      "<edge id='NB' from='N' to='B' priority='9' speed='13'/>"
-      "<edge id='BS' from='B' to='S' priority='9' speed='13'/>";
-  RoadScene here(read_plain_net(plain));
+  RoadScene here(two_junctions(8, "traffic_light"));  // netconvert leaves nothing of AB
   const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
   const std::vector<PathLink> links = here.path(own).links;
   ASSERT_LT(links.at(1).stop_line - links.at(0).end, 1.0) << "no room between the two";
