@@ -149,6 +149,20 @@ std::optional<RoadNetwork> patch_apart(const NetconvertRequest& netconvert, cons
   return patched;
 }
 
+/// Has netconvert make one junction of each group as well. Whatever is joined changes what it would
+/// join around it by itself: all else stays as it is.
+void join(const std::vector<NodeGroup>& groups, NetconvertRequest& netconvert,
+          BuildResult& result) {
+  if (netconvert.joins.empty())
+    netconvert.joins = read_joins(netconvert.folder / netconvert.joined);
+  for (const NodeGroup& nodes : groups) {
+    result.log.add(Severity::Note, "junctions_joined",
+                   "junctions made one because there was no room for the road between them",
+                   "node/" + *nodes.begin());
+    add_group(nodes, netconvert.joins);
+  }
+}
+
 /// Runs netconvert on the map, and once more where junctions swallowed the road between them. The
 /// network, or nothing where it was stopped.
 std::optional<RoadNetwork> convert_map(NetconvertRequest& netconvert, BuildResult& result) {
@@ -158,14 +172,7 @@ std::optional<RoadNetwork> convert_map(NetconvertRequest& netconvert, BuildResul
   RoadNetwork road = read_sumo_net(network);
   const std::vector<NodeGroup> swallowed = swallowed_roads(road);
   if (swallowed.empty()) return road;
-  // whatever is joined changes what netconvert would join around it: all else stays as it is
-  netconvert.joins = read_joins(netconvert.folder / netconvert.joined);
-  for (const NodeGroup& nodes : swallowed) {
-    result.log.add(Severity::Note, "junctions_joined",
-                   "junctions made one because there was no room for the road between them",
-                   "node/" + *nodes.begin());
-    add_group(nodes, netconvert.joins);
-  }
+  join(swallowed, netconvert, result);
   result.command = run_netconvert(netconvert);
   if (result.command.empty()) return std::nullopt;
   return read_sumo_net(network);
@@ -183,23 +190,14 @@ void coordinate_signals(const std::filesystem::path& network, const RoadNetwork&
                    signal + " offset " + std::to_string(offset) + " s");
 }
 
-/// Builds net.net.xml; false where it was stopped.
-bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result) {
-  NetconvertRequest netconvert;
-  netconvert.folder = request.folder;
-  std::filesystem::create_directory(request.folder / "work");
-  const std::filesystem::path network = request.folder / netconvert.network;
-  netconvert.projection = result.projection;
-  netconvert.left_hand = result.left_hand;
-  netconvert.layers = has_layers(map);
-  netconvert.should_stop = request.should_stop;
-  write_prepared_osm(map, request.folder / netconvert.prepared);
-  std::optional<RoadNetwork> road = convert_map(netconvert, result);
-  if (!road) return false;
-  note_overlap_before(*road, result);
+/// Gives the network, as netconvert made it of the map, what netconvert does not read there, and
+/// moves its carriageways apart. The network, or nothing where it was stopped.
+std::optional<RoadNetwork> patch(const OsmMap& map, const NetconvertRequest& netconvert,
+                                 const RoadNetwork& converted, BuildResult& result) {
+  note_overlap_before(converted, result);
   NetworkPatch patch;
-  patch.roundabouts = unmarked_roundabouts(network, map);
-  patch.stop_types = stop_types(*road, find_stop_signs(map, kStopReach));
+  patch.roundabouts = unmarked_roundabouts(netconvert.folder / netconvert.network, map);
+  patch.stop_types = stop_types(converted, find_stop_signs(map, kStopReach));
   for (const auto& ring : patch.roundabouts)
     result.log.add(Severity::Note, "roundabout_marked",
                    "roundabouts by tag that netconvert had not seen", ring[0]);
@@ -207,15 +205,46 @@ bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result
     result.log.add(Severity::Note, "stop_signs",
                    "junctions with stop signs, which netconvert does not read",
                    junction + " " + type);
-  road = patch_apart(netconvert, *road, patch, result);
-  if (!road) return false;
+  std::optional<RoadNetwork> road = patch_apart(netconvert, converted, patch, result);
+  if (!road) return std::nullopt;
   // edges that lay on each other were partly swallowed by their junctions: only now all of them is
   // there
   const OverlapLength left = overlap_length(*road, find_lane_overlaps(*road));
   if (left.wheels + left.walking > kWorthAnotherPass * left.all_wheels)
     road = patch_apart(netconvert, *road, NetworkPatch{}, result);
+  return road;
+}
+
+/// The network of the map, made anew with junctions joined where only the finished one tells that
+/// they have to be; nothing where it was stopped.
+std::optional<RoadNetwork> convert_and_patch(const OsmMap& map, NetconvertRequest& netconvert,
+                                             BuildResult& result) {
+  std::optional<RoadNetwork> road = convert_map(netconvert, result);
+  if (!road) return std::nullopt;
+  const BuildResult converted = result;
+  road = patch(map, netconvert, *road, result);
+  if (!road) return std::nullopt;
+  const std::vector<NodeGroup> on_ways = signals_on_ways(*road);
+  if (on_ways.empty()) return road;
+  result = converted;  // notes tell of what is built, not of a first attempt
+  join(on_ways, netconvert, result);
+  road = convert_map(netconvert, result);
+  return road ? patch(map, netconvert, *road, result) : std::nullopt;
+}
+
+/// Builds net.net.xml; false where it was stopped.
+bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result) {
+  NetconvertRequest netconvert;
+  netconvert.folder = request.folder;
+  std::filesystem::create_directory(request.folder / "work");
+  netconvert.projection = result.projection;
+  netconvert.left_hand = result.left_hand;
+  netconvert.layers = has_layers(map);
+  netconvert.should_stop = request.should_stop;
+  write_prepared_osm(map, request.folder / netconvert.prepared);
+  const std::optional<RoadNetwork> road = convert_and_patch(map, netconvert, result);
   if (!road) return false;
-  coordinate_signals(network, *road, result);
+  coordinate_signals(request.folder / netconvert.network, *road, result);
   std::filesystem::remove_all(request.folder / "work");
   result.netconvert_messages = count_message_kinds(read_text(request.folder / netconvert.log));
   return true;

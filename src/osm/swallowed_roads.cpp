@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "road/conflict_zones.h"
+
 namespace sumogamma::osm {
 
 namespace {
@@ -19,25 +21,79 @@ bool is_drawn_outside(const Polyline& line, const Vec2& from, const Vec2& way) {
          (std::max(begin, end) <= 0.0 || std::min(begin, end) >= apart);
 }
 
-/// Of a road for wheels: is it drawn outside of both its nodes, or, between a signal and another
-/// junction, is nothing left of it for cars? Who waits at that signal would stand on the junction.
-bool is_swallowed(const RoadNetwork& road, const Edge& edge) {
-  if (edge.kind != LaneKind::Normal || edge.from == kNoJunction || edge.to == kNoJunction)
-    return false;
-  const Junction &from = road.junctions[index_of(edge.from)],
-                 &to = road.junctions[index_of(edge.to)];
-  const Vec2 way = to.position - from.position;
-  if (way.norm() < 1e-3 || way.norm() > kNear) return false;
-  const auto all_lines = [&](const auto& test) {
-    return std::all_of(edge.lanes.begin(), edge.lanes.end(),
-                       [&](const LaneId id) { return test(road.lane(id).centerline); });
-  };
-  if (allows(road, edge, ~vehicle_class::kPedestrian) &&
-      all_lines([&](const Polyline& line) { return is_drawn_outside(line, from.position, way); }))
-    return true;
-  return (from.type.starts_with("traffic_light") || to.type.starts_with("traffic_light")) &&
+bool all_lanes(const RoadNetwork& road, const Edge& edge, const auto& test) {
+  return std::all_of(edge.lanes.begin(), edge.lanes.end(),
+                     [&](const LaneId id) { return test(road.lane(id).centerline); });
+}
+
+/// Between a signal and another junction, is nothing left of the road for cars? Who waits at that
+/// signal stands on the junction.
+bool leaves_no_room_at_a_signal(const RoadNetwork& road, const Edge& edge) {
+  return (road.junction(edge.from).type.starts_with("traffic_light") ||
+          road.junction(edge.to).type.starts_with("traffic_light")) &&
          allows(road, edge, vehicle_class::kPassenger) &&
-         all_lines([](const Polyline& line) { return line.length() < kDrawn; });
+         all_lanes(road, edge, [](const Polyline& line) { return line.length() < kDrawn; });
+}
+
+/// Is a road for wheels drawn outside of both its nodes, or does it leave no room at a signal?
+bool is_swallowed(const RoadNetwork& road, const Edge& edge) {
+  const Vec2 &from = road.junction(edge.from).position, &to = road.junction(edge.to).position;
+  const Vec2 way = to - from;
+  if (way.norm() < 1e-3 || way.norm() > kNear) return false;
+  if (allows(road, edge, ~vehicle_class::kPedestrian) &&
+      all_lanes(road, edge,
+                [&](const Polyline& line) { return is_drawn_outside(line, from, way); }))
+    return true;
+  return leaves_no_room_at_a_signal(road, edge);
+}
+
+/// The ways that cars drive over a junction, by link of its matrix.
+std::vector<std::pair<ConnectionId, Polyline>> driven_ways(const RoadNetwork& road,
+                                                           const Junction& junction) {
+  std::vector<std::pair<ConnectionId, Polyline>> ways;
+  for (const ConnectionId id : junction.links)
+    if (id != kNoConnection && is_driven(road, id) &&
+        (road.lane(road.connection(id).from).allowed & road.lane(road.connection(id).to).allowed &
+         vehicle_class::kPassenger) != 0)
+      ways.emplace_back(id, link_geometry(road, id));
+  return ways;
+}
+
+bool meet(const Polyline& a, const Polyline& b) {
+  constexpr double kStep = 0.5, kBody = 2.0;  // [m]
+  for (double along = 0; along < a.length() + kStep; along += kStep)
+    if (b.project(a.point_at(along)).distance < kBody) return true;
+  return false;
+}
+
+/// Does anybody who drives over one end of the road meet others who do over the other end, though
+/// neither of them follows the other over both?
+bool ways_meet(const RoadNetwork& road, const Edge& edge) {
+  const auto behind = driven_ways(road, road.junction(edge.to));
+  for (const auto& [id, way] : driven_ways(road, road.junction(edge.from))) {
+    const Connection& link = road.connection(id);
+    for (const auto& [other_id, other_way] : behind) {
+      const Connection& other = road.connection(other_id);
+      const bool follow = road.lane(link.to).edge == road.lane(other.from).edge ||
+                          road.lane(other.to).edge == road.lane(link.from).edge;
+      if (!follow && meet(way, other_way)) return true;
+    }
+  }
+  return false;
+}
+
+/// The nodes of the junctions at the ends of roads that the test tells.
+std::vector<NodeGroup> groups_by_road(const RoadNetwork& road, const auto& test) {
+  std::vector<NodeGroup> groups;
+  for (const Edge& edge : road.edges) {
+    if (edge.kind != LaneKind::Normal || edge.from == kNoJunction || edge.to == kNoJunction ||
+        !test(road, edge))
+      continue;
+    NodeGroup group = nodes_of(road.junction(edge.from).name);
+    group.merge(nodes_of(road.junction(edge.to).name));
+    add_group(std::move(group), groups);
+  }
+  return groups;
 }
 
 }  // namespace
@@ -55,14 +111,13 @@ NodeGroup nodes_of(const std::string& junction) {
 }
 
 std::vector<NodeGroup> swallowed_roads(const RoadNetwork& road) {
-  std::vector<NodeGroup> groups;
-  for (const Edge& edge : road.edges) {
-    if (!is_swallowed(road, edge)) continue;
-    NodeGroup group = nodes_of(road.junctions[index_of(edge.from)].name);
-    group.merge(nodes_of(road.junctions[index_of(edge.to)].name));
-    add_group(std::move(group), groups);
-  }
-  return groups;
+  return groups_by_road(road, is_swallowed);
+}
+
+std::vector<NodeGroup> signals_on_ways(const RoadNetwork& road) {
+  return groups_by_road(road, [](const RoadNetwork& network, const Edge& edge) {
+    return leaves_no_room_at_a_signal(network, edge) && ways_meet(network, edge);
+  });
 }
 
 void add_group(NodeGroup group, std::vector<NodeGroup>& groups) {

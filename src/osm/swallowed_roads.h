@@ -22,6 +22,12 @@ NodeGroup nodes_of(const std::string& junction);
 /// their names.
 std::vector<NodeGroup> swallowed_roads(const RoadNetwork& road);
 
+/// A signal and a junction before it with no room for cars between them, where the queue at the
+/// signal stands in the way of others: ways over the one and over the other come within 2 m of each
+/// other, and neither knows of the other's right of way. The nodes of such junctions, however far
+/// apart. Only the finished network tells: where carriageways are moved apart such ways may part.
+std::vector<NodeGroup> signals_on_ways(const RoadNetwork& road);
+
 /// Adds a group to others; ones that share a node become one.
 void add_group(NodeGroup group, std::vector<NodeGroup>& groups);
 

@@ -62,6 +62,48 @@ TEST(SwallowedRoads, OthersAreLeftAlone) {
   EXPECT_THAT(swallowed_roads(road), IsEmpty());
 }
 
+/// A link over a junction between the first lanes of two roads, drawn so.
+void add_link(RoadNetwork& road, int from, int to, const std::vector<Vec2>& drawn) {
+  const auto first_lane = [&](int edge) {
+    return road.edges[static_cast<std::size_t>(edge)].lanes[0];
+  };
+  Connection link;
+  link.from = first_lane(from);
+  link.to = first_lane(to);
+  link.junction = road.edges[static_cast<std::size_t>(from)].to;
+  Lane inside;
+  inside.kind = LaneKind::Internal;
+  inside.centerline = Polyline(drawn);
+  link.via = static_cast<LaneId>(road.lanes.size());
+  road.lanes.push_back(inside);
+  road.junctions[index_of(link.junction)].links.push_back(
+      static_cast<ConnectionId>(road.connections.size()));
+  road.connections.push_back(link);
+}
+
+// a queue at the signal b stands over the junction a, where a turn over b leads past: netconvert
+// draws the ways of b beyond a where the two lie closer than its roads are wide
+TEST(SignalsOnWays, AreWhereOthersDrivePastTheQueue) {
+  RoadNetwork road;
+  add_road(road, "a", {0, 0}, "b", {12, 0}, {{5, 0}, {5.2, 0}});
+  add_road(road, "w", {-50, 0}, "a", {0, 0}, {{-50, 0}, {-10, 0}});
+  add_road(road, "b", {12, 0}, "e", {60, 0}, {{20, 0}, {60, 0}});
+  add_road(road, "s", {12, -50}, "b", {12, 0}, {{12, -50}, {12, -10}});
+  add_road(road, "b", {12, 0}, "n", {-5, 50}, {{-1, 10}, {-5, 50}});
+  add_link(road, 1, 0, {{-10, 0}, {5, 0}});
+  add_link(road, 0, 2, {{5.2, 0}, {20, 0}});
+  EXPECT_THAT(signals_on_ways(road), IsEmpty()) << "nobody turns";
+  add_link(road, 3, 4, {{12, -10}, {2, -1}, {-1, 10}});  // over the queue that comes from w
+  EXPECT_THAT(signals_on_ways(road), IsEmpty()) << "no signal";
+  road.junctions[1].type = "traffic_light";
+  EXPECT_THAT(signals_on_ways(road), ElementsAre(ElementsAre("a", "b")));
+  RoadNetwork beside = road;
+  beside.lanes.back().centerline = Polyline({{12, -10}, {8, 5}, {-1, 10}});
+  EXPECT_THAT(signals_on_ways(beside), IsEmpty()) << "the turn keeps clear of the queue";
+  road.lanes[0].centerline = Polyline({{3, 0}, {9, 0}});
+  EXPECT_THAT(signals_on_ways(road), IsEmpty()) << "the queue has room of its own";
+}
+
 TEST(SwallowedRoads, OnesThatMeetMakeOneJunctionAndClustersAreTheirNodes) {
   RoadNetwork road;
   add_road(road, "a", {0, 0}, "b", {3, 0}, {{-8, 0}, {-0.5, 0}});
