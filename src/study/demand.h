@@ -60,10 +60,11 @@ struct DemandReport {
 /// Draws trips, has SUMO's duarouter route them, and writes demand that keeps `agents` alive: first
 /// `agents` departures on the way (so that the mix of trip ages is that of a running city, not a
 /// wave that ends all at once), then each type at agents * share / mean duration * surplus. Trips
-/// run between the edges of the network's rim where it has one, are drawn by edge length, and are
-/// at least min_distance long (less where no such trip exists). Deterministic in the seed. A type
-/// that no edge lets travel is left out and reported, its share going to the others. Throws Error
-/// where nothing at all can travel, where the router is missing or fails, or where writing fails.
+/// run between the edges of the network's rim where it has one, are drawn by edge length, are at
+/// least min_distance long (less where no such trip exists), and stay on one edge only where that
+/// stands alone or a type has no other trips. Deterministic in the seed. A type that no edge lets
+/// travel is left out and reported, its share going to the others. Throws Error where nothing at
+/// all can travel, where the router is missing or fails, or where writing fails.
 DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& types,
                              const DemandRequest& request);
 

@@ -55,6 +55,16 @@ class ImportTest : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_process(request(arguments));
   }
+  /// The same map for traffic on the other side.
+  fs::path mirrored(const fs::path& map, const char* side) const {
+    const fs::path file = folder_ / "mirrored.osm";
+    ProcessRequest mirror;
+    mirror.arguments = {(fs::path(SUMOGAMMA_SOURCE_DIR) / "tools/mirror_map.py").string(),
+                        map.string(), file.string(), side};
+    const ProcessResult result = run_process(mirror);
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return file;
+  }
   fs::path out() const { return folder_ / "out"; }
   fs::path put(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
@@ -164,15 +174,6 @@ TEST_F(ImportTest, ABridgeIsAboveTheRoadBelow) {
 
 // tools/mirror_map.py: the same map for traffic on the other side
 TEST_F(ImportTest, AMirroredMapHasTheSameNetworkOnTheOtherSide) {
-  const auto mirrored = [&](const fs::path& map, const char* side) {
-    const fs::path file = folder_ / "mirrored.osm";
-    ProcessRequest mirror;
-    mirror.arguments = {(fs::path(SUMOGAMMA_SOURCE_DIR) / "tools/mirror_map.py").string(),
-                        map.string(), file.string(), side};
-    const ProcessResult result = run_process(mirror);
-    EXPECT_EQ(result.exit_code, 0) << result.errors;
-    return file;
-  };
   const std::string tags = content(
       mirrored(put("tags.osm",
                    R"(<osm version="0.6"><node id="1" lat="48" lon="11"/><way id="2"><nd ref="1"/>
@@ -317,6 +318,46 @@ INSTANTIATE_TEST_SUITE_P(Maps, SharedMapTest,
                            const std::string name = row.param;
                            return name.substr(0, name.find('.'));
                          });
+
+// of Shi Men Er Lu the extract holds 228 m of a road that nothing leads to, of the motorway little
+// else than roads like that
+TEST_F(ImportTest, FewTripsStayOnARoadThatStandsAlone) {
+  const auto share_within_edge = [&](const char* map) {
+    EXPECT_EQ(import(kSharedMaps / map, {"--force"}).exit_code, 0);
+    pugi::xml_document demand;
+    EXPECT_TRUE(demand.load_file((out() / "demand.rou.xml").c_str()));
+    std::set<std::string> types;
+    double all = 0, within = 0;
+    for (const pugi::xml_node agent : demand.child("routes").children("vehicle")) {
+      types.insert(agent.attribute("type").value());
+      const std::string_view edges = agent.child("route").attribute("edges").value();
+      ++all;
+      within += edges.find(' ') == std::string_view::npos;
+    }
+    EXPECT_EQ(types.size(), 6u) << map;
+    return within / all;
+  };
+  if (!fs::exists(kSharedMaps)) GTEST_SKIP() << "no " << kSharedMaps << ": its extracts don't ship";
+  EXPECT_LT(share_within_edge("shi_men_er_lu.osm"), 0.05);
+  EXPECT_GT(share_within_edge("highway.osm"), 0.95);
+}
+
+// there a queue at the signal would stand across a turn over it, drawn over the junction before
+TEST_F(ImportTest, JunctionsWhoseWaysLieOnEachOtherAtASignalAreMadeOne) {
+  const fs::path map = kSharedMaps / "shi_men_er_lu.osm";
+  if (!fs::exists(map))
+    GTEST_SKIP() << "no " << map << ": the extracts that don't ship aren't here";
+  const auto joined = [&](const fs::path& file) {
+    EXPECT_EQ(import(file, {"--force", "--agents", "10", "--duration", "60"}).exit_code, 0);
+    const auto report = nlohmann::json::parse(content(out() / "import.json"));
+    long count = 0;
+    for (const auto& issue : report["issues"])
+      if (issue["kind"] == "junctions_joined") count += issue["count"].get<long>();
+    return count;
+  };
+  EXPECT_EQ(joined(map), 0);
+  EXPECT_EQ(joined(mirrored(map, "right")), 1);
+}
 
 class OverlapTest : public SharedMapTest {};
 
