@@ -45,7 +45,8 @@ bool stops_at_ease(double speed, double way, const AgentType& type) {
   return deceleration_to_stop(speed, way) < type.comfortable_deceleration;
 }
 
-constexpr double kEdge = 0.3;  // who halts before a zone comes to rest so near its begin [m]
+constexpr double kEdge = 0.3;    // who halts before a zone comes to rest so near its begin [m]
+constexpr double kMargin = 0.3;  // between a place to wait on a junction and what it is for [m]
 
 /// Is a front `past` the begin of its link [m] in a zone that begins there at `begin`? Not who has
 /// come to rest at its edge.
@@ -97,7 +98,7 @@ struct WaitingPlace {
   bool inside = false;
 };
 WaitingPlace waiting_place(const PathLink& link, double zone_begin) {
-  constexpr double kMargin = 0.3, kSlack = 2.0, kLeast = 1.5;  // [m]
+  constexpr double kSlack = 2.0, kLeast = 1.5;  // [m]
   const double begin = link.stop_line + zone_begin;
   const double place = std::min(link.inside, begin) - kMargin;
   if (begin < link.inside - kSlack || place < link.stop_line + kLeast)
@@ -234,9 +235,11 @@ struct Judge : RoadView {
            !lets_people_go(model, scene, foe.row, link.connection);
   }
   bool past_line(const ConflictZone& zone) const {
-    // who goes at red waits before the junction, not on it
-    return traveller.front >
-           (at_red ? link.stop_line : waiting_place(link, zone.begin).along) + 0.3;
+    // who goes at red waits before the junction, not on it; who rolls out beyond its place there
+    // has come to rest at it all the same, as long as it isn't in the zone
+    const WaitingPlace place = waiting_place(link, zone.begin);
+    if (at_red || !place.inside) return traveller.front > link.stop_line + kEdge;
+    return traveller.front > place.along + kMargin + kEdge;
   }
   /// Is a foe past the place where it would wait for the traveller, and before the zone no more?
   bool is_committed(const ConflictZone& zone, const Approach& foe) const {

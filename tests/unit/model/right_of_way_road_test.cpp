@@ -527,6 +527,22 @@ TEST_F(PriorityTest, WhoWaitsOnTheJunctionLeavesTheWaysOfOthersFree) {
   EXPECT_EQ(here_.context(own).to_halt, alone);
 }
 
+// a bus came to rest half a metre beyond its place, took itself for being past it, where who comes
+// first goes first, and turned before those who came towards it
+TEST_F(PriorityTest, WhoRollsOutBeyondItsPlaceOnTheJunctionStillWaitsThere) {
+  const std::size_t own = here_.add("car", {"WC", "CN"}, 0, 0);
+  const std::size_t oncoming = here_.add("car", {"EC", "CW"}, 0, 10);
+  const PathLink& link = here_.path(own).links.front();
+  here_.move(oncoming, here_.path(oncoming).links.front().stop_line - 15);
+  const double place = std::min(link.inside, zone_of(own, oncoming)) - 0.3;
+  ASSERT_GT(place, link.stop_line + 1.5) << "there is a place to wait on the junction";
+  for (const double beyond : {0.0, 0.25, 0.5}) {
+    here_.move(own, place + beyond - 2.25);
+    here_.update();
+    EXPECT_EQ(here_.context(own).reason, LimitReason::Yield) << beyond;
+  }
+}
+
 // two that took each other for somebody who stands met nose to nose
 TEST_F(PriorityTest, WhoCreepsOnTheJunctionIsNotTakenForSomebodyWhoStands) {
   const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
