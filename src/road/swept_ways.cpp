@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "geometry/oriented_box.h"
@@ -12,12 +13,13 @@ namespace {
 
 // the longest body that turns anywhere [m]
 constexpr double kBusLength = 12.0, kBusWidth = 2.5, kBusAxle = 2.7, kBusRadius = 6.6;
-constexpr double kHalfWidth = 1.0, kHalfWidthOfWide = 1.3;  ///< of who is in the way, and some [m]
-constexpr double kPace = 0.5;                               ///< [m]
+// of who is in the way, and some: bodies come out of a bend up to 0.3 m beside what is reckoned [m]
+constexpr double kHalfWidth = 1.45, kHalfWidthOfWide = 1.6;
+constexpr double kPace = 0.5;       ///< [m]
 constexpr double kFarthest = 16.0;  ///< before a lane's end that anybody halts for a bus [m]
 
-/// What a bus sweeps on its way over a link: its body at each half metre. Its middle follows the
-/// way, its rear axle lies kBusAxle behind.
+/// What a bus sweeps on its way over a link: its body at each half metre while it is askew. Its
+/// middle follows the way, its rear axle lies kBusAxle behind.
 struct Sweep {
   std::vector<OrientedBox> bodies;
   double first = 0;  ///< place of the first one's middle, from the link's stop line [m]
@@ -26,6 +28,7 @@ struct Sweep {
 
 Sweep sweep_of_bus(const RoadNetwork& network, ConnectionId id) {
   constexpr double kTurns = 0.12;  // [rad]
+  constexpr double kAskew = 0.04;  // sine of its angle to its way
   const Connection& connection = network.connection(id);
   Sweep sweep;
   if ((network.lane(connection.to).allowed & vehicle_class::kBus) == 0) return sweep;
@@ -35,15 +38,25 @@ Sweep sweep_of_bus(const RoadNetwork& network, ConnectionId id) {
   const Path path = rounded_way(network, id, kBusLength, 2.0 * kBusLength,
                                 {kBusRadius, kBusLength, kBusWidth, network.left_hand});
   if (path.links.empty()) return sweep;
-  sweep.first = -path.links.front().stop_line;
   double heading = heading_of(path.line.direction_at(0.0));
-  sweep.low = sweep.high = path.line.point_at(0.0);
+  sweep.low = Vec2::Constant(std::numeric_limits<double>::infinity());
+  sweep.high = -sweep.low;
+  std::vector<OrientedBox> since;  // it was last askew
   for (double along = 0.0; along <= path.line.length(); along += kPace) {
     const Vec2 forward = direction_of(heading), place = path.line.point_at(along);
-    sweep.bodies.push_back({place, forward, {0.5 * kBusLength, 0.5 * kBusWidth}});
-    sweep.low = sweep.low.cwiseMin(place);
-    sweep.high = sweep.high.cwiseMax(place);
-    heading += kPace * cross(forward, path.line.direction_at(along)) / kBusAxle;
+    const double swing = cross(forward, path.line.direction_at(along));
+    heading += kPace * swing / kBusAxle;
+    const bool askew = std::abs(swing) > kAskew;
+    if (!askew && sweep.bodies.empty()) continue;
+    if (sweep.bodies.empty()) sweep.first = along - path.links.front().stop_line;
+    since.push_back({place, forward, {0.5 * kBusLength, 0.5 * kBusWidth}});
+    if (!askew) continue;
+    sweep.bodies.insert(sweep.bodies.end(), since.begin(), since.end());
+    since.clear();
+  }
+  for (const OrientedBox& body : sweep.bodies) {
+    sweep.low = sweep.low.cwiseMin(body.center);
+    sweep.high = sweep.high.cwiseMax(body.center);
   }
   const Vec2 reach = Vec2::Constant(0.5 * kBusLength + 2.0 * kHalfWidthOfWide);
   sweep.low -= reach;

@@ -59,6 +59,18 @@ TEST(SweptWays, WideBodiesNeedMoreRoomThanCars) {
   EXPECT_GT(more, 0);
 }
 
+// side by side on lanes of 2.75 m a bus leaves others 0.25 m: it sweeps their lane only as long as
+// it is askew, or everything behind its turn would count as swept
+TEST(SweptWays, OnNarrowLanesEndWhereTheBusIsStraightAgain) {
+  const RoadNetwork network = read_plain_net(
+      crossroads("priority", {"--default.junctions.radius", "3", "--default.lanewidth", "2.75"}));
+  const SweptWayTable table = find_swept_ways(network, build_conflict_table(network));
+  int halts = 0;
+  for (const auto& ways : table)
+    for (const SweptWay& way : ways) halts += way.foe_is_long && way.for_wide && way.begin < -5.0;
+  EXPECT_GT(halts, 0) << "a bus that waits leaves a turning bus room";
+}
+
 TEST(SweptWays, WhereNoBusMayDriveNothingIsSwept) {
   const RoadNetwork network = narrow_corners("bus");
   const SweptWayTable table = find_swept_ways(network, build_conflict_table(network));
