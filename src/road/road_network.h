@@ -49,6 +49,8 @@ struct Lane {
   std::string name;
   EdgeId edge = kNoEdge;
   int index = 0;  ///< within the edge, 0 = rightmost (leftmost with left-hand traffic)
+  int layer = 0;  ///< OpenStreetMap's, over (> 0) or under others; on a junction the one nearest to
+                  ///< the ground of those that meet there
   LaneKind kind = LaneKind::Normal;
   VehicleClassMask allowed = vehicle_class::kAll;
   double speed_limit = 0;  ///< [m/s]
@@ -141,6 +143,7 @@ struct RoadNetwork {
   std::vector<Junction> junctions;
   std::vector<Signal> signals;
   std::vector<Obstacle> obstacles;
+  bool has_layers = false;  ///< the layers of its lanes differ
   Vec2 lower_corner = Vec2::Zero(),
        upper_corner = Vec2::Zero();       ///< bounding box of the network [m]
   std::string projection;                 ///< PROJ string of the file, "!" where there is none

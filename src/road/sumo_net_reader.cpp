@@ -124,6 +124,7 @@ class NetBuilder {
     for (const pugi::xml_node node : root_.children("junction")) add_junction(node);
     for (const pugi::xml_node node : root_.children("edge")) add_edge(node);
     link_opposites();
+    set_junction_layers();
     for (const pugi::xml_node node : root_.children("tlLogic")) add_signal(node);
     for (const pugi::xml_node node : root_.children("connection")) add_connection(node);
     for (const pugi::xml_node node : root_.children("junction")) add_right_of_way(node);
@@ -216,7 +217,9 @@ class NetBuilder {
     const EdgeId id{static_cast<int>(net_.edges.size())};
     if (!net_.edge_by_name.emplace(edge.name, id).second)
       fail("edge '" + edge.name + "' stands twice");
-    for (const pugi::xml_node lane : node.children("lane")) add_lane(lane, id, edge, inside);
+    const int layer =
+        node.find_child_by_attribute("param", "key", "layer").attribute("value").as_int();
+    for (const pugi::xml_node lane : node.children("lane")) add_lane(lane, id, layer, edge, inside);
     if (edge.lanes.empty()) fail("edge '" + edge.name + "' has no lane");
     for (std::size_t i = 1; i < edge.lanes.size(); ++i) {
       net_.lanes[index_of(edge.lanes[i - 1])].inner = edge.lanes[i];
@@ -227,7 +230,7 @@ class NetBuilder {
     net_.edges.push_back(std::move(edge));
   }
 
-  void add_lane(pugi::xml_node node, EdgeId edge_id, Edge& edge, JunctionId inside) {
+  void add_lane(pugi::xml_node node, EdgeId edge_id, int layer, Edge& edge, JunctionId inside) {
     Lane lane;
     lane.name = required(node, "id");
     lane.edge = edge_id;
@@ -236,6 +239,7 @@ class NetBuilder {
       fail("lane '" + lane.name + "' is out of order, expected index " +
            std::to_string(edge.lanes.size()));
     lane.kind = edge.kind;
+    lane.layer = layer;
     lane.junction = inside;
     if (const pugi::xml_attribute allow = node.attribute("allow"))
       lane.allowed = parse_class_list(allow.value());
@@ -271,6 +275,22 @@ class NetBuilder {
       while (shape.points[read] != kept) ++read;
       lane.elevation.push_back(shape.elevation[read]);
     }
+  }
+
+  /// Layers on junctions, from the roads that meet there.
+  void set_junction_layers() {
+    std::vector<std::optional<int>> nearest(net_.junctions.size());
+    for (const Edge& edge : net_.edges) {
+      if (edge.kind != LaneKind::Normal) continue;
+      const int own = net_.lane(edge.lanes.front()).layer;
+      net_.has_layers = net_.has_layers || own != 0;
+      for (const JunctionId end : {edge.from, edge.to}) {
+        std::optional<int>& layer = nearest[index_of(end)];
+        if (!layer || std::abs(own) < std::abs(*layer)) layer = own;
+      }
+    }
+    for (Lane& lane : net_.lanes)
+      if (lane.junction != kNoJunction) lane.layer = nearest[index_of(lane.junction)].value_or(0);
   }
 
   /// References to lanes and edges that stood later in the file.

@@ -119,7 +119,8 @@ bool crosses_nearby(const RoadNetwork& network, const Ground& a, const Ground& b
   for (const LaneId one : lanes_about(network, a))
     for (const LaneId other : others) {
       const auto rise = rise_at_crossing(network.lane(one), network.lane(other));
-      if (rise && std::abs(*rise) > kLeastStorey) return true;
+      if (rise && (std::abs(*rise) > kLeastStorey || layers_differ(network, one, other)))
+        return true;
     }
   return false;
 }
@@ -128,11 +129,12 @@ bool crosses_nearby(const RoadNetwork& network, const Ground& a, const Ground& b
 
 bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Ground& b) {
   const double rise = std::abs(a.height - b.height);
-  if (rise <= kLeastStorey || (a.lane == b.lane && a.lane != kNoLane)) return false;
+  const bool layers = layers_differ(network, a.lane, b.lane);
+  if ((rise <= kLeastStorey && !layers) || (a.lane == b.lane && a.lane != kNoLane)) return false;
   if (a.lane == kNoLane || b.lane == kNoLane) return rise > kStorey;
   if (joined(network, a, b)) return false;
   const auto at_crossing = rise_at_crossing(network.lane(a.lane), network.lane(b.lane));
-  if (at_crossing) return std::abs(*at_crossing) > kLeastStorey;
+  if (at_crossing) return layers || std::abs(*at_crossing) > kLeastStorey;
   return rise > kStorey || crosses_nearby(network, a, b);
 }
 

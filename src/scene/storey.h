@@ -24,7 +24,15 @@ inline constexpr double kStorey = 2.5;
 /// Ground that differs by less is never taken for another storey, whatever the lanes do [m].
 inline constexpr double kLeastStorey = 1.5;
 
-/// on_other_storey() for ground that differs by more than kLeastStorey.
+/// Has OpenStreetMap's map different layers for two lanes? Heights don't tell it everywhere:
+/// netconvert 1.15 gives them to a road's ends only, so that a tunnel between two bridges lies as
+/// high as they do.
+inline bool layers_differ(const RoadNetwork& network, LaneId a, LaneId b) {
+  return network.has_layers && a != kNoLane && b != kNoLane &&
+         network.lane(a).layer != network.lane(b).layer;
+}
+
+/// on_other_storey() for ground that differs by more than kLeastStorey, or in its layer.
 bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Ground& b);
 
 /// Are two places above one another, on a bridge and under it? Heights alone don't tell: at a
@@ -32,14 +40,14 @@ bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Grou
 /// where it has hardly begun to rise. So places that a few metres of road join are on one storey;
 /// others are not if their ground differs by more than kStorey; where their lanes cross, or those
 /// that they lead into or come from a few metres away, it's the ground at the crossing that counts,
-/// by kLeastStorey.
+/// by kLeastStorey, or their layers.
 inline bool on_other_storey(const RoadNetwork& network, const Ground& a, const Ground& b) {
-  return std::abs(a.height - b.height) > kLeastStorey && lies_above_or_below(network, a, b);
+  return (std::abs(a.height - b.height) > kLeastStorey || layers_differ(network, a.lane, b.lane)) &&
+         lies_above_or_below(network, a, b);
 }
 inline bool on_other_storey(const RoadNetwork& network, const Scene& scene, std::size_t a,
                             std::size_t b) {
-  return std::abs(scene.height[a] - scene.height[b]) > kLeastStorey &&
-         lies_above_or_below(network, ground_of(scene, a), ground_of(scene, b));
+  return on_other_storey(network, ground_of(scene, a), ground_of(scene, b));
 }
 
 }  // namespace sumogamma

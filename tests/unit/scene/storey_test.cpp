@@ -42,6 +42,17 @@ TEST_F(StoreyTest, WhereLanesCrossTheHeightThereCounts) {
   EXPECT_FALSE(apart(at("in_1", 50, 0), at("bridge_0", 20, 3))) << "it comes down to the road";
 }
 
+// netconvert gives heights to the ends of a road only, and those may be of other bridges
+TEST_F(StoreyTest, WhereRoadsOfDifferentLayersCrossNoHeightCounts) {
+  EXPECT_FALSE(apart(at("in_1", 50, 0), at("bridge_0", 60, 0)));
+  net_.lanes[index_of(net_.lane_by_name.at("bridge_0"))].layer = -4;
+  net_.has_layers = true;
+  EXPECT_TRUE(apart(at("in_1", 50, 0), at("bridge_0", 60, 0)));
+  EXPECT_FALSE(apart(at("in_1", 90, 0), at(":C_0_0", 5, 0)));
+  net_.lanes[index_of(net_.lane_by_name.at("out_0"))].layer = 1;
+  EXPECT_FALSE(apart(at("in_1", 20, 0), at("out_0", 60, 0))) << "they don't cross";
+}
+
 // a ramp that ends over a tunnel, at a seam of two lanes: the crossing is on one of them only
 TEST_F(StoreyTest, ACrossingBehindTheEndOfTheLaneCounts) {
   const Lane& bridge = net_.lane(net_.lane_by_name.at("bridge_0"));
