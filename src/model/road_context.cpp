@@ -158,8 +158,12 @@ void set_allowed_speed(const RoadView& view, const Course& course, double dt,
     if (first) context.at_red = decision.must_stop && decision.reason == LimitReason::Signal;
     first = false;
     if (!decision.must_stop) decision = keep_clear(view, course, traveller, link, ahead);
-    if (!decision.must_stop && !takes_turning_room(view, course, link))
-      decision = leave_turning_room(view, traveller, link);
+    // who may go on to a place on the junction leaves room before it all the same
+    if (!takes_turning_room(view, course, link)) {
+      const LinkDecision room = leave_turning_room(view, traveller, link);
+      if (room.must_stop && (!decision.must_stop || room.stop_at < decision.stop_at))
+        decision = room;
+    }
     if (!decision.must_stop) decision = let_one_in(view, course, traveller, link);
     if (!decision.must_stop) continue;
     const double gap = decision.stop_at - traveller.front + type.min_gap;

@@ -110,6 +110,28 @@ TEST_F(TurningRoomTest, NobodyWaitsForABusThatLetsItPast) {
   EXPECT_NE(here_.context(car).foe, here_.scene.id[bus].value);
 }
 
+// it went on to where one waits on the junction for those who come towards it, though somebody
+// stood where it would sweep: there it was in the way of everybody else, for good
+TEST_F(TurningRoomTest, ABusThatWouldWaitOnTheJunctionLeavesRoomBeforeIt) {
+  const RoadNetwork network = read_plain_net(
+      crossroads("priority", {"--default.junctions.radius", "1.5", "--default.lanewidth", "2.75"}));
+  RoadScene here(network);
+  const std::size_t bus = here.add("bus", {"WC", "CN"}, 0, 0);
+  const PathLink& link = here.path(bus).links.front();
+  here.move(bus, link.stop_line - 6.0 - 0.7);
+  const std::size_t oncoming = here.add("car", {"EC", "CW"}, 0, 10);
+  here.move(oncoming, here.path(oncoming).links.front().stop_line - 30.0);
+  here.update();
+  ASSERT_EQ(here.context(bus).reason, LimitReason::Yield);
+  ASSERT_GT(here.context(bus).to_halt, 2.0) << "on the junction";
+  const std::size_t car = here.add("car", {"NC", "CS"}, 0, 0);
+  here.move(car, here.path(car).links.front().stop_line - 0.6 - 2.25);
+  here.update(2);
+  EXPECT_EQ(here.context(bus).reason, LimitReason::TurningRoom);
+  EXPECT_EQ(here.context(bus).foe, here.scene.id[car].value);
+  EXPECT_LT(here.context(bus).to_halt, 0.7);
+}
+
 // on its way already, but in nobody's yet: a bus and a lorry met in the bend and stood there for
 // good
 TEST_F(TurningRoomTest, ABusMayHaltOnTheJunctionWhereItIsInNobodysWay) {
