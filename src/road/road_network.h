@@ -143,7 +143,7 @@ struct RoadNetwork {
   std::vector<Junction> junctions;
   std::vector<Signal> signals;
   std::vector<Obstacle> obstacles;
-  bool has_layers = false;  ///< the layers of its lanes differ
+  bool has_layers = false;  ///< some road is over or under others
   Vec2 lower_corner = Vec2::Zero(),
        upper_corner = Vec2::Zero();       ///< bounding box of the network [m]
   std::string projection;                 ///< PROJ string of the file, "!" where there is none

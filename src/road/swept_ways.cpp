@@ -41,7 +41,7 @@ Sweep sweep_of_bus(const RoadNetwork& network, ConnectionId id) {
   double heading = heading_of(path.line.direction_at(0.0));
   sweep.low = Vec2::Constant(std::numeric_limits<double>::infinity());
   sweep.high = -sweep.low;
-  std::vector<OrientedBox> since;  // it was last askew
+  std::size_t straight = 0;  // bodies since it was last askew
   for (double along = 0.0; along <= path.line.length(); along += kPace) {
     const Vec2 forward = direction_of(heading), place = path.line.point_at(along);
     const double swing = cross(forward, path.line.direction_at(along));
@@ -49,11 +49,10 @@ Sweep sweep_of_bus(const RoadNetwork& network, ConnectionId id) {
     const bool askew = std::abs(swing) > kAskew;
     if (!askew && sweep.bodies.empty()) continue;
     if (sweep.bodies.empty()) sweep.first = along - path.links.front().stop_line;
-    since.push_back({place, forward, {0.5 * kBusLength, 0.5 * kBusWidth}});
-    if (!askew) continue;
-    sweep.bodies.insert(sweep.bodies.end(), since.begin(), since.end());
-    since.clear();
+    sweep.bodies.push_back({place, forward, {0.5 * kBusLength, 0.5 * kBusWidth}});
+    straight = askew ? 0 : straight + 1;
   }
+  sweep.bodies.resize(sweep.bodies.size() - straight);
   for (const OrientedBox& body : sweep.bodies) {
     sweep.low = sweep.low.cwiseMin(body.center);
     sweep.high = sweep.high.cwiseMax(body.center);

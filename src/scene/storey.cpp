@@ -130,7 +130,7 @@ bool crosses_nearby(const RoadNetwork& network, const Ground& a, const Ground& b
 bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Ground& b) {
   const double rise = std::abs(a.height - b.height);
   const bool layers = layers_differ(network, a.lane, b.lane);
-  if ((rise <= kLeastStorey && !layers) || (a.lane == b.lane && a.lane != kNoLane)) return false;
+  if (a.lane == b.lane && a.lane != kNoLane) return false;
   if (a.lane == kNoLane || b.lane == kNoLane) return rise > kStorey;
   if (joined(network, a, b)) return false;
   const auto at_crossing = rise_at_crossing(network.lane(a.lane), network.lane(b.lane));
