@@ -105,15 +105,13 @@ bool waits_for(const Scene& scene, std::size_t row, std::size_t other) {
   return false;
 }
 
-/// Does this row stand in the way of somebody wedged, for whom it waits itself?
-bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                       std::size_t row) {
-  constexpr double kLong = 25.0;               // [s]
+/// Does this row stand in the way of somebody wedged of whom `concerns` is true?
+template <typename Concerns>
+bool stands_before(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                   std::size_t row, Concerns concerns) {
   constexpr double kWay = 2.0, kBeside = 0.4;  // [m]
   const AgentGeometry& own = geometry.agent[row];
-  if (scene.standing_time[row] < kLong || !own.on_wheels || !own.is_box || is_wedged(scene, row) ||
-      waits_at_red(scene.context[row]))
-    return false;
+  if (!own.on_wheels || !own.is_box) return false;
   bool found = false;
   geometry.grid.visit_within(own.position, own.radius + kLargest, [&](std::size_t other, double) {
     const AgentGeometry& their = geometry.agent[other];
@@ -123,9 +121,29 @@ bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometr
     const OrientedBox box = their.box();
     const OrientedBox room{box.center + 0.5 * (kWay - kBeside) * box.forward, box.forward,
                            box.half + Vec2(0.5 * (kWay + kBeside), kBeside)};
-    found = separation(own.box(), room) < 0.0 && waits_for(scene, row, other);
+    found = separation(own.box(), room) < 0.0 && concerns(other);
   });
   return found;
+}
+
+/// Does this row stand in the way of somebody wedged, for whom it waits itself?
+bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                       std::size_t row) {
+  constexpr double kLong = 25.0;  // [s]
+  return scene.standing_time[row] > kLong && !is_wedged(scene, row) &&
+         !waits_at_red(scene.context[row]) &&
+         stands_before(model, scene, geometry, row, [&](std::size_t other) {
+           return scene.blocked_time[other] > kHeldUp && waits_for(scene, row, other);
+         });
+}
+
+/// Has this row rolled back to let others go first, but not far enough for one of them?
+bool is_still_in_the_way(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                         std::size_t row) {
+  constexpr double kSees = 3.0;  // [s]
+  return scene.backing_left[row] <= 0.0 && backward_speed(scene, row) < kStill &&
+         stands_before(model, scene, geometry, row,
+                       [&](std::size_t other) { return scene.blocked_time[other] > kSees; });
 }
 
 }  // namespace
@@ -150,7 +168,8 @@ void update_backing(const Model& model, const TickGeometry& geometry, double dt,
     left = kTries;
   } else if (gives_way <= 0.0 && makes_room(scene, row)) {
     left = kMakesRoom;
-  } else if (gives_way <= 0.0 && stands_in_the_way(model, scene, geometry, row)) {
+  } else if (gives_way > 0.0 ? is_still_in_the_way(model, scene, geometry, row)
+                             : stands_in_the_way(model, scene, geometry, row)) {
     left = kStepsBack;
     gives_way = kStepsBack + kGivesWay;
   }

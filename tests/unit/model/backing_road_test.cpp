@@ -139,6 +139,9 @@ TEST_F(BackingTest, WhoStandsAcrossTheWayOfSomebodyWedgedStepsBack) {
   update(own);
   EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "for nobody who isn't wedged";
   here_.scene.wedge_left[wedged] = 10.0;
+  update(own);
+  EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "nor at once: the light may just have changed";
+  here_.scene.blocked_time[wedged] = 10.0;
   waits(behind, own);
   update(own);
   EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "nor for whom it doesn't wait";
@@ -155,6 +158,30 @@ TEST_F(BackingTest, WhoStandsAcrossTheWayOfSomebodyWedgedStepsBack) {
   here_.scene.context[own].at_red = true;
   update(own);
   EXPECT_EQ(here_.scene.backing_left[own], 0.0);
+}
+
+// it rolled back from a ring, gave way for half a minute, and all the time stood before the nose of
+// the one that it gave way to
+TEST_F(BackingTest, WhoGivesWayRollsBackFurtherForWhomItStillHolds) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
+  const std::size_t wedged = here_.add("car", {"SC", "CN"}, 0, 0);
+  const Vec2 forward = direction_of(here_.scene.heading[own]);
+  here_.scene.heading[wedged] = here_.scene.heading[own] + 0.5 * kPi;
+  here_.scene.position[wedged] = here_.scene.position[own] + 1.5 * forward -
+                                 (0.9 + 2.25 + 0.5) * direction_of(here_.scene.heading[wedged]);
+  here_.scene.gives_way_left[own] = 4.0;
+  here_.scene.wedge_left[wedged] = 10.0;
+  update(own);
+  EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "the other may be about to go";
+  here_.scene.blocked_time[wedged] = 4.0;
+  update(own);
+  EXPECT_GT(here_.scene.backing_left[own], 0.0);
+  EXPECT_GT(here_.scene.gives_way_left[own], here_.scene.backing_left[own]);
+  here_.scene.backing_left[own] = 0.0;
+  here_.scene.gives_way_left[own] = 4.0;
+  here_.scene.position[wedged] -= 3.0 * direction_of(here_.scene.heading[wedged]);
+  update(own);
+  EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "not for who has room";
 }
 
 // along its path it would have swung into the lorry beside it; both stood for minutes
