@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "geometry/rotation.h"
+#include "model/way_round.h"
 
 namespace sumogamma {
 
@@ -293,6 +294,16 @@ Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const Scene& sce
   const AgentGeometry& own = geometry.agent[row];
   const double asked = velocity.norm(), now = own.velocity.norm();
   const double brake = type_of(model.types, own.type).max_deceleration * model.options.step;
+  if (own.on_wheels && own.is_box && is_wedged(scene, row) && scene.context[row].active &&
+      preferred.norm() > kLeastWish) {
+    if (const auto turn = way_round(model, scene, geometry, row, preferred)) {
+      const Vec2 round =
+          std::min(kCreep, preferred.norm()) * from_body(rotation(*turn), own.forward);
+      const bool within = std::all_of(hard.begin(), hard.end(),
+                                      [&](const HalfPlane& p) { return slack(p, round) >= 0; });
+      if (within && guard.admits(round)) return round;
+    }
+  }
   // as asked, or the same way but slower: no faster than now, braking by half, braking
   const bool stands = asked < 0.5 * kCreep;
   if (!stands && guard.admits(velocity)) return velocity;
@@ -306,8 +317,11 @@ Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const Scene& sce
     const auto creep = creep_round(guard, model, scene, own, row, preferred, hard);
     if (creep) return *creep;
   }
-  if (own.on_wheels && is_wedged(scene, row) && now < kStill) {
-    const Vec2 turned = turned_wheels(scene, own, row);
+  // whose wheels are turned to who is beside has them straight before it can roll off
+  const bool may_go = preferred.norm() > kLeastWish && scene.context[row].active;
+  if (own.on_wheels && now < kStill && (is_wedged(scene, row) || may_go)) {
+    const Vec2 turned =
+        is_wedged(scene, row) ? turned_wheels(scene, own, row) : Vec2(1e-5 * own.forward);
     if (guard.admits(turned)) return turned;
   }
   const Vec2 least = std::min(asked, std::max(now - brake, 0.01 * asked)) * along;
