@@ -6,6 +6,7 @@
 #include "model/merging.h"
 #include "model/occupation.h"
 #include "model/rule_breaking.h"
+#include "model/stopping_guard.h"
 
 namespace sumogamma {
 
@@ -159,6 +160,7 @@ struct Judge : RoadView {
                            waiting.reason == LimitReason::LetsIn;
     if (foe.stands && lets_past) return Verdict::Held;
     if (foe.stands && waiting.blocked && (!foe_inside || on_junction())) return Verdict::Held;
+    if (!foe_inside && creeps_out(foe)) return Verdict::Held;
     const bool waits_for_us = foe.stands && waiting.foe == scene.id[traveller.row].value;
     // all-way stop: who has halted goes in the order in which they came
     if (!foe_inside && model.road.connection(link.connection).state == 'w') {
@@ -272,6 +274,11 @@ struct Judge : RoadView {
   /// Where a foe's front comes to rest, as things are [m past its link's begin].
   double rest_of(const Approach& foe) const {
     return foe.front + approaches.waiting(foe.row).to_halt;
+  }
+  /// Is a foe on its way out of where it was stuck between bodies, step by step?
+  bool creeps_out(const Approach& foe) const {
+    constexpr double kLong = 8.0;  // [s]
+    return is_wedged(scene, foe.row) && foe.speed < kCrawl && scene.waiting_time[foe.row] > kLong;
   }
   /// Will a foe, as things are, come to rest in the zone?
   bool rests_in(const ConflictZone& zone, const Approach& foe) const {

@@ -493,6 +493,25 @@ TEST_F(PriorityTest, NobodyWaitsForWhoIsHeldByBodiesAlone) {
   EXPECT_NE(here_.context(minor).reason, LimitReason::Yield);
 }
 
+// a van that crept to and fro behind the tail of a queue held the whole road opposite for 129 s
+TEST_F(PriorityTest, NobodyWaitsForWhoCreepsOutOfAWedge) {
+  const std::size_t minor = here_.add("car", {"SC", "CN"}, 0, 0);
+  here_.move(minor, here_.path(minor).links.front().stop_line - 2.25 - 0.6);
+  const std::size_t major = here_.add("car", {"WC", "CE"}, 0, 0.5);
+  here_.move(major, here_.path(major).links.front().stop_line - 2.25 + 0.5);
+  here_.update();
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
+  here_.scene.wedge_left[major] = 10;
+  here_.update();
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield) << "it has just begun";
+  here_.scene.waiting_time[major] = 20;
+  here_.update();
+  EXPECT_NE(here_.context(minor).reason, LimitReason::Yield);
+  here_.set_speed(major, 2.0);
+  here_.update();
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield) << "it has got out";
+}
+
 // who rolls over the junction and halts there is not gone when its speed says so
 TEST_F(PriorityTest, NobodySetsOutForAPlaceInWhichSomebodyWillHalt) {
   const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 10, 0, -1, "WC_0");
