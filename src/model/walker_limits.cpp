@@ -29,6 +29,11 @@ void follow_on_foot(const RoadView& view, const Course& course, RoadContext& con
     const double aside = half_width + half_extent(scene, other, left) - kFile;
     if (ahead < kBeside || std::abs(offset.dot(left)) > aside) return;
     if (direction_of(scene.heading[other]).dot(context.tangent) < 0.5) return;
+    // where their ways bend each may be ahead of the other: one of them goes
+    const Waiting& theirs = view.approaches.waiting(other);
+    if (theirs.reason == LimitReason::Leader && theirs.foe == scene.id[row].value &&
+        scene.id[row] < scene.id[other])
+      return;
     const double gap = ahead - course.half_length - half_extent(scene, other, context.tangent);
     const double allowed = std::max(gap, 0.0) / (course.type.headway * course.headway_factor);
     if (allowed >= context.allowed_speed || allowed >= context.speed_limit) return;

@@ -59,6 +59,19 @@ TEST_F(ContextTest, OffTheRoadNothingIsSaid) {
   EXPECT_TRUE(planes_of(own).planes.empty());
 }
 
+// two people stood nose to nose on a sidewalk for 410 s: where the way bends each was ahead of the
+// other
+TEST_F(ContextTest, OfTwoOnFootWhoFollowEachOtherOneGoes) {
+  const std::size_t first = here_.add("pedestrian", {"in"}, 40, 0);
+  const std::size_t second = here_.add("pedestrian", {"in"}, 40.5, 0);
+  here_.update(2);
+  ASSERT_EQ(here_.context(first).reason, LimitReason::Leader);
+  here_.scene.context[second].reason = LimitReason::Leader;
+  here_.scene.context[second].foe = here_.scene.id[first].value;
+  here_.update();
+  EXPECT_NE(here_.context(first).reason, LimitReason::Leader);
+}
+
 TEST_F(ContextTest, AtmostTheRoomOverTheHorizonSideways) {
   const std::size_t own = here_.add("pedestrian", {"in"}, 40, 1);
   here_.update();
