@@ -26,16 +26,18 @@ bool all_lanes(const RoadNetwork& road, const Edge& edge, const auto& test) {
                      [&](const LaneId id) { return test(road.lane(id).centerline); });
 }
 
-/// Between a signal and another junction, is nothing left of the road for cars? Who waits at that
-/// signal stands on the junction.
-bool leaves_no_room_at_a_signal(const RoadNetwork& road, const Edge& edge) {
-  return (road.junction(edge.from).type.starts_with("traffic_light") ||
-          road.junction(edge.to).type.starts_with("traffic_light")) &&
-         allows(road, edge, vehicle_class::kPassenger) &&
+/// Is nothing left of a road for cars? Who waits at its end stands on the junction where it begins.
+bool leaves_no_room(const RoadNetwork& road, const Edge& edge) {
+  return allows(road, edge, vehicle_class::kPassenger) &&
          all_lanes(road, edge, [](const Polyline& line) { return line.length() < kDrawn; });
 }
 
-/// Is a road for wheels drawn outside of both its nodes, or does it leave no room at a signal?
+bool is_at_a_signal(const RoadNetwork& road, const Edge& edge) {
+  return road.junction(edge.from).type.starts_with("traffic_light") ||
+         road.junction(edge.to).type.starts_with("traffic_light");
+}
+
+/// Is a road for wheels drawn outside of both its nodes, or does it leave no room for cars?
 bool is_swallowed(const RoadNetwork& road, const Edge& edge) {
   const Vec2 &from = road.junction(edge.from).position, &to = road.junction(edge.to).position;
   const Vec2 way = to - from;
@@ -44,7 +46,7 @@ bool is_swallowed(const RoadNetwork& road, const Edge& edge) {
       all_lanes(road, edge,
                 [&](const Polyline& line) { return is_drawn_outside(line, from, way); }))
     return true;
-  return leaves_no_room_at_a_signal(road, edge);
+  return leaves_no_room(road, edge);
 }
 
 /// The ways that cars drive over a junction, by link of its matrix.
@@ -116,7 +118,8 @@ std::vector<NodeGroup> swallowed_roads(const RoadNetwork& road) {
 
 std::vector<NodeGroup> signals_on_ways(const RoadNetwork& road) {
   return groups_by_road(road, [](const RoadNetwork& network, const Edge& edge) {
-    return leaves_no_room_at_a_signal(network, edge) && ways_meet(network, edge);
+    return leaves_no_room(network, edge) && is_at_a_signal(network, edge) &&
+           ways_meet(network, edge);
   });
 }
 

@@ -18,8 +18,9 @@ NodeGroup nodes_of(const std::string& junction);
 /// Two junctions that are nearer to each other than each of them is wide swallow the road between
 /// them, and netconvert draws what is left of it outside of both: a lane that begins beyond the
 /// node where it ends. Its own joining of junctions leaves such pairs where it reduces a large
-/// cluster. The nodes of such junctions; of those that netconvert joined, at least the ones in
-/// their names.
+/// cluster, and leaves others with 0.2 m of road between them: in a small ring whoever waits before
+/// the second junction stands across the ways over the first. The nodes of such junctions; of those
+/// that netconvert joined, at least the ones in their names.
 std::vector<NodeGroup> swallowed_roads(const RoadNetwork& road);
 
 /// A signal and a junction before it with no room for cars between them, where the queue at the

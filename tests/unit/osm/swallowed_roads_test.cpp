@@ -40,12 +40,15 @@ TEST(SwallowedRoads, LieOutsideOfBothTheirJunctions) {
   EXPECT_THAT(swallowed_roads(road), ElementsAre(ElementsAre("a", "b"), ElementsAre("c", "d")));
 }
 
-TEST(SwallowedRoads, OfCarsLeaveNoRoomAtASignal) {
+// in the small rings of the Magic Roundabout who waited to go on stood across the way of those who
+// left the ring, and each waited for the other
+TEST(SwallowedRoads, OfCarsLeaveNoRoom) {
   RoadNetwork road;
   add_road(road, "a", {0, 0}, "b", {7, 0}, {{4, 0}, {4.2, 0}});
-  EXPECT_THAT(swallowed_roads(road), IsEmpty()) << "no signal";
-  road.junctions[1].type = "traffic_light";
   EXPECT_THAT(swallowed_roads(road), ElementsAre(ElementsAre("a", "b")));
+  road.junctions[1].position = {8.5, 0};
+  EXPECT_THAT(swallowed_roads(road), IsEmpty()) << "too far apart for one junction";
+  road.junctions[1].position = {7, 0};
   road.lanes[0].allowed = vehicle_class::kBicycle;
   EXPECT_THAT(swallowed_roads(road), IsEmpty()) << "a path for bicycles";
   road.lanes[0].allowed = vehicle_class::kPassenger;
@@ -55,9 +58,10 @@ TEST(SwallowedRoads, OfCarsLeaveNoRoomAtASignal) {
 
 TEST(SwallowedRoads, OthersAreLeftAlone) {
   RoadNetwork road;
-  add_road(road, "a", {0, 0}, "b", {6, 0}, {{2, 0}, {4, 0}});     // short, and between them
-  add_road(road, "a", {0, 0}, "c", {0, 5}, {{0, 6}, {0, 6.2}});   // what netconvert leaves of most
-  add_road(road, "c", {0, 5}, "d", {99, 5}, {{-9, 5}, {-1, 5}});  // far apart
+  add_road(road, "a", {0, 0}, "b", {6, 0}, {{2, 0}, {4, 0}});    // short, and between them
+  add_road(road, "a", {0, 0}, "c", {0, 5}, {{0, 6}, {0, 6.2}});  // a path for bicycles
+  road.lanes.back().allowed = vehicle_class::kBicycle;
+  add_road(road, "c", {0, 5}, "d", {99, 5}, {{-9, 5}, {-1, 5}});    // far apart
   add_road(road, "d", {99, 5}, "e", {99, 8}, {{99, 9}, {99, 60}});  // a loop
   EXPECT_THAT(swallowed_roads(road), IsEmpty());
 }
