@@ -39,6 +39,8 @@ class ApproachTable {
   std::span<const Approach> of(ConnectionId id) const;
   /// Frozen copy of what the contexts said at the last tick: rows may read each other's.
   const Waiting& waiting(std::size_t row) const { return waiting_[row]; }
+  /// Where a front comes to rest, as things are [m past its link's begin].
+  double rest_of(const Approach& one) const { return one.front + waiting(one.row).to_halt; }
 
  private:
   struct Range {

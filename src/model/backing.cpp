@@ -29,7 +29,6 @@ constexpr double kClear = 0.25;         // kept to everybody behind [m]
 constexpr double kRoomToBegin = 0.5;    // [m]
 constexpr double kTarget = 3.0;         // behind the rear axle, aimed at on the path [m]
 constexpr double kStill = 0.01;         // [m/s]
-constexpr double kLargest = 12.0;       // from a body's position to its farthest corner [m]
 
 double backward_speed(const Scene& scene, std::size_t row) {
   return std::max(0.0, -scene.velocity[row].dot(direction_of(scene.heading[row])));
@@ -65,18 +64,19 @@ bool keeps_clear(const RoadNetwork& network, const Scene& scene, const TickGeome
   const Vec2 forward = direction_of(body.heading);
   const OrientedBox box{body.position + own.shift * forward, forward, own.half};
   bool clear = true;
-  geometry.grid.visit_within(body.position, own.radius + kLargest, [&](std::size_t other, double) {
-    if (other == row || !clear || on_other_storey(network, scene, row, other)) return;
-    const AgentGeometry& their = geometry.agent[other];
-    const double kept = kClear + std::min(their.throttle_way, 0.3);
-    if (!their.is_box) {
-      clear = (their.position - body.position).norm() > own.radius + their.radius + kept ||
-              (their.position - body.position).norm() > (their.position - own.position).norm();
-      return;
-    }
-    const double gap = separation(box, their.braking);
-    if (gap < kept) clear = gap > separation(own.box(), their.braking) - 1e-9;
-  });
+  geometry.grid.visit_within(
+      body.position, own.radius + kFarthestCorner, [&](std::size_t other, double) {
+        if (other == row || !clear || on_other_storey(network, scene, row, other)) return;
+        const AgentGeometry& their = geometry.agent[other];
+        const double kept = kClear + std::min(their.throttle_way, 0.3);
+        if (!their.is_box) {
+          clear = (their.position - body.position).norm() > own.radius + their.radius + kept ||
+                  (their.position - body.position).norm() > (their.position - own.position).norm();
+          return;
+        }
+        const double gap = separation(box, their.braking);
+        if (gap < kept) clear = gap > separation(own.box(), their.braking) - 1e-9;
+      });
   return clear;
 }
 
@@ -113,16 +113,17 @@ bool stands_before(const Model& model, const Scene& scene, const TickGeometry& g
   const AgentGeometry& own = geometry.agent[row];
   if (!own.on_wheels || !own.is_box) return false;
   bool found = false;
-  geometry.grid.visit_within(own.position, own.radius + kLargest, [&](std::size_t other, double) {
-    const AgentGeometry& their = geometry.agent[other];
-    if (found || other == row || !their.on_wheels || !their.is_box || !is_wedged(scene, other) ||
-        on_other_storey(model.road, scene, row, other))
-      return;
-    const OrientedBox box = their.box();
-    const OrientedBox room{box.center + 0.5 * (kWay - kBeside) * box.forward, box.forward,
-                           box.half + Vec2(0.5 * (kWay + kBeside), kBeside)};
-    found = separation(own.box(), room) < 0.0 && concerns(other);
-  });
+  geometry.grid.visit_within(
+      own.position, own.radius + kFarthestCorner, [&](std::size_t other, double) {
+        const AgentGeometry& their = geometry.agent[other];
+        if (found || other == row || !their.on_wheels || !their.is_box ||
+            !is_wedged(scene, other) || on_other_storey(model.road, scene, row, other))
+          return;
+        const OrientedBox box = their.box();
+        const OrientedBox room{box.center + 0.5 * (kWay - kBeside) * box.forward, box.forward,
+                               box.half + Vec2(0.5 * (kWay + kBeside), kBeside)};
+        found = separation(own.box(), room) < 0.0 && concerns(other);
+      });
   return found;
 }
 
@@ -141,7 +142,7 @@ bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometr
 bool is_still_in_the_way(const Model& model, const Scene& scene, const TickGeometry& geometry,
                          std::size_t row) {
   constexpr double kSees = 3.0;  // [s]
-  return scene.backing_left[row] <= 0.0 && backward_speed(scene, row) < kStill &&
+  return backward_speed(scene, row) < kStill &&
          stands_before(model, scene, geometry, row,
                        [&](std::size_t other) { return scene.blocked_time[other] > kSees; });
 }

@@ -271,10 +271,6 @@ struct Judge : RoadView {
     // who isn't held by a rule and moves has begun to try
     return yields ? has_waited_longer(scene, traveller.row, foe.row) : foe.speed < kCreeps;
   }
-  /// Where a foe's front comes to rest, as things are [m past its link's begin].
-  double rest_of(const Approach& foe) const {
-    return foe.front + approaches.waiting(foe.row).to_halt;
-  }
   /// Is a foe on its way out of where it was stuck between bodies, step by step?
   bool creeps_out(const Approach& foe) const {
     constexpr double kLong = 8.0;  // [s]
@@ -282,7 +278,7 @@ struct Judge : RoadView {
   }
   /// Will a foe, as things are, come to rest in the zone?
   bool rests_in(const ConflictZone& zone, const Approach& foe) const {
-    const double rest = rest_of(foe);
+    const double rest = approaches.rest_of(foe);
     return rest > zone.foe_begin + 0.3 && rest - foe.length < zone.foe_end;
   }
   /// Does a foe's body leave the traveller's way free? Conflict zones are wider than bodies.
@@ -307,7 +303,7 @@ struct Judge : RoadView {
   bool comes_out(const ConflictZone& zone, const Approach& foe, const Occupation& theirs) const {
     constexpr double kPast = 0.5;  // [m]
     constexpr double kSoon = 4.0;  // [s]
-    return foe.front > kPast && !foe.stands && rest_of(foe) > zone.foe_begin &&
+    return foe.front > kPast && !foe.stands && approaches.rest_of(foe) > zone.foe_begin &&
            theirs.begin < kSoon && !on_foot(traveller.row) && !on_foot(foe.row);
   }
   double to_line() const { return link.stop_line - traveller.front; }

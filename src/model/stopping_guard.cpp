@@ -39,11 +39,8 @@ StoppingGuard::Pose pose_after(const Braking& body, double time) {
   const double turn = way * body.curvature;
   if (std::abs(turn) < 1e-3) return {body.position + way * body.direction, body.forward};
   const Vec2 turned = rotation(turn);
-  // arc of the rear axle, and the centre's swing about it
-  const double radius = 1.0 / body.curvature;
-  const Vec2 arc(radius * turned.y() + body.axle * (turned.x() - 1.0),
-                 radius * (1.0 - turned.x()) + body.axle * turned.y());
-  return {body.position + from_body(arc, body.forward), from_body(turned, body.forward)};
+  return {body.position + from_body(way_on_arc(turned, body.curvature, body.axle), body.forward),
+          from_body(turned, body.forward)};
 }
 
 Braking braking_now(const AgentGeometry& agent, const AgentType& type) {
@@ -257,12 +254,36 @@ std::array<Creep, 3> walking_creeps(const Scene& scene, std::size_t row, double 
 }
 
 /// Hardly a velocity: it has the wheels of a wedged vehicle turned to one side, then to the other,
-/// so that a way out shows that only opens with them.
+/// so that a way out shows that only opens with them; those of others straight, so that the tail
+/// doesn't swing into who is beside when it rolls off.
 Vec2 turned_wheels(const Scene& scene, const AgentGeometry& own, std::size_t row) {
   constexpr double kTry = 2.0;                                // [s]
   constexpr std::array<double, 3> kTurns = {-0.5, 0.5, 0.0};  // [rad]
+  if (!is_wedged(scene, row)) return 1e-5 * own.forward;
   const auto tries = static_cast<std::size_t>(scene.standing_time[row] / kTry);
   return 1e-5 * from_body(rotation(kTurns[tries % kTurns.size()]), own.forward);
+}
+
+bool keeps(std::span<const HalfPlane> hard, const Vec2& velocity) {
+  return std::all_of(hard.begin(), hard.end(),
+                     [&](const HalfPlane& plane) { return slack(plane, velocity) >= 0; });
+}
+
+/// Of a wedged vehicle on a road, along the way round whoever stands there.
+std::optional<Vec2> creep_along_way_round(StoppingGuard& guard, const Model& model,
+                                          const Scene& scene, const TickGeometry& geometry,
+                                          std::size_t row, const Vec2& preferred,
+                                          std::span<const HalfPlane> hard) {
+  const AgentGeometry& own = geometry.agent[row];
+  if (!own.on_wheels || !own.is_box || !is_wedged(scene, row) || !scene.context[row].active ||
+      preferred.norm() <= kLeastWish)
+    return std::nullopt;
+  const auto turn = way_round(model, scene, geometry, row, preferred);
+  if (!turn) return std::nullopt;
+  const Vec2 velocity =
+      std::min(kCreep, preferred.norm()) * from_body(rotation(*turn), own.forward);
+  if (!keeps(hard, velocity) || !guard.admits(velocity)) return std::nullopt;
+  return velocity;
 }
 
 /// The first way to creep that the hard planes and the guard admit.
@@ -279,9 +300,7 @@ std::optional<Vec2> creep_round(StoppingGuard& guard, const Model& model, const 
     if (in_lane && creep.turn != 0.0) continue;
     const double speed = std::min(creep.speed, preferred.norm());
     const Vec2 velocity = speed * from_body(rotation(creep.turn), ahead);
-    const bool within = std::all_of(hard.begin(), hard.end(),
-                                    [&](const HalfPlane& p) { return slack(p, velocity) >= 0; });
-    if (within && guard.admits(velocity)) return velocity;
+    if (keeps(hard, velocity) && guard.admits(velocity)) return velocity;
   }
   return std::nullopt;
 }
@@ -294,16 +313,8 @@ Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const Scene& sce
   const AgentGeometry& own = geometry.agent[row];
   const double asked = velocity.norm(), now = own.velocity.norm();
   const double brake = type_of(model.types, own.type).max_deceleration * model.options.step;
-  if (own.on_wheels && own.is_box && is_wedged(scene, row) && scene.context[row].active &&
-      preferred.norm() > kLeastWish) {
-    if (const auto turn = way_round(model, scene, geometry, row, preferred)) {
-      const Vec2 round =
-          std::min(kCreep, preferred.norm()) * from_body(rotation(*turn), own.forward);
-      const bool within = std::all_of(hard.begin(), hard.end(),
-                                      [&](const HalfPlane& p) { return slack(p, round) >= 0; });
-      if (within && guard.admits(round)) return round;
-    }
-  }
+  if (const auto round = creep_along_way_round(guard, model, scene, geometry, row, preferred, hard))
+    return *round;
   // as asked, or the same way but slower: no faster than now, braking by half, braking
   const bool stands = asked < 0.5 * kCreep;
   if (!stands && guard.admits(velocity)) return velocity;
@@ -317,11 +328,9 @@ Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const Scene& sce
     const auto creep = creep_round(guard, model, scene, own, row, preferred, hard);
     if (creep) return *creep;
   }
-  // whose wheels are turned to who is beside has them straight before it can roll off
   const bool may_go = preferred.norm() > kLeastWish && scene.context[row].active;
   if (own.on_wheels && now < kStill && (is_wedged(scene, row) || may_go)) {
-    const Vec2 turned =
-        is_wedged(scene, row) ? turned_wheels(scene, own, row) : Vec2(1e-5 * own.forward);
+    const Vec2 turned = turned_wheels(scene, own, row);
     if (guard.admits(turned)) return turned;
   }
   const Vec2 least = std::min(asked, std::max(now - brake, 0.01 * asked)) * along;

@@ -108,6 +108,13 @@ bool comes_from_behind(const AgentGeometry& own, const AgentGeometry& their) {
          (their.position - own.position).dot(own.forward) < -own.half.x() - their.half.x();
 }
 
+Vec2 way_on_arc(const Vec2& turned, double curvature, double axle) {
+  // the arc of the rear axle, and the position's swing about it
+  const double radius = 1.0 / curvature;
+  return {radius * turned.y() + axle * (turned.x() - 1.0),
+          radius * (1.0 - turned.x()) + axle * turned.y()};
+}
+
 OrientedBox swept_box(const AgentGeometry& agent, const Vec2& position, const Vec2& forward,
                       const Vec2& direction, double way, double curvature, double axle) {
   // the box of all poses on the way: forward by the way, aside by the arc and by what the turned

@@ -13,6 +13,9 @@
 
 namespace sumogamma {
 
+/// From a body's position to its farthest corner, of the longest bodies there are [m].
+inline constexpr double kFarthestCorner = 12.0;
+
 /// What every pair needs to know of an agent, together in memory.
 struct AgentGeometry {
   Vec2 position, velocity;
@@ -65,6 +68,11 @@ bool comes_from_behind(const AgentGeometry& own, const AgentGeometry& their);
 /// The row's outline about its position in world axes, with the margins that avoidance keeps.
 ConvexPolygon guarded_polygon(const Model& model, const Scene& scene, const TickGeometry& geometry,
                               std::size_t row);
+
+/// Way of a body's position, in its axes at the begin [m], while its rear axle, `axle` [m] behind
+/// it, rolls on an arc of `curvature` (positive left, not null [1/m]) through the angle of which
+/// `turned` is the rotation.
+Vec2 way_on_arc(const Vec2& turned, double curvature, double axle);
 
 /// A box that holds the outline of a body at every point of a `way` [m] along `direction` (unit)
 /// that begins with `forward` and bends with `curvature` [1/m] about a rear axle `axle` [m] behind

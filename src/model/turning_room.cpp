@@ -76,8 +76,8 @@ LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller
       Occupation theirs = occupation(type_of(model.types, scene.type[foe.row]), foe, way.foe_begin,
                                      way.foe_end, top_speed(model, road, scene, foe.row));
       // who waits there for something doesn't leave by itself
-      const double rest = foe.front + approaches.waiting(foe.row).to_halt;
-      if (there && rest - foe.length < way.foe_end) theirs.end = Occupation::kNever;
+      if (there && approaches.rest_of(foe) - foe.length < way.foe_end)
+        theirs.end = Occupation::kNever;
       if (!comes_first(theirs, ours, there, scene.id[foe.row] < scene.id[traveller.row])) continue;
       decision = {true, line, LimitReason::TurningRoom,
                   static_cast<std::int64_t>(scene.id[foe.row].value)};

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
+#include <vector>
 
 #include "geometry/rotation.h"
 
@@ -15,19 +15,37 @@ constexpr double kWay = 3.0, kStep = 0.5;  // looked at [m]
 constexpr double kClear = 0.15;            // kept to who stands [m]
 constexpr double kCloser = 0.03;           // or from who is nearer than that [m]
 constexpr double kStands = 0.3;            // [m/s]
-constexpr double kLargest = 12.0;          // from a body's position to its farthest corner [m]
 constexpr double kBeyond = 0.3;            // the boundary of its room [m]
 
 /// The box after `way` on an arc of the rear axle.
 OrientedBox rolled(const AgentGeometry& agent, double axle, double curvature, double way) {
   const Vec2 turned = rotation(way * curvature);
-  const Vec2 arc = std::abs(curvature) < 1e-6
-                       ? Vec2(way, 0.0)
-                       : Vec2(turned.y() / curvature, (1.0 - turned.x()) / curvature);
+  const Vec2 moved = curvature == 0.0 ? Vec2(way, 0.0) : way_on_arc(turned, curvature, axle);
   const Vec2 forward = from_body(turned, agent.forward);
-  const Vec2 centre = agent.position - axle * agent.forward + from_body(arc, agent.forward) +
-                      (axle + agent.shift) * forward;
-  return {centre, forward, agent.half};
+  return {agent.position + from_body(moved, agent.forward) + agent.shift * forward, forward,
+          agent.half};
+}
+
+/// Somebody who stands, and how near one may come to it [m].
+struct Standing {
+  OrientedBox body;
+  double least = 0;
+};
+
+std::vector<Standing> standing_around(const Model& model, const Scene& scene,
+                                      const TickGeometry& geometry, std::size_t row) {
+  const AgentGeometry& own = geometry.agent[row];
+  std::vector<Standing> found;
+  geometry.grid.visit_within(own.position, kWay + own.radius + kFarthestCorner,
+                             [&](std::size_t other, double) {
+                               const AgentGeometry& their = geometry.agent[other];
+                               if (other == row || their.speed > kStands || !their.is_box ||
+                                   on_other_storey(model.road, scene, row, other))
+                                 return;
+                               const double now = separation(own.box(), their.box());
+                               found.push_back({their.box(), std::min(kClear, now - kCloser)});
+                             });
+  return found;
 }
 
 }  // namespace
@@ -46,22 +64,16 @@ std::optional<double> way_round(const Model& model, const Scene& scene,
     return std::abs(a * widest - wish) < std::abs(b * widest - wish);
   });
 
+  const std::vector<Standing> standing = standing_around(model, scene, geometry, row);
   const auto is_free = [&](double share) {
     for (double way = kStep; way <= kWay; way += kStep) {
       const OrientedBox box = rolled(own, type.rear_axle_to_center, share * sharpest, way);
       const double aside = cross(context.tangent, box.center - own.box().center);
       const double room = aside > 0.0 ? context.room_left : context.room_right;
       if (std::abs(aside) > std::max(room, 0.0) + kBeyond) return false;
-      bool clear = true;
-      geometry.grid.visit_within(box.center, own.radius + kLargest, [&](std::size_t other, double) {
-        const AgentGeometry& their = geometry.agent[other];
-        if (!clear || other == row || their.speed > kStands || !their.is_box ||
-            on_other_storey(model.road, scene, row, other))
-          return;
-        const OrientedBox body = their.box();
-        clear = separation(box, body) > std::min(kClear, separation(own.box(), body) - kCloser);
-      });
-      if (!clear) return false;
+      if (std::any_of(standing.begin(), standing.end(),
+                      [&](const Standing& one) { return separation(box, one.body) <= one.least; }))
+        return false;
     }
     return true;
   };

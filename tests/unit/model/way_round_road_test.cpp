@@ -94,7 +94,6 @@ TEST_F(WayRoundTest, WhoseTailWouldSwingTurnsItsWheelsStraightBeforeItRollsOff) 
   stands("car", -3.5, beside, 0.0);
   here_.scene.steering[own_] = -0.5;
   const Vec2 from = here_.scene.position[own_];
-  Workers workers;
   Workspace work;
   for (int k = 0; k < 60; ++k) {
     here_.update();
