@@ -160,7 +160,7 @@ struct Judge : RoadView {
                            waiting.reason == LimitReason::LetsIn;
     if (foe.stands && lets_past) return Verdict::Held;
     if (foe.stands && waiting.blocked && (!foe_inside || on_junction())) return Verdict::Held;
-    if (!foe_inside && creeps_out(foe)) return Verdict::Held;
+    if (!foe_inside && foe_link.signal == kNoSignal && creeps_out(foe)) return Verdict::Held;
     const bool waits_for_us = foe.stands && waiting.foe == scene.id[traveller.row].value;
     // all-way stop: who has halted goes in the order in which they came
     if (!foe_inside && model.road.connection(link.connection).state == 'w') {
