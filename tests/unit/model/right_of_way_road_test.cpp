@@ -507,9 +507,43 @@ TEST_F(PriorityTest, NobodyWaitsForWhoCreepsOutOfAWedge) {
   here_.scene.waiting_time[major] = 20;
   here_.update();
   EXPECT_NE(here_.context(minor).reason, LimitReason::Yield);
+  const ConnectionId link = here_.path(major).links.front().connection;
+  here_.model.road.connections[index_of(link)].signal = SignalId{0};
+  here_.update();
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield) << "at signals knots close by it";
+  here_.model.road.connections[index_of(link)].signal = kNoSignal;
   here_.set_speed(major, 2.0);
   here_.update();
   EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield) << "it has got out";
+}
+
+// a queue that crept past the mouth of a side road, a metre at a time, held it for minutes: nobody
+// in it ever stood for long enough to be crossed
+TEST_F(PriorityTest, WhoHasWaitedCrossesAQueueThatCreepsUpBeforeTheJunction) {
+  const std::size_t minor = here_.add("car", {"SC", "CN"}, 0, 0);
+  here_.move(minor, here_.path(minor).links.front().stop_line - 2.25 - 0.6);
+  const std::size_t head = here_.add("motorcycle", {"WC", "CE"}, 0, 0);
+  const double line = here_.path(head).links.front().stop_line;
+  here_.move(head, line - 1.1 - 0.6);
+  const std::size_t next = here_.add("car", {"WC", "CE"}, 0, 1.0);
+  here_.move(next, line - 0.6 - 2.2 - 2.0 - 2.25);
+  const auto update_after = [&](double waited) {
+    here_.scene.waiting_time[minor] = waited;
+    here_.scene.context[head].reason = LimitReason::BlockedJunction;
+    here_.scene.context[head].foe = -1;
+    here_.scene.context[next].reason = LimitReason::Leader;
+    here_.scene.context[next].foe = here_.scene.id[head].value;
+    here_.update();
+  };
+  here_.update();
+  update_after(5);
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
+  EXPECT_EQ(here_.context(minor).foe, here_.scene.id[next].value);
+  update_after(20);
+  EXPECT_NE(here_.context(minor).reason, LimitReason::Yield);
+  here_.set_speed(head, 2.0);
+  update_after(20);
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield) << "the queue moves";
 }
 
 // who rolls over the junction and halts there is not gone when its speed says so
