@@ -197,7 +197,7 @@ struct Judge : RoadView {
       return Verdict::Held;
     if (foe_inside && in_deadlock(foe)) return Verdict::Held;
     if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
-    if (waits_behind(foe) || (crosses(foe_link) && ends_in_queue(zone, foe))) return Verdict::Held;
+    if (waits_behind(foe) || ends_in_queue(zone, foe)) return Verdict::Held;
     // no rule for this pair, or whoever has to wait is past the line already: who gets there first
     // goes first, the other waits for it
     if (zone.unruled || (past_line(zone) && (zone.yields || is_committed(zone, foe))))
@@ -276,15 +276,15 @@ struct Judge : RoadView {
     constexpr double kLong = 8.0;  // [s]
     return is_wedged(scene, foe.row) && foe.speed < kCrawl && scene.waiting_time[foe.row] > kLong;
   }
-  bool crosses(const Connection& foe_link) const {
-    return foe_link.to != model.road.connection(link.connection).to;
-  }
   /// Does a foe creep up to somebody who stands before the zone? Who has waited for some time
   /// crosses such a queue before it, too, not only where it happens to stand.
   bool ends_in_queue(const ConflictZone& zone, const Approach& foe) const {
     constexpr double kSomeTime = 15.0;  // [s]
     constexpr double kStands = 0.3;     // [m/s]
-    if (scene.waiting_time[traveller.row] <= kSomeTime) return false;
+    const Connection& foe_link = model.road.connection(zone.foe);
+    const bool crosses = foe_link.to != model.road.connection(link.connection).to;
+    if (!crosses || foe_link.signal != kNoSignal || scene.waiting_time[traveller.row] <= kSomeTime)
+      return false;
     const Waiting& waiting = approaches.waiting(foe.row);
     if (waiting.reason != LimitReason::Leader || waiting.foe < 0) return false;
     const std::size_t leader = find_row(scene, AgentId{static_cast<std::uint32_t>(waiting.foe)});

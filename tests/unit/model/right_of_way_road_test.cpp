@@ -541,6 +541,12 @@ TEST_F(PriorityTest, WhoHasWaitedCrossesAQueueThatCreepsUpBeforeTheJunction) {
   EXPECT_EQ(here_.context(minor).foe, here_.scene.id[next].value);
   update_after(20);
   EXPECT_NE(here_.context(minor).reason, LimitReason::Yield);
+  Connection& link =
+      here_.model.road.connections[index_of(here_.path(next).links.front().connection)];
+  link.signal = SignalId{0};
+  update_after(20);
+  EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield) << "at signals knots close by it";
+  link.signal = kNoSignal;
   here_.set_speed(head, 2.0);
   update_after(20);
   EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield) << "the queue moves";
