@@ -282,12 +282,12 @@ struct Judge : RoadView {
     constexpr double kSomeTime = 15.0;  // [s]
     constexpr double kStands = 0.3;     // [m/s]
     const Connection& foe_link = model.road.connection(zone.foe);
-    const bool crosses = foe_link.to != model.road.connection(link.connection).to;
-    if (!crosses || foe_link.signal != kNoSignal || scene.waiting_time[traveller.row] <= kSomeTime)
+    if (joins_our_lane(foe_link) || foe_link.signal != kNoSignal ||
+        scene.waiting_time[traveller.row] <= kSomeTime)
       return false;
     const Waiting& waiting = approaches.waiting(foe.row);
-    if (waiting.reason != LimitReason::Leader || waiting.foe < 0) return false;
-    const std::size_t leader = find_row(scene, AgentId{static_cast<std::uint32_t>(waiting.foe)});
+    if (waiting.reason != LimitReason::Leader) return false;
+    const std::size_t leader = find_foe(scene, waiting.foe);
     if (leader == scene.size() || scene.speed[leader] > kStands) return false;
     const Vec2 forward = direction_of(scene.heading[foe.row]);
     const double gap = (scene.position[leader] - scene.position[foe.row]).norm() -
@@ -324,6 +324,9 @@ struct Judge : RoadView {
     return foe.front > kPast && !foe.stands && approaches.rest_of(foe) > zone.foe_begin &&
            theirs.begin < kSoon && !on_foot(traveller.row) && !on_foot(foe.row);
   }
+  bool joins_our_lane(const Connection& foe_link) const {
+    return foe_link.to == model.road.connection(link.connection).to;
+  }
   double to_line() const { return link.stop_line - traveller.front; }
   /// From 0 to 1 while the traveller waits.
   double impatience() const { return std::min(scene.waiting_time[traveller.row] / kLongWait, 1.0); }
@@ -331,8 +334,7 @@ struct Judge : RoadView {
   bool cuts_in(const ConflictZone& zone, const Approach& foe, double foe_top) const {
     const Connection& foe_link = model.road.connection(zone.foe);
     const bool halts_first = foe_link.state == 's' || foe_link.state == 'w';
-    if (past_line(zone) || halts_first || foe_link.to != model.road.connection(link.connection).to)
-      return false;
+    if (past_line(zone) || halts_first || !joins_our_lane(foe_link)) return false;
     const Entrant entrant{type_of(model.types, scene.type[traveller.row]),
                           *road.path(scene.path[traveller.row]),
                           traveller.front,

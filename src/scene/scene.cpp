@@ -95,10 +95,13 @@ std::size_t find_row(const Scene& scene, AgentId id) {
                                              : scene.size();
 }
 
+std::size_t find_foe(const Scene& scene, std::int64_t id) {
+  return id < 0 ? scene.size() : find_row(scene, AgentId{static_cast<std::uint32_t>(id)});
+}
+
 std::size_t foe_row(const Scene& scene, std::size_t row) {
   const RoadContext& context = scene.context[row];
-  if (!context.active || context.foe < 0) return scene.size();
-  return find_row(scene, AgentId{static_cast<std::uint32_t>(context.foe)});
+  return context.active ? find_foe(scene, context.foe) : scene.size();
 }
 
 std::uint64_t hash_state(const Scene& scene, std::uint64_t hash) {

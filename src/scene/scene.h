@@ -108,6 +108,9 @@ void remove_agents(Scene& scene, const std::vector<bool>& removed);
 /// Row of an id, or size() where it is not present. O(log n).
 std::size_t find_row(const Scene& scene, AgentId id);
 
+/// Likewise of an id as RoadContext::foe holds it, where -1 is nobody.
+std::size_t find_foe(const Scene& scene, std::int64_t id);
+
 /// Row of the agent that a row waits for on a road (RoadContext::foe), or size() where there is
 /// none.
 std::size_t foe_row(const Scene& scene, std::size_t row);
