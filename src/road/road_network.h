@@ -134,6 +134,13 @@ struct Obstacle {
       outline;  ///< closed ring without a repeated point (Building) or open chain (Barrier)
 };
 
+/// Where two roads cross, one above the other, though neither layers nor heights say so; of a road
+/// that crosses itself, twice the same edge.
+struct UnmarkedBridge {
+  EdgeId one = kNoEdge, other = kNoEdge;
+  double along_one = 0, along_other = 0;  ///< on the centerlines of their lanes for cars [m]
+};
+
 /// Everything immutable about the place: built once by the reader, valid by construction.
 struct RoadNetwork {
   bool left_hand = false;
@@ -143,7 +150,8 @@ struct RoadNetwork {
   std::vector<Junction> junctions;
   std::vector<Signal> signals;
   std::vector<Obstacle> obstacles;
-  bool has_layers = false;  ///< some road is over or under others
+  bool has_layers = false;                       ///< some road is over or under others
+  std::vector<UnmarkedBridge> unmarked_bridges;  ///< by edge (find_unmarked_bridges())
   Vec2 lower_corner = Vec2::Zero(),
        upper_corner = Vec2::Zero();       ///< bounding box of the network [m]
   std::string projection;                 ///< PROJ string of the file, "!" where there is none

@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "road/junction_room.h"
 #include "road/stop_lines.h"
+#include "road/unmarked_bridges.h"
 
 namespace sumogamma {
 namespace {
@@ -497,6 +498,7 @@ RoadNetwork read_sumo_net(const std::filesystem::path& file) {
   RoadNetwork network = NetBuilder(file, root).build();
   set_back_stop_lines(network);
   set_junction_rooms(network);
+  find_unmarked_bridges(network);
   return network;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace sumogamma {
@@ -127,9 +128,37 @@ bool crosses_nearby(const RoadNetwork& network, const Ground& a, const Ground& b
 
 }  // namespace
 
+bool has_storeys(const RoadNetwork& network) {
+  return network.has_layers || !network.unmarked_bridges.empty() ||
+         std::any_of(network.lanes.begin(), network.lanes.end(),
+                     [](const Lane& lane) { return !lane.elevation.empty(); });
+}
+
+bool cross_unmarked(const RoadNetwork& network, const Ground& a, const Ground& b) {
+  const auto& all = network.unmarked_bridges;
+  if (all.empty() || a.lane == kNoLane || b.lane == kNoLane) return false;
+  constexpr double kNear = 40.0;  // [m]
+  auto near = [&](double one, double other, const UnmarkedBridge& bridge) {
+    return std::abs(one - bridge.along_one) < kNear && std::abs(other - bridge.along_other) < kNear;
+  };
+  const EdgeId own = network.lane(a.lane).edge, their = network.lane(b.lane).edge;
+  const auto edges = std::minmax(own, their);
+  auto bridge = std::lower_bound(
+      all.begin(), all.end(), edges, [](const UnmarkedBridge& one, const auto& pair) {
+        return std::pair(one.one, one.other) < std::pair(pair.first, pair.second);
+      });
+  for (; bridge != all.end() && bridge->one == edges.first && bridge->other == edges.second;
+       ++bridge)
+    if ((own <= their && near(a.along, b.along, *bridge)) ||
+        (their <= own && near(b.along, a.along, *bridge)))
+      return true;
+  return false;
+}
+
 bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Ground& b) {
   const double rise = std::abs(a.height - b.height);
   const bool layers = layers_differ(network, a.lane, b.lane);
+  if (cross_unmarked(network, a, b)) return !joined(network, a, b);
   if (a.lane == b.lane && a.lane != kNoLane) return false;
   if (a.lane == kNoLane || b.lane == kNoLane) return rise > kStorey;
   if (joined(network, a, b)) return false;

@@ -24,6 +24,9 @@ inline constexpr double kStorey = 2.5;
 /// Ground that differs by less is never taken for another storey, whatever the lanes do [m].
 inline constexpr double kLeastStorey = 1.5;
 
+/// Is anything there above anything else?
+bool has_storeys(const RoadNetwork& network);
+
 /// Has OpenStreetMap's map different layers for two lanes? Heights don't tell it everywhere:
 /// netconvert 1.15 gives them to a road's ends only, so that a tunnel between two bridges lies as
 /// high as they do.
@@ -32,7 +35,12 @@ inline bool layers_differ(const RoadNetwork& network, LaneId a, LaneId b) {
          network.lane(a).layer != network.lane(b).layer;
 }
 
-/// on_other_storey() for ground that differs by more than kLeastStorey, or in its layer.
+/// Are two places near where their roads cross unmarked, one above the other
+/// (find_unmarked_bridges())?
+bool cross_unmarked(const RoadNetwork& network, const Ground& a, const Ground& b);
+
+/// on_other_storey() for ground that differs by more than kLeastStorey or in its layer, or whose
+/// roads cross unmarked.
 bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Ground& b);
 
 /// Are two places above one another, on a bridge and under it? Heights alone don't tell: at a
@@ -40,9 +48,11 @@ bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Grou
 /// where it has hardly begun to rise. So places that a few metres of road join are on one storey;
 /// others are not if their ground differs by more than kStorey; where their lanes cross, or those
 /// that they lead into or come from a few metres away, it's the ground at the crossing that counts,
-/// by kLeastStorey, or their layers.
+/// by kLeastStorey, or their layers. Roads that cross with no junction are on two storeys whatever
+/// these say.
 inline bool on_other_storey(const RoadNetwork& network, const Ground& a, const Ground& b) {
-  return (std::abs(a.height - b.height) > kLeastStorey || layers_differ(network, a.lane, b.lane)) &&
+  return (std::abs(a.height - b.height) > kLeastStorey || layers_differ(network, a.lane, b.lane) ||
+          (!network.unmarked_bridges.empty() && cross_unmarked(network, a, b))) &&
          lies_above_or_below(network, a, b);
 }
 inline bool on_other_storey(const RoadNetwork& network, const Scene& scene, std::size_t a,

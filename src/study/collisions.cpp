@@ -6,11 +6,7 @@
 namespace sumogamma {
 
 CollisionMonitor::CollisionMonitor(double step, const RoadNetwork* road)
-    : step_(step), road_(road) {
-  if (road_)
-    has_heights_ = std::any_of(road_->lanes.begin(), road_->lanes.end(),
-                               [](const Lane& lane) { return !lane.elevation.empty(); });
-}
+    : step_(step), road_(road), has_storeys_(road && has_storeys(*road)) {}
 
 void CollisionMonitor::prepare(const Scene& scene) {
   const std::size_t count = scene.size();
@@ -31,7 +27,7 @@ void CollisionMonitor::prepare(const Scene& scene) {
   std::sort(intervals_.begin(), intervals_.end(), [](const Interval& a, const Interval& b) {
     return a.left != b.left ? a.left < b.left : a.row < b.row;
   });
-  if (!has_heights_) return;
+  if (!has_storeys_) return;
   ground_.resize(count);
   for (std::size_t row = 0; row < count; ++row) {
     const LanePosition& place = scene.lane[row];
@@ -51,7 +47,7 @@ void CollisionMonitor::add(const Scene& scene, const AgentTypeTable& types) {
       const std::size_t b = intervals_[j].row;
       const double reach = scene.footprint[a].radius + scene.footprint[b].radius;
       if (std::abs(scene.position[a].y() - scene.position[b].y()) >= reach) continue;
-      if (has_heights_ && on_other_storey(*road_, ground_[a], ground_[b])) continue;
+      if (has_storeys_ && on_other_storey(*road_, ground_[a], ground_[b])) continue;
       meet(scene, types, std::min(a, b), std::max(a, b));
     }
   }

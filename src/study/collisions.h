@@ -66,8 +66,8 @@ class CollisionMonitor {
   void meet(const Scene& scene, const AgentTypeTable& types, std::size_t a, std::size_t b);
 
   double step_;
-  bool has_heights_ = false;
   const RoadNetwork* road_;
+  bool has_storeys_;
   std::vector<CollisionPair> pairs_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> index_;  ///< into pairs_, by ids
   std::map<std::string, std::uint64_t> by_types_;

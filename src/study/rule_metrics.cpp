@@ -50,10 +50,7 @@ double front_reach(const Footprint& footprint) {
 }  // namespace
 
 RuleMonitor::RuleMonitor(double step, const RoadNetwork& network, const LaneLocator& locator)
-    : step_(step), network_(network), locator_(locator) {
-  has_heights_ = std::any_of(network.lanes.begin(), network.lanes.end(),
-                             [](const Lane& lane) { return !lane.elevation.empty(); });
-}
+    : step_(step), network_(network), locator_(locator), has_storeys_(has_storeys(network)) {}
 
 void RuleMonitor::add(const Scene& scene, const AgentTypeTable& types, const RoadState& road) {
   by_type_.resize(types.size());
@@ -90,7 +87,7 @@ void RuleMonitor::find_lanes(const Row& agent, const Vec2& point,
                              std::vector<LaneHit>& hits) const {
   locator_.find_containing(point, hits);
   const LanePosition& own = agent.scene.lane[agent.row];
-  if (!has_heights_ || own.lane == kNoLane) return;
+  if (!has_storeys_ || own.lane == kNoLane) return;
   auto ground_at = [&](LaneId lane, double along) {
     return Ground{lane, along, elevation_at(network_.lane(lane), along)};
   };

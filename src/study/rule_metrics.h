@@ -149,7 +149,7 @@ class RuleMonitor {
   double step_;
   const RoadNetwork& network_;
   const LaneLocator& locator_;
-  bool has_heights_ = false;
+  bool has_storeys_;
   AgentTrack<State> track_;
   std::vector<RuleCounts> by_type_;
   RoadState before_;  ///< signals of the previous tick

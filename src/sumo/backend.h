@@ -25,6 +25,8 @@ struct SumoAgent {
   Vec2 position = Vec2::Zero();  ///< front bumper (vehicle) or centre (person) [m]
   double angle = 0;              ///< [deg]
   double speed = 0;              ///< [m/s]
+  std::string lane;              ///< "" off every lane
+  double lane_position = 0;      ///< on it, as SUMO counts [m]
 };
 
 /// What a newcomer is and wants, read once at departure.

@@ -356,6 +356,10 @@ void LibsumoBackend::read_watched(SumoStep& result) {
                                     : libsumo::Vehicle::getAngle(entry.id);
       agent.speed = entry.is_person ? libsumo::Person::getSpeed(entry.id)
                                     : libsumo::Vehicle::getSpeed(entry.id);
+      agent.lane = entry.is_person ? libsumo::Person::getLaneID(entry.id)
+                                   : libsumo::Vehicle::getLaneID(entry.id);
+      agent.lane_position = entry.is_person ? libsumo::Person::getLanePosition(entry.id)
+                                            : libsumo::Vehicle::getLanePosition(entry.id);
     } catch (const std::exception&) {
       gone.push_back(entry);
       continue;

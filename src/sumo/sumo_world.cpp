@@ -333,6 +333,27 @@ bool SumoWorld::insert_on(const Pending& pending, const std::shared_ptr<const Pa
   return true;
 }
 
+/// Without it nobody would know of an agent that SUMO drives whether it is on a bridge or under it,
+/// or at a red light.
+void SumoWorld::place_external(const SumoAgent& seen, Scene& scene, std::size_t row) const {
+  const auto found = model_.road.lane_by_name.find(seen.lane);
+  if (found == model_.road.lane_by_name.end()) {
+    scene.lane[row] = {};
+    return;
+  }
+  const Lane& lane = model_.road.lane(found->second);
+  double along = 0.0, offset = 0.0;
+  if (lane.kind != LaneKind::WalkingArea) {
+    const double scale = lane.length > 0.0 ? lane.centerline.length() / lane.length : 1.0;
+    const double behind = seen.is_person ? 0.0 : 0.5 * known_[scene.id[row].value].length;
+    along = std::clamp(seen.lane_position * scale - behind, 0.0, lane.centerline.length());
+    offset = cross(lane.centerline.direction_at(along),
+                   scene.position[row] - lane.centerline.point_at(along));
+  }
+  scene.lane[row] = {found->second, along, offset};
+  scene.height[row] = elevation_at(lane, along);
+}
+
 void SumoWorld::update_external(Scene& scene, RoadState& road) {
   for (const SumoAgent& seen : step_.agents) {
     // SUMO's invalid numbers (-2^30): between two places, as while it is teleported
@@ -360,6 +381,7 @@ void SumoWorld::update_external(Scene& scene, RoadState& road) {
         road.paths[id.value] = arriving->second.path;
       }
       append_agent(scene, agent);
+      place_external(seen, scene, scene.size() - 1);
       ++life_cycle_.by_type[type.name].inserted;
       external_ids_.emplace(seen.id, id);
       external_arriving_.erase(arriving);
@@ -376,6 +398,7 @@ void SumoWorld::update_external(Scene& scene, RoadState& road) {
     scene.heading[row] = heading;
     scene.velocity[row] = velocity;
     scene.speed[row] = seen.speed;
+    place_external(seen, scene, row);
     const Path* path = road.path(scene.path[row]);
     if (path != nullptr && scene.path_along[row] == 0.0)
       scene.path_along[row] = path->line.project(scene.position[row]).along;

@@ -95,6 +95,8 @@ class SumoWorld : public World {
   void finish_driven(Scene& scene, RoadState& road);
   void insert_pending(Scene& scene, RoadState& road);
   void update_external(Scene& scene, RoadState& road);
+  /// The lane on which SUMO has the front of an agent that it drives, and its centre along that.
+  void place_external(const SumoAgent& seen, Scene& scene, std::size_t row) const;
   void hold_followers(const Scene& scene);
   bool wants_control(const SumoAgentDetails& details, AgentTypeId type) const;
   bool insert(Pending& pending, Scene& scene, RoadState& road);

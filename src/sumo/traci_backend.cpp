@@ -33,7 +33,8 @@ constexpr std::uint8_t kStepVariables[] = {traci::kTime,
                                            traci::kEmergencyStopCount,
                                            traci::kCollidingCount,
                                            traci::kPendingVehicles};
-constexpr std::uint8_t kWatchedVariables[] = {traci::kPosition, traci::kAngle, traci::kSpeed};
+constexpr std::uint8_t kWatchedVariables[] = {traci::kPosition, traci::kAngle, traci::kSpeed,
+                                              traci::kLane, traci::kLanePosition};
 
 // moveToXY (docs/coupling.md): SUMO's own number for it, a compound of 7 items for vehicles and 6
 // for persons
@@ -585,7 +586,9 @@ void TraciBackend::poll_watched(SumoStep& result) {
     std::optional<TraciReader> position = read_answer(reply, domain, traci::kPosition);
     std::optional<TraciReader> angle = read_answer(reply, domain, traci::kAngle);
     std::optional<TraciReader> speed = read_answer(reply, domain, traci::kSpeed);
-    if (!position || !angle || !speed) {
+    std::optional<TraciReader> lane = read_answer(reply, domain, traci::kLane);
+    std::optional<TraciReader> along = read_answer(reply, domain, traci::kLanePosition);
+    if (!position || !angle || !speed || !lane || !along) {
       gone.push_back(entry);
       continue;
     }
@@ -593,6 +596,8 @@ void TraciBackend::poll_watched(SumoStep& result) {
     agent.position = {x, y};
     agent.angle = angle->typed_double();
     agent.speed = speed->typed_double();
+    agent.lane = lane->typed_string();
+    agent.lane_position = along->typed_double();
     agent.id = entry.id;
     agent.is_person = entry.is_person;
     ++kept;

@@ -321,6 +321,53 @@ TEST_F(UserConfigTest, WhatIsMissingOrWrongIsNamed) {
   expect_refused(run((folder_ / "own" / "mine.sumocfg").string(), "out", more), "mine.sumocfg");
 }
 
+// a road over a bridge, another under it, and a light that shows red for a minute and a half: only
+// who knows which lane somebody is on can tell that nobody collides and nobody is stuck
+TEST_F(RunTest, WhomSumoDrivesIsJudgedByTheLaneItIsOn) {
+  auto put = [&](const char* name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+  };
+  put("a.nod.xml",
+      R"(<nodes><node id="w" x="0" y="0" z="0"/><node id="e" x="300" y="0" z="0"/>
+         <node id="light" x="200" y="0" z="0" type="traffic_light"/>
+         <node id="s" x="100" y="-100" z="6"/><node id="n" x="100" y="100" z="6"/></nodes>)");
+  put("a.edg.xml",
+      R"(<edges><edge id="under" from="w" to="light" numLanes="1" speed="13.9"/>
+         <edge id="on" from="light" to="e" numLanes="1" speed="13.9"/>
+         <edge id="over" from="s" to="n" numLanes="1" speed="13.9"/></edges>)");
+  ProcessRequest convert;
+  convert.arguments = {"netconvert",
+                       "-n",
+                       (folder_ / "a.nod.xml").string(),
+                       "-e",
+                       (folder_ / "a.edg.xml").string(),
+                       "-o",
+                       (folder_ / "a.net.xml").string()};
+  ASSERT_EQ(run_process(convert).exit_code, 0);
+  put("a.add.xml",
+      R"(<additional><tlLogic id="light" type="static" programID="long" offset="0">
+         <phase duration="90" state="r"/><phase duration="30" state="G"/></tlLogic></additional>)");
+  put("a.rou.xml",
+      R"(<routes><flow id="below" begin="0" end="40" period="4" departSpeed="max">
+         <route edges="under on"/></flow>
+         <flow id="above" begin="0" end="120" period="2" departSpeed="max">
+         <route edges="over"/></flow></routes>)");
+  put("a.sumocfg",
+      R"(<configuration><net-file value="a.net.xml"/><route-files value="a.rou.xml"/>
+         <additional-files value="a.add.xml"/></configuration>)");
+  for (const std::string backend : {"traci", "libsumo"}) {
+    const ProcessResult result =
+        run((folder_ / "a.sumocfg").string(), backend,
+            {"--duration", "120", "--control", "none", "--backend", backend});
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const json results = results_in(backend);
+    EXPECT_GT(results["agents"]["arrived"], 50);
+    EXPECT_EQ(results["collisions"]["unique_pairs"], 0) << content(out(backend) / "collisions.csv");
+    EXPECT_EQ(results["flow"]["stuck_agents"], 0) << content(out(backend) / "stuck.csv");
+    EXPECT_GT(results["flow"]["waiting_time_mean_s"], 5.0) << "nobody waited at the light";
+  }
+}
+
 TEST_F(RunTest, WrongOptionsAreRefused) {
   import(kFixtures / "zebra_right.osm", "5");
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "road/unmarked_bridges.h"
 #include "support/small_net.h"
 
 namespace sumogamma {
@@ -71,6 +72,27 @@ TEST_F(StoreyTest, ACrossingBehindTheEndOfTheLaneCounts) {
     behind.centerline = Polyline({{begin, 0}, {x + 8, 0}});
     EXPECT_TRUE(apart(at("in_1", x - 4, 0), above)) << begin;
   }
+}
+
+// a bridge that the map doesn't tell apart: only that no junction joins it to what it crosses
+TEST_F(StoreyTest, WhereRoadsCrossWithNoJunctionNeitherHeightsNorLayersCount) {
+  Lane& bridge = net_.lanes[index_of(net_.lane_by_name.at("bridge_0"))];
+  bridge.elevation = {0, 0};
+  find_unmarked_bridges(net_);
+  EXPECT_TRUE(apart(at("in_1", 50, 0), at("bridge_0", 60, 0)));
+  EXPECT_TRUE(apart(at("in_0", 55, 0), at("bridge_0", 52, 0))) << "nor its sidewalk";
+  EXPECT_FALSE(apart(at("in_1", 50, 0), at("bridge_0", 5, 0))) << "far from the crossing";
+  EXPECT_FALSE(apart(at("in_1", 50, 0), at("in_0", 50, 0)));
+}
+
+TEST_F(StoreyTest, ARoadThatWindsOverItselfIsAboveItself) {
+  Lane& helix = net_.lanes[index_of(net_.lane_by_name.at("bridge_0"))];
+  helix.elevation = {-5, -5, -5, -5, -5};
+  helix.centerline = Polyline({{0, 100}, {60, 100}, {60, 140}, {30, 140}, {30, 60}});
+  find_unmarked_bridges(net_);
+  EXPECT_TRUE(apart(at("bridge_0", 28, -5), at("bridge_0", 172, -5)));
+  EXPECT_FALSE(apart(at("bridge_0", 28, -5), at("bridge_0", 60, -5))) << "a way of 32 m";
+  EXPECT_FALSE(apart(at("bridge_0", 165, -5), at("bridge_0", 175, -5)));
 }
 
 TEST_F(StoreyTest, OffEveryLaneTheGroundDecides) {

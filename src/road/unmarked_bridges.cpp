@@ -1,0 +1,89 @@
+#include "road/unmarked_bridges.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace sumogamma {
+
+namespace {
+
+constexpr double kFromEnds = 12.0;  // nearer than that roads may overlap as they meet [m]
+constexpr double kLeastSine = 0.5;  // parallel roads that touch don't cross [sin of the angle]
+constexpr double kSeen = 1.5;       // heights that differ by more tell by themselves [m]
+
+struct Road {
+  EdgeId edge;
+  const Lane* lane;
+  Vec2 lower, upper;  ///< corners of its box [m]
+};
+
+std::vector<Road> roads_for_cars(const RoadNetwork& network) {
+  std::vector<Road> roads;
+  for (std::size_t i = 0; i < network.edges.size(); ++i) {
+    const Edge& edge = network.edges[i];
+    if (edge.kind != LaneKind::Normal) continue;
+    const auto lane = std::find_if(edge.lanes.begin(), edge.lanes.end(), [&](LaneId id) {
+      return (network.lane(id).allowed & vehicle_class::kPassenger) != 0;
+    });
+    if (lane == edge.lanes.end()) continue;
+    Road road{EdgeId(static_cast<int>(i)), &network.lane(*lane), Vec2::Zero(), Vec2::Zero()};
+    const std::vector<Vec2>& points = road.lane->centerline.points();
+    if (points.size() < 2) continue;
+    road.lower = road.upper = points.front();
+    for (const Vec2& point : points) {
+      road.lower = road.lower.cwiseMin(point);
+      road.upper = road.upper.cwiseMax(point);
+    }
+    roads.push_back(road);
+  }
+  return roads;
+}
+
+bool is_far_from_ends(const Polyline& line, double along) {
+  return along > kFromEnds && along < line.length() - kFromEnds;
+}
+
+/// Adds where two centerlines (or one and itself) cross and nothing else tells that one is above.
+void add_crossings(const Road& one, const Road& other, std::vector<UnmarkedBridge>& bridges) {
+  if (one.lane->layer != other.lane->layer) return;
+  const Polyline &own = one.lane->centerline, &their = other.lane->centerline;
+  const std::vector<Vec2>&a = own.points(), &b = their.points();
+  const bool same = one.edge == other.edge;
+  for (std::size_t i = 0; i + 1 < a.size(); ++i) {
+    const Vec2 along = a[i + 1] - a[i];
+    for (std::size_t j = same ? i + 2 : 0; j + 1 < b.size(); ++j) {
+      const Vec2 across = b[j + 1] - b[j];
+      const auto share = crossing_shares(a[i], along, b[j], across);
+      if (!share || share->minCoeff() < 0.0 || share->maxCoeff() > 1.0) continue;
+      if (std::abs(cross(along, across)) < kLeastSine * along.norm() * across.norm()) continue;
+      const double here = own.along_of_vertex(i) + share->x() * along.norm(),
+                   there = their.along_of_vertex(j) + share->y() * across.norm();
+      if (is_far_from_ends(own, here) && is_far_from_ends(their, there) &&
+          std::abs(elevation_at(*one.lane, here) - elevation_at(*other.lane, there)) <= kSeen)
+        bridges.push_back({one.edge, other.edge, here, there});
+    }
+  }
+}
+
+}  // namespace
+
+void find_unmarked_bridges(RoadNetwork& network) {
+  network.unmarked_bridges.clear();
+  std::vector<Road> roads = roads_for_cars(network);
+  std::sort(roads.begin(), roads.end(), [](const Road& a, const Road& b) {
+    return a.lower.x() != b.lower.x() ? a.lower.x() < b.lower.x() : a.edge < b.edge;
+  });
+  auto by_edge = [](const Road& a, const Road& b) { return a.edge < b.edge; };
+  for (auto one = roads.begin(); one != roads.end(); ++one)
+    for (auto other = one; other != roads.end() && other->lower.x() <= one->upper.x(); ++other) {
+      if (other->lower.y() > one->upper.y() || other->upper.y() < one->lower.y()) continue;
+      const auto& [first, second] = std::minmax(*one, *other, by_edge);
+      add_crossings(first, second, network.unmarked_bridges);
+    }
+  std::stable_sort(network.unmarked_bridges.begin(), network.unmarked_bridges.end(),
+                   [](const UnmarkedBridge& a, const UnmarkedBridge& b) {
+                     return std::pair(a.one, a.other) < std::pair(b.one, b.other);
+                   });
+}
+
+}  // namespace sumogamma
