@@ -134,11 +134,11 @@ struct Obstacle {
       outline;  ///< closed ring without a repeated point (Building) or open chain (Barrier)
 };
 
-/// Where two roads cross, one above the other, though neither layers nor heights say so; of a road
-/// that crosses itself, twice the same edge.
-struct UnmarkedBridge {
+/// Where two roads cross, one above the other; of a road that crosses itself, twice the same edge.
+struct Overpass {
   EdgeId one = kNoEdge, other = kNoEdge;
-  double along_one = 0, along_other = 0;  ///< on the centerlines of their lanes for cars [m]
+  double along_one = 0,
+         along_other = 0;  ///< on the centerlines of their first lanes for motor vehicles [m]
 };
 
 /// Everything immutable about the place: built once by the reader, valid by construction.
@@ -150,8 +150,8 @@ struct RoadNetwork {
   std::vector<Junction> junctions;
   std::vector<Signal> signals;
   std::vector<Obstacle> obstacles;
-  bool has_layers = false;                       ///< some road is over or under others
-  std::vector<UnmarkedBridge> unmarked_bridges;  ///< by edge (find_unmarked_bridges())
+  bool has_layers = false;           ///< some road is over or under others
+  std::vector<Overpass> overpasses;  ///< by edge (find_overpasses())
   Vec2 lower_corner = Vec2::Zero(),
        upper_corner = Vec2::Zero();       ///< bounding box of the network [m]
   std::string projection;                 ///< PROJ string of the file, "!" where there is none

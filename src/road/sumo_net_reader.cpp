@@ -16,8 +16,8 @@
 
 #include "base/error.h"
 #include "road/junction_room.h"
+#include "road/overpasses.h"
 #include "road/stop_lines.h"
-#include "road/unmarked_bridges.h"
 
 namespace sumogamma {
 namespace {
@@ -498,7 +498,7 @@ RoadNetwork read_sumo_net(const std::filesystem::path& file) {
   RoadNetwork network = NetBuilder(file, root).build();
   set_back_stop_lines(network);
   set_junction_rooms(network);
-  find_unmarked_bridges(network);
+  find_overpasses(network);
   return network;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -35,10 +36,13 @@ std::array<Reached, 2> ends_of(const RoadNetwork& network, const Ground& place) 
       {{edge.from, place.along}, {edge.to, std::max(lane.centerline.length() - place.along, 0.0)}}};
 }
 
-/// Do at most kJoined metres of road lead from one place to the other, in whatever direction?
-bool joined(const RoadNetwork& network, const Ground& a, const Ground& b) {
-  const EdgeId edge = network.lane(a.lane).edge;
-  if (edge == network.lane(b.lane).edge) return std::abs(a.along - b.along) <= kJoined;
+/// Way by road from one place to the other, in whatever direction; infinite over kJoined [m].
+double way_between(const RoadNetwork& network, const Ground& a, const Ground& b) {
+  double shortest = std::numeric_limits<double>::infinity();
+  if (network.lane(a.lane).edge == network.lane(b.lane).edge) {
+    const double way = std::abs(a.along - b.along);
+    return way <= kJoined ? way : shortest;
+  }
   const std::array<Reached, 2> ends = ends_of(network, b);
   std::vector<Reached> reached;
   for (const Reached& end : ends_of(network, a)) reach(end.junction, end.way, reached);
@@ -46,7 +50,8 @@ bool joined(const RoadNetwork& network, const Ground& a, const Ground& b) {
   for (std::size_t k = 0; k < reached.size(); ++k) {
     const Reached here = reached[k];
     for (const Reached& end : ends)
-      if (end.junction == here.junction && here.way + end.way <= kJoined) return true;
+      if (end.junction == here.junction && here.way + end.way <= kJoined)
+        shortest = std::min(shortest, here.way + end.way);
     for (const ConnectionId id : network.junction(here.junction).links) {
       if (id == kNoConnection) continue;
       const Connection& link = network.connection(id);
@@ -58,7 +63,7 @@ bool joined(const RoadNetwork& network, const Ground& a, const Ground& b) {
       }
     }
   }
-  return false;
+  return shortest;
 }
 
 /// Does a share of the piece from point i on lie on the line? Its ends reach a little further: from
@@ -126,42 +131,49 @@ bool crosses_nearby(const RoadNetwork& network, const Ground& a, const Ground& b
   return false;
 }
 
+/// Way from one place to where its road crosses that of the other, and on to that; infinite where
+/// either has more than kNear, or they don't cross [m].
+double way_over_crossing(const RoadNetwork& network, const Ground& a, const Ground& b) {
+  constexpr double kNear = 40.0;  // [m]
+  double shortest = std::numeric_limits<double>::infinity();
+  const auto& all = network.overpasses;
+  if (all.empty() || a.lane == kNoLane || b.lane == kNoLane) return shortest;
+  auto add = [&](double one, double other) {
+    one = std::abs(one), other = std::abs(other);
+    if (one < kNear && other < kNear) shortest = std::min(shortest, one + other);
+  };
+  const EdgeId own = network.lane(a.lane).edge, their = network.lane(b.lane).edge;
+  const std::pair edges(std::min(own, their), std::max(own, their));
+  auto overpass = std::lower_bound(
+      all.begin(), all.end(), edges,
+      [](const Overpass& one, const auto& pair) { return std::pair(one.one, one.other) < pair; });
+  for (; overpass != all.end() && std::pair(overpass->one, overpass->other) == edges; ++overpass) {
+    if (own <= their) add(a.along - overpass->along_one, b.along - overpass->along_other);
+    if (their <= own) add(b.along - overpass->along_one, a.along - overpass->along_other);
+  }
+  return shortest;
+}
+
 }  // namespace
 
 bool has_storeys(const RoadNetwork& network) {
-  return network.has_layers || !network.unmarked_bridges.empty() ||
+  return network.has_layers || !network.overpasses.empty() ||
          std::any_of(network.lanes.begin(), network.lanes.end(),
                      [](const Lane& lane) { return !lane.elevation.empty(); });
 }
 
-bool cross_unmarked(const RoadNetwork& network, const Ground& a, const Ground& b) {
-  const auto& all = network.unmarked_bridges;
-  if (all.empty() || a.lane == kNoLane || b.lane == kNoLane) return false;
-  constexpr double kNear = 40.0;  // [m]
-  auto near = [&](double one, double other, const UnmarkedBridge& bridge) {
-    return std::abs(one - bridge.along_one) < kNear && std::abs(other - bridge.along_other) < kNear;
-  };
-  const EdgeId own = network.lane(a.lane).edge, their = network.lane(b.lane).edge;
-  const auto edges = std::minmax(own, their);
-  auto bridge = std::lower_bound(
-      all.begin(), all.end(), edges, [](const UnmarkedBridge& one, const auto& pair) {
-        return std::pair(one.one, one.other) < std::pair(pair.first, pair.second);
-      });
-  for (; bridge != all.end() && bridge->one == edges.first && bridge->other == edges.second;
-       ++bridge)
-    if ((own <= their && near(a.along, b.along, *bridge)) ||
-        (their <= own && near(b.along, a.along, *bridge)))
-      return true;
-  return false;
+bool near_overpass(const RoadNetwork& network, const Ground& a, const Ground& b) {
+  return std::isfinite(way_over_crossing(network, a, b));
 }
 
 bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Ground& b) {
   const double rise = std::abs(a.height - b.height);
   const bool layers = layers_differ(network, a.lane, b.lane);
-  if (cross_unmarked(network, a, b)) return !joined(network, a, b);
+  const double over_crossing = way_over_crossing(network, a, b);
+  if (std::isfinite(over_crossing)) return over_crossing < way_between(network, a, b);
   if (a.lane == b.lane && a.lane != kNoLane) return false;
   if (a.lane == kNoLane || b.lane == kNoLane) return rise > kStorey;
-  if (joined(network, a, b)) return false;
+  if (std::isfinite(way_between(network, a, b))) return false;
   const auto at_crossing = rise_at_crossing(network.lane(a.lane), network.lane(b.lane));
   if (at_crossing) return layers || std::abs(*at_crossing) > kLeastStorey;
   return rise > kStorey || crosses_nearby(network, a, b);

@@ -35,24 +35,23 @@ inline bool layers_differ(const RoadNetwork& network, LaneId a, LaneId b) {
          network.lane(a).layer != network.lane(b).layer;
 }
 
-/// Are two places near where their roads cross unmarked, one above the other
-/// (find_unmarked_bridges())?
-bool cross_unmarked(const RoadNetwork& network, const Ground& a, const Ground& b);
+/// Are two places near where their roads cross with no junction (find_overpasses())?
+bool near_overpass(const RoadNetwork& network, const Ground& a, const Ground& b);
 
-/// on_other_storey() for ground that differs by more than kLeastStorey or in its layer, or whose
-/// roads cross unmarked.
+/// on_other_storey() for ground that differs by more than kLeastStorey or in its layer, or near
+/// an overpass.
 bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Ground& b);
 
 /// Are two places above one another, on a bridge and under it? Heights alone don't tell: at a
 /// junction netconvert may join lanes whose heights differ by metres, and a ramp crosses a tunnel
-/// where it has hardly begun to rise. So places that a few metres of road join are on one storey;
-/// others are not if their ground differs by more than kStorey; where their lanes cross, or those
-/// that they lead into or come from a few metres away, it's the ground at the crossing that counts,
-/// by kLeastStorey, or their layers. Roads that cross with no junction are on two storeys whatever
-/// these say.
+/// where it has hardly begun to rise. So near a place where roads cross with no junction those are
+/// on two storeys that have less way to it than by road to each other; others that a few metres of
+/// road join are on one; others are not if their ground differs by more than kStorey; where their
+/// lanes cross, or those that they lead into or come from a few metres away, it's the ground at the
+/// crossing that counts, by kLeastStorey, or their layers.
 inline bool on_other_storey(const RoadNetwork& network, const Ground& a, const Ground& b) {
   return (std::abs(a.height - b.height) > kLeastStorey || layers_differ(network, a.lane, b.lane) ||
-          (!network.unmarked_bridges.empty() && cross_unmarked(network, a, b))) &&
+          (!network.overpasses.empty() && near_overpass(network, a, b))) &&
          lies_above_or_below(network, a, b);
 }
 inline bool on_other_storey(const RoadNetwork& network, const Scene& scene, std::size_t a,

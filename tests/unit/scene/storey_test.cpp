@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "road/unmarked_bridges.h"
+#include "road/overpasses.h"
 #include "support/small_net.h"
 
 namespace sumogamma {
@@ -13,6 +13,8 @@ namespace {
 
 class StoreyTest : public ::testing::Test {
  protected:
+  // what heights and layers say, as where a road ends near the crossing
+  StoreyTest() { net_.overpasses.clear(); }
   Ground at(const char* lane, double along, double height) const {
     return {net_.lane_by_name.at(lane), along, height};
   }
@@ -74,11 +76,10 @@ TEST_F(StoreyTest, ACrossingBehindTheEndOfTheLaneCounts) {
   }
 }
 
-// a bridge that the map doesn't tell apart: only that no junction joins it to what it crosses
 TEST_F(StoreyTest, WhereRoadsCrossWithNoJunctionNeitherHeightsNorLayersCount) {
   Lane& bridge = net_.lanes[index_of(net_.lane_by_name.at("bridge_0"))];
   bridge.elevation = {0, 0};
-  find_unmarked_bridges(net_);
+  find_overpasses(net_);
   EXPECT_TRUE(apart(at("in_1", 50, 0), at("bridge_0", 60, 0)));
   EXPECT_TRUE(apart(at("in_0", 55, 0), at("bridge_0", 52, 0))) << "nor its sidewalk";
   EXPECT_FALSE(apart(at("in_1", 50, 0), at("bridge_0", 5, 0))) << "far from the crossing";
@@ -89,10 +90,20 @@ TEST_F(StoreyTest, ARoadThatWindsOverItselfIsAboveItself) {
   Lane& helix = net_.lanes[index_of(net_.lane_by_name.at("bridge_0"))];
   helix.elevation = {-5, -5, -5, -5, -5};
   helix.centerline = Polyline({{0, 100}, {60, 100}, {60, 140}, {30, 140}, {30, 60}});
-  find_unmarked_bridges(net_);
+  find_overpasses(net_);
   EXPECT_TRUE(apart(at("bridge_0", 28, -5), at("bridge_0", 172, -5)));
   EXPECT_FALSE(apart(at("bridge_0", 28, -5), at("bridge_0", 60, -5))) << "a way of 32 m";
   EXPECT_FALSE(apart(at("bridge_0", 165, -5), at("bridge_0", 175, -5)));
+}
+
+// a ramp down to a tunnel joins the road over it within 40 m
+TEST_F(StoreyTest, NearAnOverpassTheShorterWayCounts) {
+  Lane& loop = net_.lanes[index_of(net_.lane_by_name.at("bridge_0"))];
+  loop.elevation = {0, 0, 0, 0, 0};
+  loop.centerline = Polyline({{0, 100}, {42, 100}, {42, 112}, {30, 112}, {30, 60}});
+  find_overpasses(net_);
+  EXPECT_TRUE(apart(at("bridge_0", 40, 0), at("bridge_0", 68, 0))) << "20 m over the crossing";
+  EXPECT_FALSE(apart(at("bridge_0", 50, 0), at("bridge_0", 60, 0))) << "10 m by road";
 }
 
 TEST_F(StoreyTest, OffEveryLaneTheGroundDecides) {

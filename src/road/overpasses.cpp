@@ -1,4 +1,4 @@
-#include "road/unmarked_bridges.h"
+#include "road/overpasses.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,7 +9,10 @@ namespace {
 
 constexpr double kFromEnds = 12.0;  // nearer than that roads may overlap as they meet [m]
 constexpr double kLeastSine = 0.5;  // parallel roads that touch don't cross [sin of the angle]
-constexpr double kSeen = 1.5;       // heights that differ by more tell by themselves [m]
+
+// footways cross roads at grade where a map has no node for it, but nobody draws roads so
+constexpr VehicleClassMask kMotorised = vehicle_class::kPassenger | vehicle_class::kDelivery |
+                                        vehicle_class::kTruck | vehicle_class::kBus;
 
 struct Road {
   EdgeId edge;
@@ -17,13 +20,13 @@ struct Road {
   Vec2 lower, upper;  ///< corners of its box [m]
 };
 
-std::vector<Road> roads_for_cars(const RoadNetwork& network) {
+std::vector<Road> roads_of(const RoadNetwork& network) {
   std::vector<Road> roads;
   for (std::size_t i = 0; i < network.edges.size(); ++i) {
     const Edge& edge = network.edges[i];
     if (edge.kind != LaneKind::Normal) continue;
     const auto lane = std::find_if(edge.lanes.begin(), edge.lanes.end(), [&](LaneId id) {
-      return (network.lane(id).allowed & vehicle_class::kPassenger) != 0;
+      return (network.lane(id).allowed & kMotorised) != 0;
     });
     if (lane == edge.lanes.end()) continue;
     Road road{EdgeId(static_cast<int>(i)), &network.lane(*lane), Vec2::Zero(), Vec2::Zero()};
@@ -43,9 +46,8 @@ bool is_far_from_ends(const Polyline& line, double along) {
   return along > kFromEnds && along < line.length() - kFromEnds;
 }
 
-/// Adds where two centerlines (or one and itself) cross and nothing else tells that one is above.
-void add_crossings(const Road& one, const Road& other, std::vector<UnmarkedBridge>& bridges) {
-  if (one.lane->layer != other.lane->layer) return;
+/// Adds where two centerlines (or one and itself) cross.
+void add_crossings(const Road& one, const Road& other, std::vector<Overpass>& overpasses) {
   const Polyline &own = one.lane->centerline, &their = other.lane->centerline;
   const std::vector<Vec2>&a = own.points(), &b = their.points();
   const bool same = one.edge == other.edge;
@@ -58,18 +60,17 @@ void add_crossings(const Road& one, const Road& other, std::vector<UnmarkedBridg
       if (std::abs(cross(along, across)) < kLeastSine * along.norm() * across.norm()) continue;
       const double here = own.along_of_vertex(i) + share->x() * along.norm(),
                    there = their.along_of_vertex(j) + share->y() * across.norm();
-      if (is_far_from_ends(own, here) && is_far_from_ends(their, there) &&
-          std::abs(elevation_at(*one.lane, here) - elevation_at(*other.lane, there)) <= kSeen)
-        bridges.push_back({one.edge, other.edge, here, there});
+      if (is_far_from_ends(own, here) && is_far_from_ends(their, there))
+        overpasses.push_back({one.edge, other.edge, here, there});
     }
   }
 }
 
 }  // namespace
 
-void find_unmarked_bridges(RoadNetwork& network) {
-  network.unmarked_bridges.clear();
-  std::vector<Road> roads = roads_for_cars(network);
+void find_overpasses(RoadNetwork& network) {
+  network.overpasses.clear();
+  std::vector<Road> roads = roads_of(network);
   std::sort(roads.begin(), roads.end(), [](const Road& a, const Road& b) {
     return a.lower.x() != b.lower.x() ? a.lower.x() < b.lower.x() : a.edge < b.edge;
   });
@@ -78,10 +79,10 @@ void find_unmarked_bridges(RoadNetwork& network) {
     for (auto other = one; other != roads.end() && other->lower.x() <= one->upper.x(); ++other) {
       if (other->lower.y() > one->upper.y() || other->upper.y() < one->lower.y()) continue;
       const auto& [first, second] = std::minmax(*one, *other, by_edge);
-      add_crossings(first, second, network.unmarked_bridges);
+      add_crossings(first, second, network.overpasses);
     }
-  std::stable_sort(network.unmarked_bridges.begin(), network.unmarked_bridges.end(),
-                   [](const UnmarkedBridge& a, const UnmarkedBridge& b) {
+  std::stable_sort(network.overpasses.begin(), network.overpasses.end(),
+                   [](const Overpass& a, const Overpass& b) {
                      return std::pair(a.one, a.other) < std::pair(b.one, b.other);
                    });
 }

@@ -1,0 +1,56 @@
+#include "road/overpasses.h"
+
+#include <gtest/gtest.h>
+
+#include "support/small_net.h"
+
+namespace sumogamma {
+namespace {
+
+class OverpassesTest : public ::testing::Test {
+ protected:
+  Lane& lane(const char* name) { return net_.lanes[index_of(net_.lane_by_name.at(name))]; }
+  std::vector<Overpass>& found() {
+    find_overpasses(net_);
+    return net_.overpasses;
+  }
+  RoadNetwork net_ = testing::small_net();
+};
+
+TEST_F(OverpassesTest, RoadsThatCrossWithNoJunctionAreAboveOneAnother) {
+  for (const double height : {6.0, 0.0}) {
+    lane("bridge_0").elevation = {height, height};
+    ASSERT_EQ(found().size(), 2u) << "over one carriageway and the other";
+    const Overpass& first = found().front();
+    EXPECT_EQ(net_.edge(first.one).name, "in");
+    EXPECT_EQ(net_.edge(first.other).name, "bridge");
+    EXPECT_NEAR(first.along_one, 50.0, 1e-9);
+    EXPECT_NEAR(first.along_other, 60.0, 1e-9);
+  }
+}
+
+TEST_F(OverpassesTest, WhereRoadsEndOrTouchTheyDontCross) {
+  lane("bridge_0").centerline = Polyline({{85, -60}, {85, 60}});
+  EXPECT_TRUE(found().empty()) << "10 m from the end of both carriageways";
+  lane("bridge_0").centerline = Polyline({{5, -20}, {90, 20}});
+  EXPECT_TRUE(found().empty()) << "25 degrees";
+}
+
+TEST_F(OverpassesTest, AFootwayMayCrossAtGrade) {
+  lane("bridge_0").allowed = vehicle_class::kPedestrian;
+  EXPECT_TRUE(found().empty());
+}
+
+// a helix: one way of one layer. As the tunnel of 214635479 in Monaco
+TEST_F(OverpassesTest, ARoadThatWindsOverItselfIsAboveItself) {
+  lane("bridge_0").elevation = {-5, -5, -5, -5, -5};
+  lane("bridge_0").centerline = Polyline({{0, 100}, {60, 100}, {60, 140}, {30, 140}, {30, 60}});
+  ASSERT_EQ(found().size(), 1u);
+  const Overpass& self = found().front();
+  EXPECT_EQ(self.one, self.other);
+  EXPECT_NEAR(self.along_one, 30.0, 1e-9);
+  EXPECT_NEAR(self.along_other, 170.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace sumogamma
