@@ -7,10 +7,11 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kFromEnds = 12.0;  // nearer than that roads may overlap as they meet [m]
-constexpr double kLeastSine = 0.5;  // parallel roads that touch don't cross [sin of the angle]
+constexpr double kFromEnds = 12.0;      // nearer than that roads may overlap as they meet [m]
+constexpr double kLeastSine = 0.5;      // parallel roads that touch don't cross [sin of the angle]
+constexpr double kShortestLoop = 40.0;  // lanes at the inside of hairpins fold over themselves [m]
 
-// footways cross roads at grade where a map has no node for it, but nobody draws roads so
+// where a footway crosses a road with no node in common, people cross the road
 constexpr VehicleClassMask kMotorised = vehicle_class::kPassenger | vehicle_class::kDelivery |
                                         vehicle_class::kTruck | vehicle_class::kBus;
 
@@ -20,6 +21,7 @@ struct Road {
   Vec2 lower, upper;  ///< corners of its box [m]
 };
 
+/// With their first lanes for motor vehicles.
 std::vector<Road> roads_of(const RoadNetwork& network) {
   std::vector<Road> roads;
   for (std::size_t i = 0; i < network.edges.size(); ++i) {
@@ -47,10 +49,11 @@ bool is_far_from_ends(const Polyline& line, double along) {
 }
 
 /// Adds where two centerlines (or one and itself) cross.
-void add_crossings(const Road& one, const Road& other, std::vector<Overpass>& overpasses) {
+void add_crossings(const Road& one, const Road& other, RoadNetwork& network) {
   const Polyline &own = one.lane->centerline, &their = other.lane->centerline;
   const std::vector<Vec2>&a = own.points(), &b = their.points();
-  const bool same = one.edge == other.edge;
+  const bool same = one.edge == other.edge,
+             opposite = are_opposite(network.edge(one.edge), network.edge(other.edge));
   for (std::size_t i = 0; i + 1 < a.size(); ++i) {
     const Vec2 along = a[i + 1] - a[i];
     for (std::size_t j = same ? i + 2 : 0; j + 1 < b.size(); ++j) {
@@ -60,8 +63,10 @@ void add_crossings(const Road& one, const Road& other, std::vector<Overpass>& ov
       if (std::abs(cross(along, across)) < kLeastSine * along.norm() * across.norm()) continue;
       const double here = own.along_of_vertex(i) + share->x() * along.norm(),
                    there = their.along_of_vertex(j) + share->y() * across.norm();
+      if (same && there - here < kShortestLoop) continue;
+      if (opposite && std::abs(here - (their.length() - there)) < kShortestLoop) continue;
       if (is_far_from_ends(own, here) && is_far_from_ends(their, there))
-        overpasses.push_back({one.edge, other.edge, here, there});
+        network.overpasses.push_back({one.edge, other.edge, here, there});
     }
   }
 }
@@ -79,7 +84,7 @@ void find_overpasses(RoadNetwork& network) {
     for (auto other = one; other != roads.end() && other->lower.x() <= one->upper.x(); ++other) {
       if (other->lower.y() > one->upper.y() || other->upper.y() < one->lower.y()) continue;
       const auto& [first, second] = std::minmax(*one, *other, by_edge);
-      add_crossings(first, second, network.overpasses);
+      add_crossings(first, second, network);
     }
   std::stable_sort(network.overpasses.begin(), network.overpasses.end(),
                    [](const Overpass& a, const Overpass& b) {

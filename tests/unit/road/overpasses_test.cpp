@@ -52,5 +52,11 @@ TEST_F(OverpassesTest, ARoadThatWindsOverItselfIsAboveItself) {
   EXPECT_NEAR(self.along_other, 170.0, 1e-9);
 }
 
+// netconvert's lanes at the inside of a hairpin
+TEST_F(OverpassesTest, AFoldIsNoLoop) {
+  lane("bridge_0").centerline = Polyline({{0, 100}, {42, 100}, {42, 106}, {36, 106}, {36, 60}});
+  EXPECT_TRUE(found().empty());
+}
+
 }  // namespace
 }  // namespace sumogamma
