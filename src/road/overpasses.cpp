@@ -75,6 +75,7 @@ void add_crossings(const Road& one, const Road& other, RoadNetwork& network) {
 
 void find_overpasses(RoadNetwork& network) {
   network.overpasses.clear();
+  for (Lane& lane : network.lanes) lane.has_overpass = false;
   std::vector<Road> roads = roads_of(network);
   std::sort(roads.begin(), roads.end(), [](const Road& a, const Road& b) {
     return a.lower.x() != b.lower.x() ? a.lower.x() < b.lower.x() : a.edge < b.edge;
@@ -90,6 +91,10 @@ void find_overpasses(RoadNetwork& network) {
                    [](const Overpass& a, const Overpass& b) {
                      return std::pair(a.one, a.other) < std::pair(b.one, b.other);
                    });
+  for (const Overpass& overpass : network.overpasses)
+    for (const EdgeId edge : {overpass.one, overpass.other})
+      for (const LaneId lane : network.edge(edge).lanes)
+        network.lanes[index_of(lane)].has_overpass = true;
 }
 
 }  // namespace sumogamma

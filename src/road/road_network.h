@@ -68,6 +68,7 @@ struct Lane {
   LaneId outer =
       kNoLane;  ///< neighbour with the next lower index on the same edge (towards the kerb)
   LaneId opposite = kNoLane;  ///< nearest lane of the opposite direction, where the network says so
+  bool has_overpass = false;  ///< its edge crosses another, or itself, above or below it
   JunctionId junction = kNoJunction;   ///< of internal lanes, crossings and walking areas
   std::vector<ConnectionId> outgoing;  ///< connections that start here
   std::vector<ConnectionId> incoming;  ///< connections that end here

@@ -162,7 +162,7 @@ bool has_storeys(const RoadNetwork& network) {
                      [](const Lane& lane) { return !lane.elevation.empty(); });
 }
 
-bool near_overpass(const RoadNetwork& network, const Ground& a, const Ground& b) {
+bool crosses_over(const RoadNetwork& network, const Ground& a, const Ground& b) {
   return std::isfinite(way_over_crossing(network, a, b));
 }
 
