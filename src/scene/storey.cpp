@@ -162,15 +162,12 @@ bool has_storeys(const RoadNetwork& network) {
                      [](const Lane& lane) { return !lane.elevation.empty(); });
 }
 
-bool crosses_over(const RoadNetwork& network, const Ground& a, const Ground& b) {
-  return std::isfinite(way_over_crossing(network, a, b));
-}
-
 bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Ground& b) {
   const double rise = std::abs(a.height - b.height);
   const bool layers = layers_differ(network, a.lane, b.lane);
   const double over_crossing = way_over_crossing(network, a, b);
   if (std::isfinite(over_crossing)) return over_crossing < way_between(network, a, b);
+  if (rise <= kLeastStorey && !layers) return false;
   if (a.lane == b.lane && a.lane != kNoLane) return false;
   if (a.lane == kNoLane || b.lane == kNoLane) return rise > kStorey;
   if (std::isfinite(way_between(network, a, b))) return false;

@@ -35,17 +35,14 @@ inline bool layers_differ(const RoadNetwork& network, LaneId a, LaneId b) {
          network.lane(a).layer != network.lane(b).layer;
 }
 
-/// near_overpass() for lanes of roads that have one.
-bool crosses_over(const RoadNetwork& network, const Ground& a, const Ground& b);
-
-/// Are two places near where their roads cross with no junction (find_overpasses())?
-inline bool near_overpass(const RoadNetwork& network, const Ground& a, const Ground& b) {
-  auto has = [&](LaneId id) { return id != kNoLane && network.lane(id).has_overpass; };
-  return !network.overpasses.empty() && has(a.lane) && has(b.lane) && crosses_over(network, a, b);
+/// Do the roads of both lanes cross some road above or below (find_overpasses())?
+inline bool have_overpasses(const RoadNetwork& network, LaneId a, LaneId b) {
+  return !network.overpasses.empty() && a != kNoLane && b != kNoLane &&
+         network.lane(a).has_overpass && network.lane(b).has_overpass;
 }
 
-/// on_other_storey() for ground that differs by more than kLeastStorey or in its layer, or near
-/// an overpass.
+/// on_other_storey() for ground that differs by more than kLeastStorey or in its layer, or of roads
+/// that have overpasses.
 bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Ground& b);
 
 /// Are two places above one another, on a bridge and under it? Heights alone don't tell: at a
@@ -57,7 +54,7 @@ bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Grou
 /// crossing that counts, by kLeastStorey, or their layers.
 inline bool on_other_storey(const RoadNetwork& network, const Ground& a, const Ground& b) {
   return (std::abs(a.height - b.height) > kLeastStorey || layers_differ(network, a.lane, b.lane) ||
-          near_overpass(network, a, b)) &&
+          have_overpasses(network, a.lane, b.lane)) &&
          lies_above_or_below(network, a, b);
 }
 inline bool on_other_storey(const RoadNetwork& network, const Scene& scene, std::size_t a,

@@ -334,8 +334,9 @@ bool SumoWorld::insert_on(const Pending& pending, const std::shared_ptr<const Pa
 }
 
 /// Without it nobody would know of an agent that SUMO drives whether it is on a bridge or under it,
-/// or at a red light.
+/// or at a red light. Who has a path is found on that.
 void SumoWorld::place_external(const SumoAgent& seen, Scene& scene, std::size_t row) const {
+  if (scene.path[row] != kNoPath) return;
   const auto found = model_.road.lane_by_name.find(seen.lane);
   if (found == model_.road.lane_by_name.end()) {
     scene.lane[row] = {};
