@@ -9,20 +9,28 @@ namespace {
 // kept clear at the most, and driven on for so long then. Round a block whose roads are full nobody
 // would ever move on: somebody has to lend the queue the room of the junction [s]
 constexpr double kKeepsClear = 40.0, kGoesOn = 10.0;
+constexpr double kQueue = 80.0;  // beyond a link within which a queue is looked at [m]
 
 /// Where the next queue behind a link may have its head [m along the path]: before the next link
 /// at which somebody might have to wait, infinite where none is near.
 double next_queue_head(const RoadView& view, const Course& course, const PathLink& link) {
-  constexpr double kNear = 80.0;  // [m]
   for (const PathLink& next : course.path.links) {
     if (next.stop_line <= link.stop_line) continue;
-    if (next.stop_line > link.end + kNear) break;
+    if (next.stop_line > link.end + kQueue) break;
     const Connection& connection = view.model.road.connection(next.connection);
     const char signal = view.road.signal(connection);
     const bool first = signal == 'G' || (signal == 'O' && connection.state == 'M');
     if (!first && has_crossing_traffic(view.model, next.connection)) return next.halt;
   }
   return std::numeric_limits<double>::infinity();
+}
+
+/// Where the road ends that a link leads into, or as far as a queue is looked at [m along the
+/// path].
+double end_of_road(const Course& course, const PathLink& link) {
+  for (const PathLink& next : course.path.links)
+    if (next.stop_line > link.stop_line) return std::min(next.stop_line, link.end + kQueue);
+  return link.end + kQueue;
 }
 
 /// Calls `visit` for everybody who has halted at its line, to give way to the row for the lane that
@@ -65,6 +73,10 @@ std::int64_t blocks_exit(const RoadView& view, DrivingAhead& ahead, const Course
   constexpr double kStarts = 0.8;    // likewise of who follows those who drive [m/s]
   constexpr double kClosedUp = 1.0;  // [m]
   constexpr double kNever = std::numeric_limits<double>::infinity();
+  // all of the road that the link leads into: with the few metres that following needs a queue of
+  // 60 m looked as if it went on
+  see_queue(view.model, view.road, view.scene, view.grid, course.row, end_of_road(course, link),
+            ahead);
   if (ahead.count == 0) return -1;
   const auto begin = ahead.vehicles.begin(), end = begin + static_cast<std::ptrdiff_t>(ahead.count);
   std::sort(begin, end, [](const auto& a, const auto& b) {

@@ -124,6 +124,11 @@ bool is_way_aside_taken(const Model& model, const Path& path, const Scene& scene
   return taken;
 }
 
+/// Kept to the sides by who drives past others [m].
+double kept_aside(const AgentType& type, double speed) {
+  return std::min(0.1 + 0.03 * speed, type.width < 1.0 ? 0.15 : 0.3);
+}
+
 void cap_passing(double speed, std::int64_t id, DrivingAhead& ahead) {
   if (speed >= ahead.passing_speed) return;
   ahead.passing_speed = speed;
@@ -151,7 +156,8 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
   const bool overtakes = scene.overtaking_room[row] > 0.0;
   // who gives up overtaking falls back behind whoever it was about to pass
   const bool returns = !narrow && !overtakes && std::abs(own_offset - aim) > kFarAside;
-  const double margin = std::min(0.1 + 0.03 * speed, type.width < 1.0 ? 0.15 : 0.3);
+  const double margin = kept_aside(type, speed);
+  ahead.seen_to = along + reach;
 
   const bool taken = narrow && scene.standing_time[row] < kTakenFor &&
                      is_way_aside_taken(model, *path, scene, grid, row, own_offset);
@@ -256,6 +262,36 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
                 scene.id[other].value};
   });
   return leader;
+}
+
+void see_queue(const Model& model, const RoadState& road, const Scene& scene,
+               const SpatialGrid& grid, std::size_t row, double to, DrivingAhead& ahead) {
+  const Path* path = road.path(scene.path[row]);
+  const double from = ahead.seen_to;
+  if (path == nullptr || to <= from) return;
+  ahead.seen_to = to;
+  constexpr double kAside = 6.0;  // [m]
+  const double half_width = half_extent(scene, row, left_of(direction_of(scene.heading[row])));
+  const double margin = kept_aside(type_of(model.types, scene.type[row]), scene.speed[row]);
+  const Vec2 middle = path->line.point_at(0.5 * (from + to));
+  grid.visit_within(middle, 0.5 * (to - from) + kAside, [&](std::size_t other, double) {
+    if (other == row || type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic)
+      return;
+    const PolylinePosition place = path->line.project(scene.position[other], from, to);
+    if (place.distance > kAside || place.along <= from || place.along >= to) return;
+    const Vec2 direction = path->line.direction_at(place.along);
+    const double sides = half_width + half_extent(scene, other, left_of(direction)) + margin;
+    if (direction.dot(direction_of(scene.heading[other])) <= 0.5 ||
+        std::abs(place.offset - scene.lateral_aim[row]) > sides ||
+        on_other_storey(model.road, scene, row, other))
+      return;
+    const auto begin = ahead.vehicles.begin();
+    const auto end = begin + static_cast<std::ptrdiff_t>(ahead.count);
+    if (std::any_of(begin, end, [&](const auto& seen) { return seen.row == other; })) return;
+    const double half = half_extent(scene, other, direction);
+    ahead.add({place.along - half, place.along + half,
+               std::max(0.0, scene.velocity[other].dot(direction)), scene.id[other].value, other});
+  });
 }
 
 }  // namespace sumogamma

@@ -22,7 +22,8 @@ struct Leader {
   std::int64_t id = -1;                                  ///< -1: free road
 };
 
-/// Those who drive ahead on an agent's path, in no order: the nearest few that fit.
+/// Those who drive ahead on an agent's path, in no order: all of them as far as `seen_to`, so long
+/// as they fit.
 struct DrivingAhead {
   struct Vehicle {
     double rear = 0, front = 0;  ///< along the path [m]
@@ -30,8 +31,9 @@ struct DrivingAhead {
     std::int64_t id = -1;
     std::size_t row = 0;
   };
-  std::array<Vehicle, 24> vehicles;
+  std::array<Vehicle, 40> vehicles;
   std::size_t count = 0;
+  double seen_to = 0;       ///< along the path [m]
   Vehicle merging;          ///< the nearest that has to change into this agent's lane
   bool on_its_way = false;  ///< it has begun to; else it waits for a gap
   /// At which a narrow vehicle goes by those whom it passes, [m/s], and who that is.
@@ -51,5 +53,9 @@ struct DrivingAhead {
 /// every vehicle ahead to `ahead`.
 Leader find_leader(const Model& model, const RoadState& road, const Scene& scene,
                    const SpatialGrid& grid, std::size_t row, double reach, DrivingAhead& ahead);
+
+/// Adds who drives on the row's way beyond what `ahead` holds, as far as `to` [m along its path].
+void see_queue(const Model& model, const RoadState& road, const Scene& scene,
+               const SpatialGrid& grid, std::size_t row, double to, DrivingAhead& ahead);
 
 }  // namespace sumogamma

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "model/leader.h"
 #include "support/road_scene.h"
 #include "support/small_net.h"
@@ -44,6 +47,35 @@ TEST_F(LeaderTest, TheNearestOfSeveralBinds) {
   here_.add("car", {"in", "out"}, 80, 0);
   here_.add("bicycle", {"in", "out"}, 40, 4);
   EXPECT_EQ(leader_of(own).id, 2);
+}
+
+TEST_F(LeaderTest, TheRestOfAQueueIsAddedOnceAsFarAsItIsLookedAt) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 20, 5);
+  here_.add("car", {"in", "out"}, 50, 5);
+  here_.add("bus", {"in", "out"}, 80, 3);  // about where the leader's reach ends
+  here_.add("car", {"in", "out"}, 100, 0);
+  here_.add("car", {"back_in", "back"}, 90, 5);  // comes the other way
+  here_.add("car", {"in", "out"}, 150, 0);
+  here_.update();
+  DrivingAhead ahead;
+  find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, own, 59.5, ahead);
+  const auto see_as_far_as = [&](double to) {
+    see_queue(here_.model, here_.road, here_.scene, here_.geometry.grid, own, to, ahead);
+  };
+  see_as_far_as(70);  // it has been seen already
+  see_as_far_as(120);
+  std::vector<std::int64_t> ids;
+  for (std::size_t k = 0; k < ahead.count; ++k) ids.push_back(ahead.vehicles[k].id);
+  std::sort(ids.begin(), ids.end());
+  EXPECT_EQ(ids, (std::vector<std::int64_t>{1, 2, 3}));
+  EXPECT_EQ(ahead.seen_to, 120);
+  for (std::size_t k = 0; k < ahead.count; ++k)
+    if (ahead.vehicles[k].id == 3) {
+      EXPECT_NEAR(ahead.vehicles[k].rear, 100 - 2.25, 1e-9);
+      EXPECT_NEAR(ahead.vehicles[k].front, 100 + 2.25, 1e-9);
+    }
+  see_as_far_as(200);
+  EXPECT_EQ(ahead.count, 4u);
 }
 
 TEST_F(LeaderTest, OncomingTrafficAndTheNextLaneDoNotBind) {
