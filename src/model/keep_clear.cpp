@@ -159,26 +159,34 @@ LinkDecision keep_clear(const RoadView& view, const Course& course, const Travel
 
 LinkDecision let_one_in(const RoadView& view, const Course& course, const Traveller& traveller,
                         const PathLink& link) {
-  constexpr double kStands = 2.0, kSomeTime = 10.0, kLong = 50.0;  // [s]
-  constexpr double kAtLine = 6.0, kFirst = 2.5, kShort = 40.0;     // [m]
+  constexpr double kStands = 2.0, kSomeTime = 10.0, kLong = 20.0, kPatience = 120.0;  // [s]
+  constexpr double kAtLine = 6.0, kFirst = 2.5, kShort = 40.0;                        // [m]
   const Connection& connection = view.model.road.connection(link.connection);
   const double waited = view.scene.waiting_time[course.row];
   if (traveller.front > link.stop_line + 0.3 || traveller.front < link.halt - kAtLine ||
-      waited < kStands || waited > kLong || connection.signal != kNoSignal ||
+      waited < kStands || waited > kPatience || connection.signal != kNoSignal ||
       view.model.road.lane(connection.to).length < kShort)
     return {};
   const Waiting& own = view.approaches.waiting(course.row);
   const double came = own.halted_for == link.connection ? own.halted_at : view.scene.time;
   const auto id = static_cast<std::int64_t>(view.scene.id[course.row].value);
+  const auto row_ahead = view.approaches.of(link.connection);
+  const auto is_in_row = [&](std::int64_t other) {
+    return std::any_of(row_ahead.begin(), row_ahead.end(), [&](const Approach& one) {
+      return one.row != course.row && one.front > 0.0 && view.scene.id[one.row].value == other;
+    });
+  };
   LinkDecision decision;
   visit_joining(view, course, link, [&](const Approach& foe, const Waiting& waiting) {
-    const bool first = waiting.halted_at <= came && view.scene.time - waiting.halted_at > kSomeTime;
-    // not for somebody who has others to wait for; who follows somebody may be the first at its
-    // line
+    const double their_wait = view.scene.time - waiting.halted_at;
+    const bool first = waiting.halted_at <= came && their_wait > kSomeTime;
+    // not for somebody who has others to wait for, but for those whom we follow after a long wait;
+    // who follows somebody may be the first at its line
     const bool comes = waiting.reason == LimitReason::None ||
                        (waiting.reason == LimitReason::Leader && foe.front > -kFirst) ||
                        waiting.reason == LimitReason::BlockedJunction ||
-                       (waiting.reason == LimitReason::Yield && waiting.foe == id);
+                       (waiting.reason == LimitReason::Yield &&
+                        (waiting.foe == id || (their_wait > kLong && is_in_row(waiting.foe))));
     if (foe.front > -kAtLine && first && comes)
       decision = {true, link.halt - kStopMargin, LimitReason::LetsIn,
                   static_cast<std::int64_t>(view.scene.id[foe.row].value)};

@@ -317,7 +317,11 @@ TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
   EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn) << "but just before";
   came(60, 50);
   EXPECT_EQ(here_.context(own).reason, LimitReason::LetsIn);
-  here_.scene.waiting_time[own] = 60.0;
+  here_.scene.waiting_time[own] = 100.0;
+  here_.update();
+  EXPECT_EQ(here_.context(own).reason, LimitReason::LetsIn) << "queues stand for a minute";
+  came(60, 50);
+  here_.scene.waiting_time[own] = 130.0;
   here_.update();
   EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn) << "not for ever";
   came(60, 50);
@@ -337,6 +341,61 @@ TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
   here_.scene.context[minor].foe = here_.scene.id[other].value;
   here_.update();
   EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn);
+}
+
+// the next of the row drove on behind whoever stood on the junction before it, and who had the
+// longer wait for that one never got in
+TEST_F(PriorityTest, WhoWaitsForTheRowToLeaveTheJunctionIsLetInBehindIt) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  const PathLink& link = here_.path(own).links.front();
+  here_.move(own, link.stop_line - 2.25 - 0.6);
+  const std::size_t ahead = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  here_.move(ahead, link.end - 1.0);
+  const std::size_t minor = here_.add("car", {"SC", "CE"}, 0, 0);
+  const PathLink& turn = here_.path(minor).links.front();
+  here_.move(minor, turn.stop_line - 2.25 - 0.6);
+  const std::size_t other = here_.add("car", {"EC", "CW"}, 0, 0);
+  here_.scene.time = 100;
+  here_.scene.halted_for = {link.connection, kNoConnection, turn.connection, kNoConnection};
+  const auto reason_after = [&](double wait, std::size_t foe) {
+    here_.scene.halted_at = {90, 0, 100 - wait, 0};
+    here_.scene.context.assign(4, {});
+    here_.scene.context[minor].reason = LimitReason::Yield;
+    here_.scene.context[minor].foe = here_.scene.id[foe].value;
+    here_.scene.waiting_time = {3.0, 3.0, wait, 3.0};
+    // it has kept the junction clear for long
+    here_.scene.keeps_clear[own] = 45.0;
+    here_.update();
+    return here_.context(own).reason;
+  };
+  EXPECT_EQ(reason_after(30, ahead), LimitReason::LetsIn);
+  EXPECT_EQ(here_.context(own).foe, here_.scene.id[minor].value);
+  EXPECT_NE(reason_after(15, ahead), LimitReason::LetsIn) << "not yet for long";
+  EXPECT_NE(reason_after(30, other), LimitReason::LetsIn) << "it waits for others than the row";
+}
+
+// with the 40 m that following needs, a queue of 60 m before a red light was taken for one that
+// goes on: its end stood on the junction, and side roads waited for minutes
+TEST_F(PriorityTest, AQueueIsSeenUpToItsHead) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  const PathLink& link = here_.path(own).links.front();
+  here_.move(own, link.stop_line - 2.25 - 0.6);
+  // somebody drives close ahead, into a queue that stands beyond what following looks at
+  const std::size_t first = here_.add("car", {"WC", "CE"}, 0, 5, 0, -1, "WC_0");
+  here_.move(first, link.end + 6.0);
+  here_.update();
+  EXPECT_NE(here_.context(own).reason, LimitReason::BlockedJunction) << "it goes on";
+  for (const double place : {12.0, 18.0, 24.0, 30.0, 36.0, 42.0, 48.0, 54.0, 60.0, 66.0}) {
+    const std::size_t row = here_.add("car", {"WC", "CE"}, 0, 5, 0, -1, "WC_0");
+    here_.move(row, link.end + place);
+  }
+  here_.update();
+  EXPECT_NE(here_.context(own).reason, LimitReason::BlockedJunction) << "they all do";
+  const std::size_t last = here_.add("truck", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  here_.move(last, link.end + 73.0);
+  for (std::size_t row = first; row < last; ++row) here_.set_speed(row, 2.0);
+  here_.update();
+  EXPECT_EQ(here_.context(own).reason, LimitReason::BlockedJunction);
 }
 
 // a bus came to rest at the edge of the place where their ways cross, took itself for being in
