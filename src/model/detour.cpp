@@ -15,13 +15,6 @@ constexpr double kPeriod = 1.0;  ///< between two looks of an agent [s]
 constexpr double kShut = 15.0;   ///< stood before a way that is shut [s]
 constexpr double kBack = 20.0;   ///< of path kept behind the body [m]
 
-/// The first link of a path ahead of a place; null behind the last.
-const PathLink* next_link(const Path& path, double along) {
-  for (const PathLink& link : path.links)
-    if (link.stop_line > along) return &link;
-  return nullptr;
-}
-
 /// Is the way of a driver shut, and can it still take another one? The link before which it stands,
 /// null where not.
 const PathLink* shut_link(const Model& model, const Path& path, const Scene& scene,
@@ -34,8 +27,8 @@ const PathLink* shut_link(const Model& model, const Path& path, const Scene& sce
   const PathStretch& here = path.stretch_at(along);
   if (here.changing || model.road.lane(here.lane).kind != LaneKind::Normal) return nullptr;
   const double front = along + half_extent(scene, row, path.line.direction_at(along));
-  const PathLink* link = next_link(path, along);
-  return link != nullptr && front < link->stop_line + 0.3 ? link : nullptr;
+  const auto link = path.link_after(along);
+  return link != path.links.end() && front < link->stop_line + 0.3 ? &*link : nullptr;
 }
 
 /// Time that each edge takes as the roads are now [s], by EdgeId.
@@ -62,8 +55,8 @@ std::vector<double> travel_times(const RoadNetwork& network, const Scene& scene)
 bool has_room(const Model& model, const Path& path, double along, const Scene& scene,
               std::size_t row) {
   constexpr double kRoom = 3.0;  // besides its own length [m]
-  const PathLink* link = next_link(path, along);
-  if (link == nullptr) return true;
+  const auto link = path.link_after(along);
+  if (link == path.links.end()) return true;
   const LaneId target = model.road.connection(link->connection).to;
   const double own = 2.0 * half_extent(scene, row, direction_of(scene.heading[row]));
   for (std::size_t other = 0; other < scene.size(); ++other) {

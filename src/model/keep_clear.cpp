@@ -28,9 +28,9 @@ double next_queue_head(const RoadView& view, const Course& course, const PathLin
 /// Where the road ends that a link leads into, or as far as a queue is looked at [m along the
 /// path].
 double end_of_road(const Course& course, const PathLink& link) {
-  for (const PathLink& next : course.path.links)
-    if (next.stop_line > link.stop_line) return std::min(next.stop_line, link.end + kQueue);
-  return link.end + kQueue;
+  const auto next = course.path.link_after(link.stop_line);
+  const double farthest = link.end + kQueue;
+  return next != course.path.links.end() ? std::min(next->stop_line, farthest) : farthest;
 }
 
 /// Calls `visit` for everybody who has halted at its line, to give way to the row for the lane that
@@ -46,6 +46,14 @@ void visit_joining(const RoadView& view, const Course& course, const PathLink& l
         visit(foe, waiting);
     }
   }
+}
+
+/// Is somebody with that id on a link, past its line?
+bool is_past_line(const RoadView& view, const PathLink& link, std::int64_t id) {
+  const auto row = view.approaches.of(link.connection);
+  return std::any_of(row.begin(), row.end(), [&](const Approach& one) {
+    return one.front > 0.0 && view.scene.id[one.row].value == id;
+  });
 }
 
 /// Length [m] of who has stood for long at its line and waits to join; of the longest there, 0
@@ -170,23 +178,18 @@ LinkDecision let_one_in(const RoadView& view, const Course& course, const Travel
   const Waiting& own = view.approaches.waiting(course.row);
   const double came = own.halted_for == link.connection ? own.halted_at : view.scene.time;
   const auto id = static_cast<std::int64_t>(view.scene.id[course.row].value);
-  const auto row_ahead = view.approaches.of(link.connection);
-  const auto is_in_row = [&](std::int64_t other) {
-    return std::any_of(row_ahead.begin(), row_ahead.end(), [&](const Approach& one) {
-      return one.row != course.row && one.front > 0.0 && view.scene.id[one.row].value == other;
-    });
-  };
   LinkDecision decision;
   visit_joining(view, course, link, [&](const Approach& foe, const Waiting& waiting) {
     const double their_wait = view.scene.time - waiting.halted_at;
     const bool first = waiting.halted_at <= came && their_wait > kSomeTime;
     // not for somebody who has others to wait for, but for those whom we follow after a long wait;
     // who follows somebody may be the first at its line
-    const bool comes = waiting.reason == LimitReason::None ||
-                       (waiting.reason == LimitReason::Leader && foe.front > -kFirst) ||
-                       waiting.reason == LimitReason::BlockedJunction ||
-                       (waiting.reason == LimitReason::Yield &&
-                        (waiting.foe == id || (their_wait > kLong && is_in_row(waiting.foe))));
+    const bool comes =
+        waiting.reason == LimitReason::None ||
+        (waiting.reason == LimitReason::Leader && foe.front > -kFirst) ||
+        waiting.reason == LimitReason::BlockedJunction ||
+        (waiting.reason == LimitReason::Yield &&
+         (waiting.foe == id || (their_wait > kLong && is_past_line(view, link, waiting.foe))));
     if (foe.front > -kAtLine && first && comes)
       decision = {true, link.halt - kStopMargin, LimitReason::LetsIn,
                   static_cast<std::int64_t>(view.scene.id[foe.row].value)};

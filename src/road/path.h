@@ -123,6 +123,12 @@ struct Path {
     return std::lower_bound(links.begin(), links.end(), along,
                             [](const PathLink& link, double value) { return link.end < value; });
   }
+  /// First link that begins beyond `along`, or the end of links.
+  std::vector<PathLink>::const_iterator link_after(double along) const {
+    return std::upper_bound(
+        links.begin(), links.end(), along,
+        [](double value, const PathLink& link) { return value < link.stop_line; });
+  }
   /// Speed that bends and limits leave at `along`, interpolated [m/s].
   double profile_at(double along) const;
 };

@@ -120,6 +120,12 @@ class PriorityTest : public ::testing::Test {
     static const RoadNetwork network = read_plain_net(crossroads("priority"));
     return network;
   }
+  /// A car that stands before the line of its first link.
+  std::size_t add_at_line(const std::vector<std::string>& edges, const std::string& lane = "") {
+    const std::size_t row = here_.add("car", edges, 0, 0, 0, -1, lane);
+    here_.move(row, here_.path(row).links.front().stop_line - 2.25 - 0.6);
+    return row;
+  }
   /// Where the way of `row` begins to be in that of `other` [m along its path].
   double zone_of(std::size_t row, std::size_t other) const {
     const PathLink& link = here_.path(row).links.front();
@@ -163,8 +169,7 @@ TEST_F(PriorityTest, TheTypeSaysHowLargeAGapHasToBe) {
 }
 
 TEST_F(PriorityTest, WhoTurnsInWaitsForWhoWouldHaveToBrakeHard) {
-  const std::size_t minor = here_.add("car", {"SC", "CE"}, 0, 0, 0, -1, "SC_0");
-  here_.move(minor, here_.path(minor).links.front().stop_line - 2.25 - 0.6);
+  const std::size_t minor = add_at_line({"SC", "CE"}, "SC_0");
   const std::size_t major = here_.add("car", {"WC", "CE"}, 0, 13, 0, -1, "WC_0");
   const double line = here_.path(major).links.front().stop_line;
   // it would be out of the place where the ways meet a second before, but slow for seconds more
@@ -185,8 +190,7 @@ TEST_F(PriorityTest, WhoTurnsInWaitsForWhoWouldHaveToBrakeHard) {
 TEST_F(PriorityTest, OfTwoFromMinorRoadsWhoHasBegunToCrossFinishes) {
   const std::size_t turning = here_.add("car", {"SC", "CW"}, 0, 4);
   here_.move(turning, here_.path(turning).links.front().stop_line + 4.0 - 2.25);
-  const std::size_t straight = here_.add("car", {"NC", "CS"}, 0, 0);
-  here_.move(straight, here_.path(straight).links.front().stop_line - 2.25 - 0.6);
+  const std::size_t straight = add_at_line({"NC", "CS"});
   here_.update();
   EXPECT_EQ(here_.context(straight).reason, LimitReason::Yield);
   EXPECT_EQ(here_.context(straight).foe, here_.scene.id[turning].value);
@@ -292,12 +296,10 @@ TEST_F(PriorityTest, IntoAFullRoadDriversLetOneInWhoHasWaitedForLong) {
 
 // who had the right of way drove off with every surge of its queue, and nobody else ever got in
 TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
-  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  const std::size_t own = add_at_line({"WC", "CE"}, "WC_0");
   const PathLink& link = here_.path(own).links.front();
-  here_.move(own, link.stop_line - 2.25 - 0.6);
-  const std::size_t minor = here_.add("car", {"SC", "CE"}, 0, 0);
+  const std::size_t minor = add_at_line({"SC", "CE"});
   const PathLink& turn = here_.path(minor).links.front();
-  here_.move(minor, turn.stop_line - 2.25 - 0.6);
   here_.scene.time = 100;
   auto came = [&](double own_at, double minor_at) {
     here_.scene.halted_for = {link.connection, turn.connection};
@@ -346,14 +348,12 @@ TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
 // the next of the row drove on behind whoever stood on the junction before it, and who had the
 // longer wait for that one never got in
 TEST_F(PriorityTest, WhoWaitsForTheRowToLeaveTheJunctionIsLetInBehindIt) {
-  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  const std::size_t own = add_at_line({"WC", "CE"}, "WC_0");
   const PathLink& link = here_.path(own).links.front();
-  here_.move(own, link.stop_line - 2.25 - 0.6);
   const std::size_t ahead = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
   here_.move(ahead, link.end - 1.0);
-  const std::size_t minor = here_.add("car", {"SC", "CE"}, 0, 0);
+  const std::size_t minor = add_at_line({"SC", "CE"});
   const PathLink& turn = here_.path(minor).links.front();
-  here_.move(minor, turn.stop_line - 2.25 - 0.6);
   const std::size_t other = here_.add("car", {"EC", "CW"}, 0, 0);
   here_.scene.time = 100;
   here_.scene.halted_for = {link.connection, kNoConnection, turn.connection, kNoConnection};
@@ -377,9 +377,8 @@ TEST_F(PriorityTest, WhoWaitsForTheRowToLeaveTheJunctionIsLetInBehindIt) {
 // with the 40 m that following needs, a queue of 60 m before a red light was taken for one that
 // goes on: its end stood on the junction, and side roads waited for minutes
 TEST_F(PriorityTest, AQueueIsSeenUpToItsHead) {
-  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  const std::size_t own = add_at_line({"WC", "CE"}, "WC_0");
   const PathLink& link = here_.path(own).links.front();
-  here_.move(own, link.stop_line - 2.25 - 0.6);
   // somebody drives close ahead, into a queue that stands beyond what following looks at
   const std::size_t first = here_.add("car", {"WC", "CE"}, 0, 5, 0, -1, "WC_0");
   here_.move(first, link.end + 6.0);
@@ -540,10 +539,8 @@ TEST_F(PriorityTest, OfTwoWhoHaveWaitedOnAJunctionForLongNobodyTriesWhileTheOthe
 }
 
 TEST_F(PriorityTest, NobodyWaitsForWhoIsHeldByBodiesAlone) {
-  const std::size_t minor = here_.add("car", {"SC", "CN"}, 0, 0);
-  here_.move(minor, here_.path(minor).links.front().stop_line - 2.25 - 0.6);
-  const std::size_t major = here_.add("car", {"WC", "CE"}, 0, 0);
-  here_.move(major, here_.path(major).links.front().stop_line - 2.25 - 0.6);
+  const std::size_t minor = add_at_line({"SC", "CN"});
+  const std::size_t major = add_at_line({"WC", "CE"});
   here_.update();
   EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
   here_.scene.blocked_time[major] = 10;
@@ -554,8 +551,7 @@ TEST_F(PriorityTest, NobodyWaitsForWhoIsHeldByBodiesAlone) {
 
 // a van that crept to and fro behind the tail of a queue held the whole road opposite for 129 s
 TEST_F(PriorityTest, NobodyWaitsForWhoCreepsOutOfAWedge) {
-  const std::size_t minor = here_.add("car", {"SC", "CN"}, 0, 0);
-  here_.move(minor, here_.path(minor).links.front().stop_line - 2.25 - 0.6);
+  const std::size_t minor = add_at_line({"SC", "CN"});
   const std::size_t major = here_.add("car", {"WC", "CE"}, 0, 0.5);
   here_.move(major, here_.path(major).links.front().stop_line - 2.25 + 0.5);
   here_.update();
@@ -579,8 +575,7 @@ TEST_F(PriorityTest, NobodyWaitsForWhoCreepsOutOfAWedge) {
 // a queue that crept past the mouth of a side road, a metre at a time, held it for minutes: nobody
 // in it ever stood for long enough to be crossed
 TEST_F(PriorityTest, WhoHasWaitedCrossesAQueueThatCreepsUpBeforeTheJunction) {
-  const std::size_t minor = here_.add("car", {"SC", "CN"}, 0, 0);
-  here_.move(minor, here_.path(minor).links.front().stop_line - 2.25 - 0.6);
+  const std::size_t minor = add_at_line({"SC", "CN"});
   const std::size_t head = here_.add("motorcycle", {"WC", "CE"}, 0, 0);
   const double line = here_.path(head).links.front().stop_line;
   here_.move(head, line - 1.1 - 0.6);
@@ -681,8 +676,7 @@ TEST_F(PriorityTest, WhoCreepsOnTheJunctionIsNotTakenForSomebodyWhoStands) {
 }
 
 TEST_F(PriorityTest, WhoHasBackedOutLetsTheOthersPast) {
-  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 0);
-  here_.move(own, here_.path(own).links.front().stop_line - 2.25 - 0.6);
+  const std::size_t own = add_at_line({"WC", "CE"});
   const std::size_t other = here_.add("car", {"SC", "CN"}, 0, 0);
   here_.move(other, here_.path(other).line.project(Vec2(0, -5)).along);
   here_.update();
