@@ -193,7 +193,8 @@ struct Judge : RoadView {
     // on foot one walks round what stands on the crossing, on wheels past what stands beside the
     // way
     if (foe_inside && foe.stands && waits_behind(foe) &&
-        (own_type.kinematics == Kinematics::Holonomic || stands_beside(zone, foe)))
+        (own_type.kinematics == Kinematics::Holonomic ||
+         stands_beside(*this, traveller, link, zone.begin, zone.end, foe)))
       return Verdict::Held;
     if (foe_inside && in_deadlock(foe)) return Verdict::Held;
     if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
@@ -298,23 +299,6 @@ struct Judge : RoadView {
   bool rests_in(const ConflictZone& zone, const Approach& foe) const {
     const double rest = approaches.rest_of(foe);
     return rest > zone.foe_begin + 0.3 && rest - foe.length < zone.foe_end;
-  }
-  /// Does a foe's body leave the traveller's way free? Conflict zones are wider than bodies.
-  bool stands_beside(const ConflictZone& zone, const Approach& foe) const {
-    constexpr double kSide = 0.25, kStep = 0.5;  // [m]
-    const Polyline& way = road.path(scene.path[traveller.row])->line;
-    const Vec2 forward = direction_of(scene.heading[foe.row]);
-    const Vec2 half(half_extent(scene, foe.row, forward),
-                    half_extent(scene, foe.row, left_of(forward)));
-    const double own_half =
-        half_extent(scene, traveller.row, left_of(direction_of(scene.heading[traveller.row])));
-    for (double along = zone.begin; along <= zone.end; along += kStep) {
-      const Vec2 place =
-          to_body(Vec2(way.point_at(link.stop_line + along) - scene.position[foe.row]), forward);
-      const Vec2 away = (place.cwiseAbs() - half).cwiseMax(0.0);
-      if (away.norm() < own_half + kSide) return false;
-    }
-    return true;
   }
   /// Is a foe that has to yield past its line already and, as things are, on its way into the zone?
   /// Whoever sees that brakes at ease now, not hard once it is there.
@@ -536,6 +520,25 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
       scene.waiting_time[traveller.row] < kKeepsZonesFree)
     keep_zones_free(model, road, scene, approaches, traveller, link, decision);
   return decision;
+}
+
+bool stands_beside(const RoadView& view, const Traveller& traveller, const PathLink& link,
+                   double begin, double end, const Approach& foe) {
+  constexpr double kSide = 0.25, kStep = 0.5;  // [m]
+  const Scene& scene = view.scene;
+  const Polyline& way = view.road.path(scene.path[traveller.row])->line;
+  const Vec2 forward = direction_of(scene.heading[foe.row]);
+  const Vec2 half(half_extent(scene, foe.row, forward),
+                  half_extent(scene, foe.row, left_of(forward)));
+  const double own_half =
+      half_extent(scene, traveller.row, left_of(direction_of(scene.heading[traveller.row])));
+  for (double along = begin; along <= end; along += kStep) {
+    const Vec2 place =
+        to_body(Vec2(way.point_at(link.stop_line + along) - scene.position[foe.row]), forward);
+    const Vec2 away = (place.cwiseAbs() - half).cwiseMax(0.0);
+    if (away.norm() < own_half + kSide) return false;
+  }
+  return true;
 }
 
 bool has_crossing_traffic(const Model& model, ConnectionId link) {

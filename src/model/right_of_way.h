@@ -27,6 +27,11 @@ struct Traveller {
 /// Signals, priority and occupied conflict zones (facts of the network) applied to one link.
 LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const PathLink& link);
 
+/// Does a body leave a traveller's way free between two places [m past its link's begin]? Conflict
+/// zones and swept ways are wider than bodies.
+bool stands_beside(const RoadView& view, const Traveller& traveller, const PathLink& link,
+                   double begin, double end, const Approach& foe);
+
 /// Does anybody cross or join at a link but those who come from the next lane of the same road?
 bool has_crossing_traffic(const Model& model, ConnectionId link);
 

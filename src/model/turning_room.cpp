@@ -73,6 +73,10 @@ LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller
       // it waits before its line, or before the place that is swept; whom bodies hold isn't coming
       const bool there = foe.front > way.foe_begin;
       if (foe.stands && (!there || approaches.waiting(foe.row).blocked)) continue;
+      // who waits there with its body off the way can be passed
+      if (foe.stands && traveller.length <= kLongBody &&
+          stands_beside(view, traveller, link, way.begin, way.end, foe))
+        continue;
       Occupation theirs = occupation(type_of(model.types, scene.type[foe.row]), foe, way.foe_begin,
                                      way.foe_end, top_speed(model, road, scene, foe.row));
       // who waits there for something doesn't leave by itself

@@ -154,5 +154,30 @@ TEST_F(TurningRoomTest, ABusMayHaltOnTheJunctionWhereItIsInNobodysWay) {
   EXPECT_FALSE(waits_with_front_at(way->begin + 0.5)) << "there already";
 }
 
+// it waited for its exit with its nose where it would turn, and a car that had room before it stood
+// there for 35 s, and so did those who waited for the car
+TEST_F(TurningRoomTest, WhoHasRoomBesideABusThatWaitsDrivesPast) {
+  const std::size_t bus = add_bus();
+  const std::size_t car = add_waiting(25.0, 5.0);
+  const PathLink& link = here_.path(car).links.front();
+  const PathLink& turn = here_.path(bus).links.front();
+  const auto& ways = here_.model.swept_ways[index_of(link.connection)];
+  const auto way = std::find_if(ways.begin(), ways.end(), [&](const SweptWay& each) {
+    return each.foe == turn.connection && each.foe_is_long && !each.for_wide;
+  });
+  ASSERT_NE(way, ways.end());
+  here_.set_speed(bus, 0.0);
+  auto is_held_by_bus_at = [&](double past) {
+    here_.move(bus, turn.stop_line + past - 6.0);
+    here_.update();
+    const Traveller traveller{car, here_.scene.path_along[car] + 2.25, 4.5, 5.0, 13.0};
+    return leave_turning_room(here_.view(), traveller, link).must_stop;
+  };
+  EXPECT_TRUE(is_held_by_bus_at(way->foe_begin + 2.0));
+  const double round = way->foe_begin + 6.0;
+  ASSERT_LT(round, way->foe_end + 12.0) << "its tail isn't out of the way that it sweeps";
+  EXPECT_FALSE(is_held_by_bus_at(round));
+}
+
 }  // namespace
 }  // namespace sumogamma
