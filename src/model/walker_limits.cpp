@@ -132,8 +132,11 @@ double kerb_halt(const Model& model, const Course& course, const PathLink& link)
 void set_walker_limit(const RoadView& view, const Course& course, RoadContext& context) {
   constexpr double kStep = 0.4;     // [m]
   constexpr double kOnIt = 0.7;     // whose front is further past the line crosses [m]
-  constexpr double kPressed = 3.0;  // likewise who waited for the light, and was pressed on [m]
-  const bool was_held = view.scene.context[course.row].reason == LimitReason::Signal;
+  constexpr double kPressed = 3.0;  // likewise who was held there, and was pressed on [m]
+  constexpr double kHeldUp = 2.0;   // [s]
+  // who waited for the light, or set out and got no further: a queue stands over the crossing
+  const bool was_held = view.scene.context[course.row].reason == LimitReason::Signal ||
+                        view.scene.waiting_time[course.row] > kHeldUp;
   const double front = course.along + course.half_length;
   const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed,
                             context.speed_limit};

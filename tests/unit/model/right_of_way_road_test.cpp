@@ -957,6 +957,21 @@ TEST_F(WalkersAtRed, WhoWaitsForTheLightAndIsPressedOnStepsBack) {
   EXPECT_TRUE(steps_back(2.0)) << "it waited";
 }
 
+// at green a queue stood over the crossing: it shuffled about there until the light was red, and
+// then on to and fro
+TEST_F(WalkersAtRed, WhoSetOutAndGotNoFurtherStepsBack) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.1, 195, 5);
+  const double kerb = here_.path(walker).links.at(0).stop_line;
+  here_.scene.waiting_time[walker] = 5.0;
+  put(walker, kerb + 2.0);
+  EXPECT_EQ(here_.context(walker).reason, LimitReason::Signal);
+  const Vec2 way = here_.context(walker).sub_goal - here_.scene.position[walker];
+  EXPECT_LT(way.dot(here_.path(walker).line.direction_at(kerb)), 0.0);
+  here_.scene.context[walker] = {};
+  put(walker, kerb + 4.0);
+  EXPECT_NE(here_.context(walker).reason, LimitReason::Signal) << "amid the road it goes on";
+}
+
 // pressed off the crossing again, it shuffled onto it round somebody who stood behind it
 TEST_F(WalkersAtRed, WhoWaitsBesideItsCrossingIsKeptOffIt) {
   const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.1, 195, 5);
