@@ -70,12 +70,12 @@ LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller
       if (foe.row == traveller.row || (way.foe_is_long && foe.length <= kLongBody)) continue;
       if (foe.front - foe.length >= way.foe_end) continue;
       if (!is_for(way, scene, way.foe_is_long ? traveller.row : foe.row)) continue;
-      // it waits before its line, or before the place that is swept; whom bodies hold isn't coming
-      const bool there = foe.front > way.foe_begin;
-      if (foe.stands && (!there || approaches.waiting(foe.row).blocked)) continue;
+      // it waits before its line, or before the place that is swept; whom bodies hold isn't coming;
       // who waits there with its body off the way can be passed
-      if (foe.stands && traveller.length <= kLongBody &&
-          stands_beside(view, traveller, link, way.begin, way.end, foe))
+      const bool there = foe.front > way.foe_begin;
+      if (foe.stands && (!there || approaches.waiting(foe.row).blocked ||
+                         (traveller.length <= kLongBody &&
+                          stands_beside(view, traveller, link, way.begin, way.end, foe))))
         continue;
       Occupation theirs = occupation(type_of(model.types, scene.type[foe.row]), foe, way.foe_begin,
                                      way.foe_end, top_speed(model, road, scene, foe.row));

@@ -914,6 +914,13 @@ class WalkersAtRed : public ::testing::Test {
     here_.move(walker, front - 0.2);
     here_.update();
   }
+  /// Does somebody aim back at the kerb whose front is so far past it [m]?
+  bool steps_back(std::size_t walker, double front) {
+    const double kerb = here_.path(walker).links.at(0).stop_line;
+    put(walker, kerb + front);
+    const Vec2 way = here_.context(walker).sub_goal - here_.scene.position[walker];
+    return way.dot(here_.path(walker).line.direction_at(kerb)) < 0.0;
+  }
   RoadScene here_{
       read_plain_net(crossroads("traffic_light", {"--sidewalks.guess", "--crossings.guess"}))};
 };
@@ -945,31 +952,22 @@ TEST_F(WalkersAtRed, WhoHasHardlySteppedOnAndCrawlsWaits) {
 // in a crowd at the kerb: who was pressed onto the road took itself for somebody who crosses
 TEST_F(WalkersAtRed, WhoWaitsForTheLightAndIsPressedOnStepsBack) {
   const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.1, 195, 5);
-  const double kerb = here_.path(walker).links.at(0).stop_line;
-  auto steps_back = [&](double front) {
-    put(walker, kerb + front);
-    const Vec2 way = here_.context(walker).sub_goal - here_.scene.position[walker];
-    return way.dot(here_.path(walker).line.direction_at(kerb)) < 0.0;
-  };
-  EXPECT_FALSE(steps_back(2.0)) << "it crosses";
-  steps_back(-0.1);
+  EXPECT_FALSE(steps_back(walker, 2.0)) << "it crosses";
+  steps_back(walker, -0.1);
   ASSERT_EQ(here_.context(walker).reason, LimitReason::Signal);
-  EXPECT_TRUE(steps_back(2.0)) << "it waited";
+  EXPECT_TRUE(steps_back(walker, 2.0)) << "it waited";
 }
 
 // at green a queue stood over the crossing: it shuffled about there until the light was red, and
 // then on to and fro
 TEST_F(WalkersAtRed, WhoSetOutAndGotNoFurtherStepsBack) {
   const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.1, 195, 5);
-  const double kerb = here_.path(walker).links.at(0).stop_line;
   here_.scene.waiting_time[walker] = 5.0;
-  put(walker, kerb + 2.0);
+  EXPECT_TRUE(steps_back(walker, 2.0));
   EXPECT_EQ(here_.context(walker).reason, LimitReason::Signal);
-  const Vec2 way = here_.context(walker).sub_goal - here_.scene.position[walker];
-  EXPECT_LT(way.dot(here_.path(walker).line.direction_at(kerb)), 0.0);
   here_.scene.context[walker] = {};
-  put(walker, kerb + 4.0);
-  EXPECT_NE(here_.context(walker).reason, LimitReason::Signal) << "amid the road it goes on";
+  EXPECT_FALSE(steps_back(walker, 4.0)) << "amid the road it goes on";
+  EXPECT_NE(here_.context(walker).reason, LimitReason::Signal);
 }
 
 // pressed off the crossing again, it shuffled onto it round somebody who stood behind it

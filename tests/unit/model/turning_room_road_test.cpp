@@ -36,6 +36,16 @@ class TurningRoomTest : public ::testing::Test {
     const Traveller traveller{row, here_.scene.path_along[row] + 2.25, 4.5, 5.0, 13.0};
     return link.halt - halt_for_long_bodies(here_.view(), traveller, link);
   }
+  /// Where the first link of `row` and that of `other` are in each other's way, for cars; the foe
+  /// there is `other`.
+  const SweptWay* shared_way(std::size_t row, std::size_t other, bool other_is_long) {
+    const ConnectionId foe = here_.path(other).links.front().connection;
+    const auto& ways = here_.model.swept_ways[index_of(here_.path(row).links.front().connection)];
+    const auto way = std::find_if(ways.begin(), ways.end(), [&](const SweptWay& each) {
+      return each.foe == foe && each.foe_is_long == other_is_long && !each.for_wide;
+    });
+    return way != ways.end() ? &*way : nullptr;
+  }
   RoadScene here_{net()};
 };
 
@@ -136,13 +146,9 @@ TEST_F(TurningRoomTest, ABusThatWouldWaitOnTheJunctionLeavesRoomBeforeIt) {
 // good
 TEST_F(TurningRoomTest, ABusMayHaltOnTheJunctionWhereItIsInNobodysWay) {
   const std::size_t bus = add_bus();
-  const ConnectionId link = here_.path(bus).links.front().connection;
   const std::size_t car = add_waiting(0.6, 0.0);
-  const ConnectionId foe = here_.path(car).links.front().connection;
-  const auto& ways = here_.model.swept_ways[index_of(link)];
-  const auto way =
-      std::find_if(ways.begin(), ways.end(), [&](const SweptWay& each) { return each.foe == foe; });
-  ASSERT_NE(way, ways.end());
+  const SweptWay* way = shared_way(bus, car, false);
+  ASSERT_NE(way, nullptr);
   ASSERT_GT(way->begin, 1.0);
   auto waits_with_front_at = [&](double past) {
     here_.move(bus, here_.path(bus).links.front().stop_line + past - 6.0);
@@ -161,11 +167,8 @@ TEST_F(TurningRoomTest, WhoHasRoomBesideABusThatWaitsDrivesPast) {
   const std::size_t car = add_waiting(25.0, 5.0);
   const PathLink& link = here_.path(car).links.front();
   const PathLink& turn = here_.path(bus).links.front();
-  const auto& ways = here_.model.swept_ways[index_of(link.connection)];
-  const auto way = std::find_if(ways.begin(), ways.end(), [&](const SweptWay& each) {
-    return each.foe == turn.connection && each.foe_is_long && !each.for_wide;
-  });
-  ASSERT_NE(way, ways.end());
+  const SweptWay* way = shared_way(car, bus, true);
+  ASSERT_NE(way, nullptr);
   here_.set_speed(bus, 0.0);
   auto is_held_by_bus_at = [&](double past) {
     here_.move(bus, turn.stop_line + past - 6.0);
