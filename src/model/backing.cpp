@@ -20,6 +20,7 @@ constexpr double kBrake = 2.0;          // [m/s^2]
 constexpr double kLeast = 8.0;          // wedged for so long before anybody backs out [s]
 constexpr double kStagger = 8.0;        // and up to so much longer, so that not all do at once [s]
 constexpr double kTries = 14.0;         // rolls back for so long at the most [s]
+constexpr double kStarts = 0.5;         // until it rolls [s]
 constexpr double kMakesRoom = 12.0;     // likewise who lets somebody back out [s]
 constexpr double kStepsBack = 5.0;      // likewise who stands in somebody's way [s]
 constexpr double kHeldUp = 8.0;         // and has stood for so long before [s]
@@ -156,7 +157,11 @@ void update_backing(const Model& model, const TickGeometry& geometry, double dt,
   gives_way = std::max(0.0, gives_way - dt);
   if (left > 0.0) {
     const bool moved_on = scene.speed[row] > kPace;
-    left = moved_on ? 0.0 : left - dt;
+    // who makes room for a change of lanes and comes up against somebody behind lets others go
+    const bool no_further = scene.context[row].reason == LimitReason::Merge &&
+                            backward_speed(scene, row) < kStill &&
+                            scene.standing_time[row] < kTries - left - kStarts;
+    left = moved_on || no_further ? 0.0 : left - dt;
     if (left <= 0.0) {
       left = 0.0;
       // who made room for somebody follows it again

@@ -47,8 +47,11 @@ bool is_safe(const Scene& scene, const Surroundings& around, std::size_t row, do
         user.front < front &&
         scene.context[user.row].foe == static_cast<std::int64_t>(scene.id[row].value);
     if (user.rear < front && user.front > rear) {
-      // who stands beside our tail and holds leaves the way for our nose
-      if (lets_us_in && user.front < front - kNoseRoom && user.speed < kHolds) continue;
+      // who stands beside our tail and holds, or has stepped back to let others go first, leaves
+      // the way for our nose
+      const bool holds = lets_us_in || scene.gives_way_left[user.row] > 0.0;
+      const double room = nose_room(2.0 * around.half_length);
+      if (holds && user.front < front - room && user.speed < kHolds) continue;
       return false;
     }
     const bool ahead = user.rear >= front;

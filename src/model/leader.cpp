@@ -80,9 +80,10 @@ bool changes_into_way(const Path& path, const Scene& scene, std::size_t row, std
 
 /// Does who is beside the tail of somebody that waits for long for a gap let its nose in, as who is
 /// behind it does? In a dense queue beside a long body nobody is ever behind it.
-bool lets_nose_in(const Scene& scene, std::size_t row, std::size_t other, double nose_ahead) {
+bool lets_nose_in(const Scene& scene, std::size_t row, std::size_t other, double nose_ahead,
+                  double room) {
   constexpr double kHolds = 20.0;  // [s]
-  return nose_ahead > kNoseRoom && waits_long(scene, other) && scene.standing_time[row] < kHolds;
+  return nose_ahead > room && waits_long(scene, other) && scene.standing_time[row] < kHolds;
 }
 
 /// Remembers the nearest of those ahead who wait for a gap in this lane or are on their way into
@@ -136,6 +137,11 @@ void cap_passing(double speed, std::int64_t id, DrivingAhead& ahead) {
 }
 
 }  // namespace
+
+double nose_room(double length) {
+  constexpr double kMost = 2.5, kShare = 0.6;  // [m], of the length
+  return std::min(kMost, kShare * length);
+}
 
 Leader find_leader(const Model& model, const RoadState& road, const Scene& scene,
                    const SpatialGrid& grid, std::size_t row, double reach, DrivingAhead& ahead) {
@@ -236,9 +242,10 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
       const double nose_ahead = front - along - own_half_length;
       // who is on its way already and has its middle ahead needs the room beside it, too
       const bool behind = on_its_way || swaps || rear > along + own_half_length + 1.0;
+      const double room = nose_room(front - rear);
       const double kept_free =
-          behind ? rear : front - kNoseRoom - kHaltsBefore + type.min_gap;  // from here on
-      if (behind || lets_nose_in(scene, row, other, nose_ahead))
+          behind ? rear : front - room - kHaltsBefore + type.min_gap;  // from here on
+      if (behind || lets_nose_in(scene, row, other, nose_ahead, room))
         note_merging({kept_free, front, std::max(0.0, scene.velocity[other].dot(direction)),
                       static_cast<std::int64_t>(scene.id[other].value), other},
                      on_its_way || swaps, ahead);

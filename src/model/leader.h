@@ -9,8 +9,9 @@
 
 namespace sumogamma {
 
-/// Way that somebody who waits long for a gap between lanes needs beside its nose [m].
-constexpr double kNoseRoom = 2.5;
+/// Way that somebody of this length [m] who waits long for a gap between lanes needs beside its
+/// nose [m].
+double nose_room(double length);
 
 /// What is next in the way on an agent's path.
 struct Leader {

@@ -86,6 +86,19 @@ TEST_F(BackingTest, WhoFindsNoGapBacksOutAtARedLightToo) {
   EXPECT_GT(stand_wedged(own, 60.0), 1.0);
 }
 
+// two motorcycles that wanted each other's lane rolled back until somebody stood behind them and
+// drove up to their line again, for minutes
+TEST_F(BackingTest, WhoFindsNoGapGivesWayFromWhereItCanRollNoFurther) {
+  const std::size_t own = here_.add("motorcycle", {"WC", "CE"}, 100, 0);
+  here_.add("car", {"WC", "CE"}, 94.5, 0);
+  here_.scene.context[own].reason = LimitReason::Merge;
+  double rolled = 0, just_now = 0;
+  for (int k = 0; k < 60 && (rolled < 1.0 || just_now > 0.01); ++k)
+    rolled += just_now = stand_wedged(own, 1.0);
+  EXPECT_GT(rolled, 1.0);
+  EXPECT_GT(here_.scene.gives_way_left[own], 1.0);
+}
+
 // Who stands behind somebody that has no room to back out makes some, and so on down the queue.
 TEST_F(BackingTest, AQueueMakesRoomOneAfterTheOther) {
   const std::size_t first = here_.add("car", {"WC", "CE"}, 100, 0);

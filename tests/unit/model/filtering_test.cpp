@@ -422,6 +422,35 @@ TEST_F(LongWait, IsOverOnceWhoIsBesideTheTailHolds) {
   EXPECT_FALSE(waits_on());
 }
 
+// of two motorcycles abreast that wanted each other's lane one rolled back, and the other stayed
+TEST(Swap, WhoHasRolledBackToLetOthersGoLeavesTheWayForANose) {
+  RoadScene here(testing::read_plain_net(both_lanes_lead_on()));
+  const std::size_t own = here.add("motorcycle", {"CE", "EL"}, 0, 0, 0, -1, "CE_0");
+  double along = here.scene.path_along[own];
+  auto late = stay_in_lane(here.model.road, here.path(own), along, 30.0, 20.0);
+  ASSERT_TRUE(late);
+  take_path(std::move(*late), along, own, here.road, here.scene);
+  const auto& stretches = here.path(own).stretches;
+  const auto change = std::find_if(stretches.begin(), stretches.end(),
+                                   [](const PathStretch& stretch) { return stretch.changing; });
+  ASSERT_NE(change, stretches.end());
+  here.move(own, change->from - 1.0);
+  const double x = here.scene.position[own].x();
+  const std::size_t other = here.add("motorcycle", {"CE", "EL"}, 5, 0, 0, -1, "CE_1");
+  const auto waits = [&](double behind, double gives_way) {
+    here.move(
+        other,
+        here.path(other).line.project(Vec2(x - behind, here.scene.position[other].y())).along);
+    here.scene.gives_way_left[other] = gives_way;
+    here.update();
+    let_all_look(here);
+    return std::isfinite(here.scene.gate[own]);
+  };
+  EXPECT_TRUE(waits(1.6, 0.0));
+  EXPECT_FALSE(waits(1.6, 5.0));
+  EXPECT_TRUE(waits(0.6, 5.0)) << "its nose is beside the own one";
+}
+
 // the lane was two metres long: everybody was on the junction before it, and nobody let anybody in
 TEST_F(LongWait, WhoIsOnItsWayIntoThatLaneLetsItIn) {
   const std::size_t car = here_.add("car", {"WC", "CE", "EL"}, 100, 4, 0, -1, "WC_1");
