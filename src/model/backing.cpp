@@ -157,7 +157,8 @@ void update_backing(const Model& model, const TickGeometry& geometry, double dt,
   gives_way = std::max(0.0, gives_way - dt);
   if (left > 0.0) {
     const bool moved_on = scene.speed[row] > kPace;
-    // who makes room for a change of lanes and comes up against somebody behind lets others go
+    // who finds no gap to change lanes and comes up against somebody behind gives way from there.
+    // Not for other reasons: with those, too, a large junction locked up in one run of eight
     const bool no_further = scene.context[row].reason == LimitReason::Merge &&
                             backward_speed(scene, row) < kStill &&
                             scene.standing_time[row] < kTries - left - kStarts;

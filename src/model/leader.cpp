@@ -79,11 +79,11 @@ bool changes_into_way(const Path& path, const Scene& scene, std::size_t row, std
 }
 
 /// Does who is beside the tail of somebody that waits for long for a gap let its nose in, as who is
-/// behind it does? In a dense queue beside a long body nobody is ever behind it.
-bool lets_nose_in(const Scene& scene, std::size_t row, std::size_t other, double nose_ahead,
-                  double room) {
+/// behind it does? In a dense queue beside a long body nobody is ever behind it. `to_nose`: from
+/// the own nose to the way that the other's needs [m].
+bool lets_nose_in(const Scene& scene, std::size_t row, std::size_t other, double to_nose) {
   constexpr double kHolds = 20.0;  // [s]
-  return nose_ahead > room && waits_long(scene, other) && scene.standing_time[row] < kHolds;
+  return to_nose > 0.0 && waits_long(scene, other) && scene.standing_time[row] < kHolds;
 }
 
 /// Remembers the nearest of those ahead who wait for a gap in this lane or are on their way into
@@ -239,13 +239,12 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
       const bool swaps =
           !waits && scene.merge_to[row] != kNoLane && scene.merge_to[row] == scene.lane[other].lane;
       const double front = 2.0 * place.along - rear;
-      const double nose_ahead = front - along - own_half_length;
+      const double nose_from = front - nose_room(front - rear);
       // who is on its way already and has its middle ahead needs the room beside it, too
       const bool behind = on_its_way || swaps || rear > along + own_half_length + 1.0;
-      const double room = nose_room(front - rear);
       const double kept_free =
-          behind ? rear : front - room - kHaltsBefore + type.min_gap;  // from here on
-      if (behind || lets_nose_in(scene, row, other, nose_ahead, room))
+          behind ? rear : nose_from - kHaltsBefore + type.min_gap;  // from here on
+      if (behind || lets_nose_in(scene, row, other, nose_from - along - own_half_length))
         note_merging({kept_free, front, std::max(0.0, scene.velocity[other].dot(direction)),
                       static_cast<std::int64_t>(scene.id[other].value), other},
                      on_its_way || swaps, ahead);

@@ -356,25 +356,36 @@ TEST_F(NoGap, NarrowVehiclesChangeLanesInLess) {
   }
 }
 
+/// Puts off the lane change of a row as long as there is room for it, and the row a metre before
+/// it. Where it begins [m along the path].
+double wait_at_gate(RoadScene& here, std::size_t row) {
+  double along = here.scene.path_along[row];
+  for (double room = 40.0; room > 0.0; room -= 1.0) {
+    auto late = stay_in_lane(here.model.road, here.path(row), along, room, 20.0);
+    if (!late) continue;
+    take_path(std::move(*late), along, row, here.road, here.scene);
+    break;
+  }
+  const auto& stretches = here.path(row).stretches;
+  const auto change = std::find_if(stretches.begin(), stretches.end(),
+                                   [](const PathStretch& stretch) { return stretch.changing; });
+  if (change == stretches.end()) throw std::runtime_error("the row changes no lane");
+  here.move(row, change->from - 1.0);
+  return change->from;
+}
+
+/// Moves a row along its path to where x is this [m].
+void move_to_x(RoadScene& here, std::size_t row, double x) {
+  here.move(row, here.path(row).line.project(Vec2(x, here.scene.position[row].y())).along);
+}
+
 // A bus that has to change into the lane beside, at the end of its own, in a queue: whoever was
 // beside its tail was neither before nor behind it, and it stood there for minutes.
 class LongWait : public ::testing::Test {
  protected:
   LongWait() : bus_(here_.add("bus", {"CE", "EL"}, 0, 0, 0, -1, "CE_0")) {
-    // its change begins at the last place that leaves room for it
-    double along = here_.scene.path_along[bus_];
-    for (double room = 40.0; room > 0.0; room -= 1.0) {
-      auto late = stay_in_lane(here_.model.road, here_.path(bus_), along, room, 20.0);
-      if (!late) continue;
-      take_path(std::move(*late), along, bus_, here_.road, here_.scene);
-      break;
-    }
-    const auto& stretches = here_.path(bus_).stretches;
-    const auto change = std::find_if(stretches.begin(), stretches.end(),
-                                     [](const PathStretch& stretch) { return stretch.changing; });
-    if (change == stretches.end()) throw std::runtime_error("the bus changes no lane");
-    here_.move(bus_, change->from - 1.0);
-    here_.scene.gate[bus_] = change->from;
+    const double gate = wait_at_gate(here_, bus_);
+    here_.scene.gate[bus_] = gate;
     here_.scene.merge_to[bus_] = here_.model.road.lane_by_name.at("CE_1");
     here_.scene.standing_time[bus_] = 12;
   }
@@ -382,8 +393,7 @@ class LongWait : public ::testing::Test {
   std::size_t add_car(double behind, double speed) {
     const std::size_t car = here_.add("car", {"CE", "EL"}, 5, speed, 0, -1, "CE_1");
     const double nose = here_.scene.position[bus_].x() + 6.0 - behind;
-    here_.move(
-        car, here_.path(car).line.project(Vec2(nose - 2.25, here_.scene.position[car].y())).along);
+    move_to_x(here_, car, nose - 2.25);
     return car;
   }
   bool lets_in(std::size_t car) {
@@ -426,21 +436,11 @@ TEST_F(LongWait, IsOverOnceWhoIsBesideTheTailHolds) {
 TEST(Swap, WhoHasRolledBackToLetOthersGoLeavesTheWayForANose) {
   RoadScene here(testing::read_plain_net(both_lanes_lead_on()));
   const std::size_t own = here.add("motorcycle", {"CE", "EL"}, 0, 0, 0, -1, "CE_0");
-  double along = here.scene.path_along[own];
-  auto late = stay_in_lane(here.model.road, here.path(own), along, 30.0, 20.0);
-  ASSERT_TRUE(late);
-  take_path(std::move(*late), along, own, here.road, here.scene);
-  const auto& stretches = here.path(own).stretches;
-  const auto change = std::find_if(stretches.begin(), stretches.end(),
-                                   [](const PathStretch& stretch) { return stretch.changing; });
-  ASSERT_NE(change, stretches.end());
-  here.move(own, change->from - 1.0);
+  wait_at_gate(here, own);
   const double x = here.scene.position[own].x();
   const std::size_t other = here.add("motorcycle", {"CE", "EL"}, 5, 0, 0, -1, "CE_1");
   const auto waits = [&](double behind, double gives_way) {
-    here.move(
-        other,
-        here.path(other).line.project(Vec2(x - behind, here.scene.position[other].y())).along);
+    move_to_x(here, other, x - behind);
     here.scene.gives_way_left[other] = gives_way;
     here.update();
     let_all_look(here);
