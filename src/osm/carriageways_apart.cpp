@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/simplify.h"
 #include "osm/lane_overlap.h"
 #include "osm/road_bodies.h"
 
@@ -25,7 +26,7 @@ constexpr double kGap = 0.25;  // [m] left between two that were moved apart; ne
                                // junctions of lanes that touch
 constexpr double kShortest = 8.0;       // [m] of overlap that matters
 constexpr double kAlong = 0.8;          // least |cos| of the angle between two edges
-constexpr double kSameHeight = 2.5;     // [m]
+constexpr double kSameHeight = 4.0;     // [m]
 constexpr double kJunctionReach = 3.0;  // [m] from a shared junction, where nothing counts
 constexpr double kNarrow = 2.75;        // [m] width of a lane for driving where there is no room
 constexpr double kInside = 1.0 / 3;     // share of a path's length
@@ -440,30 +441,6 @@ void drop_paths(const RoadNetwork& road, const SegmentGrid& grid,
 
 using Point3 = Eigen::Vector3d;
 
-/// Marks the points between `first` and `last` without which the line would be off by more than
-/// kStraight (Douglas and Peucker, 1973).
-void mark_needed(const std::vector<Point3>& points, std::size_t first, std::size_t last,
-                 std::vector<bool>& needed) {
-  const Point3 chord = points[last] - points[first];
-  double worst = kStraight;
-  std::size_t at = first;
-  for (std::size_t i = first + 1; i < last; ++i) {
-    const Point3 from_first = points[i] - points[first];
-    // an edge may end where it starts
-    const double share =
-        chord.isZero() ? 0.0 : std::clamp(from_first.dot(chord) / chord.squaredNorm(), 0.0, 1.0);
-    const double off = (from_first - share * chord).norm();
-    if (off > worst) {
-      worst = off;
-      at = i;
-    }
-  }
-  if (at == first) return;
-  needed[at] = true;
-  mark_needed(points, first, at, needed);
-  mark_needed(points, at, last, needed);
-}
-
 /// SUMO's shape attribute of the moved line; points that a bend's inside folded over, and those
 /// that a straight line does not need, are left out.
 std::string shape_text(const RoadBody& body, bool reversed) {
@@ -477,9 +454,7 @@ std::string shape_text(const RoadBody& body, bool reversed) {
     points.emplace_back(p.x(), p.y(), body.heights[i]);
     kept = i;
   }
-  std::vector<bool> needed(points.size(), false);
-  needed.front() = needed.back() = true;
-  mark_needed(points, 0, points.size() - 1, needed);
+  std::vector<bool> needed = needed_points(points, kStraight);
   if (reversed) {
     std::reverse(points.begin(), points.end());
     std::reverse(needed.begin(), needed.end());

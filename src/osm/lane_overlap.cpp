@@ -13,7 +13,7 @@ constexpr double kStep = 2.0;           // [m] between the places looked at
 constexpr double kShortest = 8.0;       // [m]
 constexpr double kAlong = 0.8;          // least |cos| of the angle between the lanes
 constexpr double kTolerance = 0.3;      // [m] of overlap that is no harm
-constexpr double kSameHeight = 2.5;     // [m]
+constexpr double kSameHeight = 4.0;     // [m]
 constexpr double kJunctionReach = 3.0;  // [m]
 constexpr double kCell = 12.0;          // [m]
 

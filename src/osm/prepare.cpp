@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/units.h"
+#include "osm/round_bends.h"
 
 namespace sumogamma::osm {
 namespace {
@@ -665,6 +666,7 @@ void prepare_map(OsmMap& map, const PrepareOptions& options, IssueLog& log) {
     split_carriageway_ends(map, options.box, log);
   }
   snap_signals(map, options.signal_reach, log);
+  round_bends(map, log);
   add_footways_at_crossings(map, log);
   filter_restrictions(map, log);
 }

@@ -48,12 +48,21 @@ bool is_far_from_ends(const Polyline& line, double along) {
   return along > kFromEnds && along < line.length() - kFromEnds;
 }
 
+/// True where the map has the roads on different layers and no junction joins them: they cross,
+/// however near to their ends.
+bool are_apart(const RoadNetwork& network, const Road& one, const Road& other) {
+  const Edge &a = network.edge(one.edge), &b = network.edge(other.edge);
+  return one.lane->layer != other.lane->layer && a.from != b.from && a.from != b.to &&
+         a.to != b.from && a.to != b.to;
+}
+
 /// Adds where two centerlines (or one and itself) cross.
 void add_crossings(const Road& one, const Road& other, RoadNetwork& network) {
   const Polyline &own = one.lane->centerline, &their = other.lane->centerline;
   const std::vector<Vec2>&a = own.points(), &b = their.points();
   const bool same = one.edge == other.edge,
-             opposite = are_opposite(network.edge(one.edge), network.edge(other.edge));
+             opposite = are_opposite(network.edge(one.edge), network.edge(other.edge)),
+             apart = are_apart(network, one, other);
   for (std::size_t i = 0; i + 1 < a.size(); ++i) {
     const Vec2 along = a[i + 1] - a[i];
     for (std::size_t j = same ? i + 2 : 0; j + 1 < b.size(); ++j) {
@@ -65,7 +74,7 @@ void add_crossings(const Road& one, const Road& other, RoadNetwork& network) {
                    there = their.along_of_vertex(j) + share->y() * across.norm();
       if (same && there - here < kShortestLoop) continue;
       if (opposite && std::abs(here - (their.length() - there)) < kShortestLoop) continue;
-      if (is_far_from_ends(own, here) && is_far_from_ends(their, there))
+      if (apart || (is_far_from_ends(own, here) && is_far_from_ends(their, there)))
         network.overpasses.push_back({one.edge, other.edge, here, there});
     }
   }

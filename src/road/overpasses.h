@@ -8,8 +8,8 @@ namespace sumogamma {
 /// node in common where they meet; without one, one of them is a bridge or a tunnel, whether the
 /// map's layers and heights say so or not (a ramp that winds over itself is one way, of one layer).
 /// So: roads for motor vehicles whose centerlines cross, at 30 degrees or more and 12 m or more
-/// from the ends of both; of one and itself, or the two directions of one road, where 40 m or more
-/// lie between.
+/// from the ends of both, or anywhere where their layers differ and no junction joins them; of one
+/// and itself, or the two directions of one road, where 40 m or more lie between.
 void find_overpasses(RoadNetwork& network);
 
 }  // namespace sumogamma

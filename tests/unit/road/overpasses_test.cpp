@@ -36,6 +36,16 @@ TEST_F(OverpassesTest, WhereRoadsEndOrTouchTheyDontCross) {
   EXPECT_TRUE(found().empty()) << "25 degrees";
 }
 
+// as the way into a car park (93091321) under a road in Monaco, 11 m before a junction of the road
+TEST_F(OverpassesTest, RoadsOfTwoLayersCrossHoweverNearToTheirEnds) {
+  lane("bridge_0").centerline = Polyline({{85, -60}, {85, 60}});
+  lane("bridge_0").layer = 1;
+  EXPECT_EQ(found().size(), 2u);
+  Edge& bridge = net_.edges[index_of(lane("bridge_0").edge)];
+  bridge.from = net_.edge(lane("in_0").edge).to;
+  EXPECT_LT(found().size(), 2u) << "a ramp leaves the road's junction";
+}
+
 TEST_F(OverpassesTest, AFootwayMayCrossAtGrade) {
   lane("bridge_0").allowed = vehicle_class::kPedestrian;
   EXPECT_TRUE(found().empty());

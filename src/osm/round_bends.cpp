@@ -1,0 +1,219 @@
+#include "osm/round_bends.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "geometry/simplify.h"
+#include "geometry/vec2.h"
+#include "osm/prepare.h"
+
+namespace sumogamma::osm {
+namespace {
+
+constexpr double kRadius = 15.0;     // [m] least of a road's middle
+constexpr double kTighter = 0.9;     // of the radius, where a bend would move too far
+constexpr double kFarthest = 4.0;    // [m] that a point moves; maps are off by as much
+constexpr double kFromEnds = 15.0;   // [m] along the road from a junction, which netconvert shapes
+constexpr double kLeast = 0.5;       // [m] a move that is not worth new points
+constexpr double kSpacing = 1.5;     // [m] of the points that move
+constexpr double kStill = 0.0005;    // [m] of change in a round that is none
+constexpr double kTolerance = 0.05;  // [m] by which the drawn line may be off the rounded one
+constexpr int kRounds = 5000;
+
+/// A road from one junction, end or roundabout to the next, over the ends of ways.
+using Road = std::vector<std::int64_t>;
+
+bool is_ring(const MapWay& way) {
+  return tag_is(way.tags, "junction", {"roundabout", "circular"}) ||
+         way.nodes.front() == way.nodes.back();
+}
+
+/// Nodes of roads for cars by node that is next to them on some road. A roundabout's own have none.
+using Neighbours = std::map<std::int64_t, std::vector<std::int64_t>>;
+
+Neighbours find_neighbours(const OsmMap& map) {
+  Neighbours neighbours;
+  std::vector<std::int64_t> on_rings;
+  for (const MapWay& way : map.ways) {
+    if (!is_car_way(way) || way.nodes.size() < 2) continue;
+    if (is_ring(way)) {
+      on_rings.insert(on_rings.end(), way.nodes.begin(), way.nodes.end());
+      continue;
+    }
+    for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i) {
+      neighbours[way.nodes[i]].push_back(way.nodes[i + 1]);
+      neighbours[way.nodes[i + 1]].push_back(way.nodes[i]);
+    }
+  }
+  // whoever comes to a ring ends there: as many as it takes to be no node between two others
+  for (const std::int64_t node : on_rings)
+    if (const auto found = neighbours.find(node); found != neighbours.end())
+      found->second.insert(found->second.end(), 2, node);
+  return neighbours;
+}
+
+std::vector<Road> find_roads(const OsmMap& map) {
+  const Neighbours neighbours = find_neighbours(map);
+  const auto goes_on = [](const std::vector<std::int64_t>& next) {
+    return next.size() == 2 && next[0] != next[1];
+  };
+  std::vector<Road> roads;
+  for (const auto& [end, nexts] : neighbours) {
+    if (goes_on(nexts)) continue;
+    for (const std::int64_t first : nexts) {
+      Road road{end, first};
+      for (auto next = &neighbours.at(first); goes_on(*next); next = &neighbours.at(road.back()))
+        road.push_back((*next)[(*next)[0] == road[road.size() - 2] ? 1 : 0]);
+      // each is found from both of its ends
+      if (std::pair(road.front(), road[1]) < std::pair(road.back(), road[road.size() - 2]))
+        roads.push_back(std::move(road));
+    }
+  }
+  return roads;
+}
+
+/// A road's line with points 1.5 m apart.
+struct Line {
+  std::vector<Vec2> points;         ///< [m]
+  std::vector<std::size_t> places;  ///< by node of the road: which point it is
+};
+
+Line draw(const OsmMap& map, const LocalMetric& metric, const Road& road) {
+  Line line;
+  for (const std::int64_t node : road) {
+    const GeoPoint place = map.nodes.at(node).place;
+    const Vec2 here(metric.east(place), metric.north(place));
+    if (!line.points.empty()) {
+      const Vec2 before = line.points.back();
+      const double pieces = std::max(1.0, std::round((here - before).norm() / kSpacing));
+      for (double k = 1; k < pieces; ++k)
+        line.points.push_back(before + (here - before) * (k / pieces));
+    }
+    line.places.push_back(line.points.size());
+    line.points.push_back(here);
+  }
+  return line;
+}
+
+/// Where a point between two others has to be so that the three turn with no less than the radius.
+Vec2 eased(const Vec2& before, const Vec2& point, const Vec2& after, double radius) {
+  const double a = (point - before).norm(), b = (after - point).norm();
+  if (a + b < 1e-6) return point;
+  const Vec2 to_chord = (before * b + after * a) / (a + b) - point;
+  const double off = to_chord.norm(), sagitta = a * b / (2 * radius);
+  return off <= sagitta ? point : Vec2(point + to_chord * (1 - sagitta / off));
+}
+
+/// Eases a line, each point between its neighbours, until none moves any more. `radii` are by
+/// point, 0 for those that stay.
+std::vector<Vec2> ease(std::vector<Vec2> points, const std::vector<double>& radii) {
+  std::vector<std::size_t> free;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (radii[i] > 0) free.push_back(i);
+  for (int round = 0; round < kRounds; ++round) {
+    double farthest = 0;
+    for (const std::size_t i : free) {
+      const Vec2 moved = eased(points[i - 1], points[i], points[i + 1], radii[i]);
+      farthest = std::max(farthest, (moved - points[i]).norm());
+      points[i] = moved;
+    }
+    if (farthest <= kStill) break;
+    std::reverse(free.begin(), free.end());  // else bends lean to one side
+  }
+  return points;
+}
+
+/// Radii for the points of a line: those near its ends stay.
+std::vector<double> first_radii(const std::vector<Vec2>& points) {
+  std::vector<double> along{0};
+  for (std::size_t i = 1; i < points.size(); ++i)
+    along.push_back(along.back() + (points[i] - points[i - 1]).norm());
+  std::vector<double> radii(points.size(), 0.0);
+  for (std::size_t i = 1; i + 1 < points.size(); ++i)
+    if (std::min(along[i], along.back() - along[i]) >= kFromEnds) radii[i] = kRadius;
+  return radii;
+}
+
+/// The line with its bends rounded: one that would move too far with a smaller radius, one that
+/// hardly moves not at all.
+std::vector<Vec2> rounded(const std::vector<Vec2>& drawn) {
+  std::vector<double> radii = first_radii(drawn);
+  for (;;) {
+    std::vector<Vec2> points = ease(drawn, radii);
+    bool again = false;
+    const auto move = [&](std::size_t i) { return (points[i] - drawn[i]).norm(); };
+    for (std::size_t first = 0, last = 0; first < points.size(); first = last + 1) {
+      double farthest = 0;
+      for (last = first; last < points.size() && move(last) > 0; ++last)
+        farthest = std::max(farthest, move(last));
+      if (farthest > 0 && farthest < kLeast)
+        std::copy_n(&drawn[first], last - first, &points[first]);
+      again = again || farthest > kFarthest;
+      if (farthest > kFarthest)
+        for (std::size_t i = first; i < last; ++i) radii[i] *= kTighter;
+    }
+    if (!again) return points;
+  }
+}
+
+/// New nodes by the two between which they come.
+using Added = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::int64_t>>;
+
+void redraw(const Road& road, const Line& line, const LocalMetric& metric, OsmMap& map,
+            Added& added) {
+  const auto place_of = [&](const Vec2& p) {
+    return GeoPoint{metric.origin.lon + p.x() / metric.meters_per_lon,
+                    metric.origin.lat + p.y() / metric.meters_per_lat};
+  };
+  for (std::size_t n = 0; n + 1 < road.size(); ++n) {
+    if (n > 0) map.nodes.at(road[n]).place = place_of(line.points[line.places[n]]);
+    const std::vector<Vec2> piece(line.points.begin() + line.places[n],
+                                  line.points.begin() + line.places[n + 1] + 1);
+    const std::vector<bool> needed = needed_points(piece, kTolerance);
+    std::vector<std::int64_t>& nodes = added[{road[n], road[n + 1]}];
+    for (std::size_t i = 1; i + 1 < piece.size(); ++i) {
+      if (!needed[i]) continue;
+      nodes.push_back(map.new_id());
+      map.nodes[nodes.back()].place = place_of(piece[i]);
+    }
+  }
+}
+
+void insert(const Added& added, MapWay& way) {
+  std::vector<std::int64_t> nodes;
+  for (std::size_t i = 0; i < way.nodes.size(); ++i) {
+    if (i > 0) {
+      const std::int64_t from = way.nodes[i - 1], to = way.nodes[i];
+      if (const auto ahead = added.find({from, to}); ahead != added.end())
+        nodes.insert(nodes.end(), ahead->second.begin(), ahead->second.end());
+      else if (const auto back = added.find({to, from}); back != added.end())
+        nodes.insert(nodes.end(), back->second.rbegin(), back->second.rend());
+    }
+    nodes.push_back(way.nodes[i]);
+  }
+  way.nodes = std::move(nodes);
+}
+
+}  // namespace
+
+void round_bends(OsmMap& map, IssueLog& log) {
+  Added added;
+  for (const Road& road : find_roads(map)) {
+    const LocalMetric metric(map.nodes.at(road.front()).place);
+    Line line = draw(map, metric, road);
+    const std::vector<Vec2> points = rounded(line.points);
+    if (points == line.points) continue;
+    line.points = points;
+    redraw(road, line, metric, map, added);
+    log.add(Severity::Note, "bends_rounded",
+            "roads drawn with corners between junctions, where they were rounded",
+            "node/" + std::to_string(road[road.size() / 2]));
+  }
+  for (MapWay& way : map.ways)
+    if (is_car_way(way)) insert(added, way);
+}
+
+}  // namespace sumogamma::osm
