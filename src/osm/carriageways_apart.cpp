@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/simplify.h"
+#include "osm/bend_room.h"
 #include "osm/lane_overlap.h"
 #include "osm/road_bodies.h"
 
@@ -442,15 +443,18 @@ void drop_paths(const RoadNetwork& road, const SegmentGrid& grid,
 using Point3 = Eigen::Vector3d;
 
 /// SUMO's shape attribute of the moved line; points that a bend's inside folded over, and those
-/// that a straight line does not need, are left out.
-std::string shape_text(const RoadBody& body, bool reversed) {
+/// that a straight line does not need, are left out. `aside` is by how much more an edge moves than
+/// its body, to the left of the body's line [m].
+std::string shape_text(const RoadBody& body, const std::vector<double>& aside, bool reversed) {
   std::vector<Point3> points;
   std::size_t kept = 0;
+  const auto moved = [&](std::size_t i) {
+    return Vec2(body.moved(i) + aside[i] * body.normals[i]);
+  };
   for (std::size_t i = 0; i < body.points.size(); ++i) {
     const bool last = i + 1 == body.points.size();
-    const Vec2 p = body.moved(i);
-    if (i > 0 && !last && (p - body.moved(kept)).dot(body.points[i] - body.points[kept]) <= 0)
-      continue;
+    const Vec2 p = moved(i);
+    if (i > 0 && !last && (p - moved(kept)).dot(body.points[i] - body.points[kept]) <= 0) continue;
     points.emplace_back(p.x(), p.y(), body.heights[i]);
     kept = i;
   }
@@ -467,6 +471,12 @@ std::string shape_text(const RoadBody& body, bool reversed) {
     text += (text.empty() ? "" : " ") + std::string(word);
   }
   return text;
+}
+
+double greatest(const std::vector<double>& moves) {
+  double most = 0;
+  for (const double move : moves) most = std::max(most, std::abs(move));
+  return most;
 }
 
 }  // namespace
@@ -487,12 +497,15 @@ CarriagewayPlan plan_carriageways(const std::filesystem::path& network_file,
   if (narrow(road, grid, bodies, plan)) move_apart(road, grid, links, bodies);
 
   for (const RoadBody& body : bodies) {
-    double farthest = 0;
-    for (const double shift : body.shift) farthest = std::max(farthest, std::abs(shift));
-    if (farthest < kLeast || plan.dropped.contains(road.edge(body.edge).name)) continue;
-    plan.farthest = std::max(plan.farthest, farthest);
-    plan.shapes[road.edge(body.edge).name] = shape_text(body, false);
-    if (body.twin != kNoEdge) plan.shapes[road.edge(body.twin).name] = shape_text(body, true);
+    if (plan.dropped.contains(road.edge(body.edge).name)) continue;
+    const BendRoom room = room_in_bends(body, road.left_hand);
+    const double farthest = greatest(body.shift);
+    const double widest = std::max(greatest(room.edge), greatest(room.twin));
+    if (std::max(farthest, widest) < kLeast) continue;
+    if (farthest >= kLeast) plan.farthest = std::max(plan.farthest, farthest);
+    plan.shapes[road.edge(body.edge).name] = shape_text(body, room.edge, false);
+    if (body.twin != kNoEdge)
+      plan.shapes[road.edge(body.twin).name] = shape_text(body, room.twin, true);
   }
   return plan;
 }

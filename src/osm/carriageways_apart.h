@@ -9,7 +9,8 @@
 
 namespace sumogamma::osm {
 
-/// How edges are to change so that lanes of different edges no longer lie on each other.
+/// How edges are to change so that lanes of different edges no longer lie on each other, and long
+/// bodies get round bends.
 struct CarriagewayPlan {
   std::map<std::string, std::string> shapes;  ///< by edge: SUMO's shape attribute "x,y,z x,y,z ..."
   std::map<std::string, double> lane_widths;  ///< by lane: narrower than it was [m]
@@ -21,7 +22,8 @@ struct CarriagewayPlan {
 
 /// Plans to move edges apart whose lanes lie on each other (see find_lane_overlaps()): OSM's lines
 /// are metres off, netconvert's lane widths are guessed, and it puts the sidewalk of a one-way road
-/// beside the lanes and then the middle of both on the line. A road's two directions move as one.
+/// beside the lanes and then the middle of both on the line. A road's two directions move as one,
+/// and then get room between them where it bends sharply (room_in_bends()).
 ///
 /// Each pair shares the move equally, but paths make way for roads; a road moves 4 m at most, a
 /// path 8 m; a move fades out at 1 m in 10 m along the road and on beyond the junctions through

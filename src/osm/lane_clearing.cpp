@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kCell = 10.0;          // [m]
 constexpr double kFootClearance = 0.6;  // [m] to either side of a sidewalk's middle
+constexpr double kOffGround = 2.5;      // [m] over or under the street
+constexpr double kBesideTunnel = 1.5;   // [m] beyond a lane up there or down there
 constexpr double kJoint = 0.3;          // [m] by which pieces overlap, so that bends leave no gap
 constexpr VehicleClassMask kOnFootOrBicycle = vehicle_class::kPedestrian | vehicle_class::kBicycle;
 
@@ -16,7 +18,14 @@ std::uint64_t cell_key(std::int64_t column, std::int64_t row) {
          static_cast<std::uint64_t>(row + (1 << 30));
 }
 
-double half_width_of(const Lane& lane) {
+/// Is a segment of the lane well over or under the street?
+bool is_off_the_ground(const Lane& lane, std::size_t segment) {
+  return !lane.elevation.empty() && std::min(std::abs(lane.elevation[segment]),
+                                             std::abs(lane.elevation[segment + 1])) > kOffGround;
+}
+
+double half_width_of(const Lane& lane, std::size_t segment) {
+  if (is_off_the_ground(lane, segment)) return lane.width / 2 + kBesideTunnel;
   const bool feet = lane.kind == LaneKind::Normal && (lane.allowed & ~kOnFootOrBicycle) == 0;
   return feet ? std::min(lane.width / 2, kFootClearance) : lane.width / 2;
 }
@@ -131,7 +140,7 @@ LaneClearing::LaneClearing(const RoadNetwork& road) {
     }
     const std::vector<Vec2>& points = lane.centerline.points();
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
-      add_piece(points[i], points[i + 1], half_width_of(lane));
+      add_piece(points[i], points[i + 1], half_width_of(lane, i));
   }
 }
 

@@ -16,8 +16,8 @@ struct Stretch {
 /// The ground that lanes need, for cutting obstacles out of it. Lanes for wheels count with their
 /// whole width; those for feet with 0.6 m to either side of their middle, since guessed sidewalks
 /// are wider than many real ones, as do the ways over walking areas from one lane to another;
-/// walking areas whole. Height is not looked at: a tunnel opens the
-/// house above it rather than being walled up.
+/// walking areas whole. A tunnel opens the house above it rather than being walled up, by 1.5 m
+/// more than its lanes' width, since what is left between lanes that wind is no wall of it either.
 class LaneClearing {
  public:
   explicit LaneClearing(const RoadNetwork& road);

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "base/units.h"
 #include "osm/lane_overlap.h"
 #include "osm/netconvert.h"
 #include "support/plain_net.h"
@@ -141,6 +143,43 @@ TEST_F(CarriagewaysApart, KeepsTheTwoDirectionsOfARoadTogether) {
   EXPECT_NEAR(lane(after, "BA_0").centerline.point_at(100).y() -
                   lane(after, "AB_0").centerline.point_at(100).y(),
               3.2, 0.05);
+}
+
+/// A road of two directions that turns to the left with a radius of 15 m.
+PlainNet bent_road(bool left_hand) {
+  std::string there, back;
+  auto add = [&](double x, double y) {
+    const std::string point = std::to_string(x) + "," + std::to_string(y);
+    there += (there.empty() ? "" : " ") + point;
+    back = point + (back.empty() ? "" : " ") + back;
+  };
+  add(-80, -15);
+  for (int k = 0; k <= 9; ++k) add(15 * std::sin(k * kPi / 18), -15 * std::cos(k * kPi / 18));
+  add(15, 80);
+  return {node("A", -80, -15) + node("B", 15, 80),
+          edge("A", "B", 1, "shape='" + there + "'") + edge("B", "A", 1, "shape='" + back + "'"),
+          "", left_hand ? std::vector<std::string>{"--lefthand"} : std::vector<std::string>{}};
+}
+
+TEST_F(CarriagewaysApart, LeavesRoomBetweenTheDirectionsOfASharpBend) {
+  for (const bool left_hand : {false, true}) {
+    SCOPED_TRACE(left_hand);
+    request_.left_hand = left_hand;
+    const RoadNetwork before = build(bent_road(left_hand));
+    const RoadNetwork after = patched(plan_carriageways(network(), before));
+    const char* outer = left_hand ? "BA_0" : "AB_0";
+    const char* inner = left_hand ? "AB_0" : "BA_0";
+    const Vec2 middle(15 * std::sin(kPi / 4), -15 * std::cos(kPi / 4));
+    const auto from_middle = [&](const RoadNetwork& road, const char* name) {
+      return lane(road, name).centerline.project(middle).distance;
+    };
+    EXPECT_NEAR(from_middle(before, outer), 1.6, 0.1);
+    // a bus's nose needs 2.2 m; SUMO's points of the arc lie metres apart
+    EXPECT_NEAR(from_middle(after, outer) - from_middle(before, outer), 2.0, 0.3);
+    EXPECT_NEAR(from_middle(after, inner), from_middle(before, inner), 0.05);
+    for (const Vec2& end : {Vec2(-78, -15), Vec2(15, 78)})
+      EXPECT_NEAR(lane(after, "AB_0").centerline.project(end).distance, 1.6, 0.1);
+  }
 }
 
 TEST_F(CarriagewaysApart, FadesOutAlongTheRoadAndOverItsJunctions) {
