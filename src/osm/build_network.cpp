@@ -116,9 +116,13 @@ void note_overlap_before(const RoadNetwork& road, BuildResult& result) {
 }
 
 void note_carriageways(const CarriagewayPlan& plan, BuildResult& result) {
-  for (const auto& [edge, shape] : plan.shapes)
+  for (const std::string& edge : plan.apart)
     result.log.add(Severity::Note, "moved_apart",
                    "edges moved sideways because their lanes lay on those of other edges", edge);
+  for (const std::string& edge : plan.bends)
+    result.log.add(Severity::Note, "bends_widened",
+                   "edges at the outside of sharp bends, moved outwards there for long bodies",
+                   edge);
   for (const auto& [lane, width] : plan.lane_widths)
     result.log.add(Severity::Note, "lanes_narrowed",
                    "lanes narrowed where there was no room to move edges apart", lane);

@@ -500,12 +500,16 @@ CarriagewayPlan plan_carriageways(const std::filesystem::path& network_file,
     if (plan.dropped.contains(road.edge(body.edge).name)) continue;
     const BendRoom room = room_in_bends(body, road.left_hand);
     const double farthest = greatest(body.shift);
-    const double widest = std::max(greatest(room.edge), greatest(room.twin));
-    if (std::max(farthest, widest) < kLeast) continue;
+    const auto reshape = [&](EdgeId id, const std::vector<double>& aside, bool reversed) {
+      const std::string& name = road.edge(id).name;
+      plan.shapes[name] = shape_text(body, aside, reversed);
+      if (farthest >= kLeast) plan.apart.insert(name);
+      if (greatest(aside) >= kLeast) plan.bends.insert(name);
+    };
+    if (std::max({farthest, greatest(room.edge), greatest(room.twin)}) < kLeast) continue;
     if (farthest >= kLeast) plan.farthest = std::max(plan.farthest, farthest);
-    plan.shapes[road.edge(body.edge).name] = shape_text(body, room.edge, false);
-    if (body.twin != kNoEdge)
-      plan.shapes[road.edge(body.twin).name] = shape_text(body, room.twin, true);
+    reshape(body.edge, room.edge, false);
+    if (body.twin != kNoEdge) reshape(body.twin, room.twin, true);
   }
   return plan;
 }

@@ -13,9 +13,11 @@ namespace sumogamma::osm {
 /// bodies get round bends.
 struct CarriagewayPlan {
   std::map<std::string, std::string> shapes;  ///< by edge: SUMO's shape attribute "x,y,z x,y,z ..."
+  std::set<std::string> apart;                ///< of these: because lanes lay on each other
+  std::set<std::string> bends;                ///< of these: at the outside of sharp bends
   std::map<std::string, double> lane_widths;  ///< by lane: narrower than it was [m]
   std::set<std::string> dropped;  ///< edges of paths that run lengthwise inside a carriageway
-  double farthest = 0;            ///< [m] greatest move sideways
+  double farthest = 0;            ///< [m] greatest move sideways of those apart
 
   bool empty() const { return shapes.empty() && lane_widths.empty() && dropped.empty(); }
 };

@@ -28,7 +28,7 @@ inline bool must_be_apart(LaneUse a, LaneUse b) {
 }
 
 /// Stretches longer than 8 m on which lanes of different normal edges run along each other (within
-/// 37 degrees of the same or the opposite direction), at less than 2.5 m difference in height, and
+/// 37 degrees of the same or the opposite direction), at less than 4 m difference in height, and
 /// share more than 0.3 m of their widths. Looked at every 2 m; within 3 m of a junction that both
 /// edges touch nothing counts. Only pairs that must be apart, each listed from both sides; by lane,
 /// then other, then from.

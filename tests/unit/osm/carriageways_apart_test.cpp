@@ -166,7 +166,10 @@ TEST_F(CarriagewaysApart, LeavesRoomBetweenTheDirectionsOfASharpBend) {
     SCOPED_TRACE(left_hand);
     request_.left_hand = left_hand;
     const RoadNetwork before = build(bent_road(left_hand));
-    const RoadNetwork after = patched(plan_carriageways(network(), before));
+    const CarriagewayPlan plan = plan_carriageways(network(), before);
+    EXPECT_THAT(plan.bends, UnorderedElementsAre(left_hand ? "BA" : "AB"));
+    EXPECT_THAT(plan.apart, IsEmpty());
+    const RoadNetwork after = patched(plan);
     const char* outer = left_hand ? "BA_0" : "AB_0";
     const char* inner = left_hand ? "AB_0" : "BA_0";
     const Vec2 middle(15 * std::sin(kPi / 4), -15 * std::cos(kPi / 4));
