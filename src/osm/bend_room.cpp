@@ -19,8 +19,7 @@ constexpr double kSlope = 1.0 / 6;  // [m] sideways per metre along
 double direction_at(const RoadBody& body, double along) {
   const auto behind = std::upper_bound(body.along.begin() + 1, body.along.end() - 1, along);
   const auto i = static_cast<std::size_t>(behind - body.along.begin());
-  const Vec2 step = body.points[i] - body.points[i - 1];
-  return std::atan2(step.y(), step.x());
+  return heading_of(body.points[i] - body.points[i - 1]);
 }
 
 /// Curvature about a point, to the left [1/m].
@@ -29,14 +28,10 @@ double curvature(const RoadBody& body, std::size_t i) {
   return wrap_angle(direction_at(body, to) - direction_at(body, from)) / (to - from);
 }
 
-/// Lets room begin and end no more sharply than it may, on both sides of where it is needed.
+/// Lets room begin and end no more sharply than it may, and before lanes end.
 void fade(const RoadBody& body, std::vector<double>& room) {
-  const std::size_t n = room.size();
-  for (std::size_t i = 1; i < n; ++i)
-    room[i] = std::max(room[i], room[i - 1] - kSlope * (body.along[i] - body.along[i - 1]));
-  for (std::size_t i = n - 1; i-- > 0;)
-    room[i] = std::max(room[i], room[i + 1] - kSlope * (body.along[i + 1] - body.along[i]));
-  for (std::size_t i = 0; i < n; ++i) {
+  fade_out(body.along, kSlope, room);
+  for (std::size_t i = 0; i < room.size(); ++i) {
     const double to_end = std::min(body.along[i] - body.from, body.to - body.along[i]);
     room[i] = std::min(room[i], std::max(0.0, to_end * kSlope));
   }

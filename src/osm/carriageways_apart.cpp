@@ -22,16 +22,11 @@ constexpr double kSlope = 0.1;      // [m] sideways per metre along
 constexpr double kStill = 0.005;    // [m] of change in a round that is none
 constexpr double kStraight = 0.02;  // [m] by which a point may be off a straight line
 constexpr double kLeast = 0.05;     // [m] a move that is not worth a new shape
-constexpr double kTolerance = 0.3;  // [m] of overlap that is no harm
 constexpr double kGap = 0.25;  // [m] left between two that were moved apart; netconvert makes long
                                // junctions of lanes that touch
-constexpr double kShortest = 8.0;       // [m] of overlap that matters
-constexpr double kAlong = 0.8;          // least |cos| of the angle between two edges
-constexpr double kSameHeight = 4.0;     // [m]
-constexpr double kJunctionReach = 3.0;  // [m] from a shared junction, where nothing counts
-constexpr double kNarrow = 2.75;        // [m] width of a lane for driving where there is no room
-constexpr double kInside = 1.0 / 3;     // share of a path's length
-constexpr double kCell = 20.0;          // [m]
+constexpr double kNarrow = 2.75;     // [m] width of a lane for driving where there is no room
+constexpr double kInside = 1.0 / 3;  // share of a path's length
+constexpr double kCell = 20.0;       // [m]
 constexpr int kRounds = 12;
 
 // ---------------------------------------------------------------------------- who overlaps whom
@@ -91,7 +86,7 @@ std::optional<Foot> foot_on(const RoadBody& body, std::size_t i, const RoadBody&
   const double length = along.norm();
   if (length < 1e-6) return std::nullopt;
   const double cosine = forward.dot(along) / length;
-  if (std::abs(cosine) < kAlong) return std::nullopt;
+  if (std::abs(cosine) < lane_overlap::kAlong) return std::nullopt;
   const double t = along.dot(here - a) / (length * length);
   const bool first = segment == 0, last = segment + 2 == other.points.size();
   // at a bend the feet of two segments leave a wedge open, but nothing lies beyond a body's ends
@@ -99,7 +94,7 @@ std::optional<Foot> foot_on(const RoadBody& body, std::size_t i, const RoadBody&
   const double share = std::clamp(t, 0.0, 1.0);
   const double height =
       other.heights[segment] + share * (other.heights[segment + 1] - other.heights[segment]);
-  if (std::abs(height - body.heights[i]) > kSameHeight) return std::nullopt;
+  if (std::abs(height - body.heights[i]) > lane_overlap::kSameHeight) return std::nullopt;
   const Vec2 to_foot = a + share * along - here;
   const double side = body.normals[i].dot(to_foot);
   return Foot{segment, share, side < 0 ? -to_foot.norm() : to_foot.norm(), cosine < 0 ? -1.0 : 1.0};
@@ -140,8 +135,8 @@ bool at_shared_junction(const RoadNetwork& road, const RoadBody& body, std::size
   const auto touches = [&](JunctionId junction) {
     return junction != kNoJunction && (foe.from == junction || foe.to == junction);
   };
-  return (body.along[i] - body.from < kJunctionReach && touches(edge.from)) ||
-         (body.to - body.along[i] < kJunctionReach && touches(edge.to));
+  return (body.along[i] - body.from < lane_overlap::kJunctionReach && touches(edge.from)) ||
+         (body.to - body.along[i] < lane_overlap::kJunctionReach && touches(edge.to));
 }
 
 using Clearances = std::map<std::size_t, std::vector<Clearance>>;
@@ -185,7 +180,8 @@ std::vector<std::pair<std::size_t, std::size_t>> runs_of(const RoadBody& body,
     const double from = a == 0 ? 0.0 : (body.along[a - 1] + body.along[a]) / 2,
                  to = z + 1 == body.along.size() ? body.along[z]
                                                  : (body.along[z] + body.along[z + 1]) / 2;
-    if (to - from > kShortest && depth > kTolerance) runs.emplace_back(first, last);
+    if (to - from > lane_overlap::kShortest && depth > lane_overlap::kTolerance)
+      runs.emplace_back(first, last);
     first = last;
   }
   return runs;
@@ -258,15 +254,8 @@ void fade(const std::vector<BodyLink>& links, std::vector<RoadBody>& bodies) {
     }
   bool changed = true;
   for (int round = 0; changed && round < kMostRounds; ++round) {
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const std::vector<double>& along = bodies[b].along;
-      for (std::vector<double>& side : moves[b]) {
-        for (std::size_t i = 1; i < side.size(); ++i)
-          side[i] = std::max(side[i], side[i - 1] - kSlope * (along[i] - along[i - 1]));
-        for (std::size_t i = side.size() - 1; i-- > 0;)
-          side[i] = std::max(side[i], side[i + 1] - kSlope * (along[i + 1] - along[i]));
-      }
-    }
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      for (std::vector<double>& side : moves[b]) fade_out(bodies[b].along, kSlope, side);
     changed = false;
     for (const BodyLink& link : links) changed = carry_over(link, moves) || changed;
   }
@@ -500,14 +489,15 @@ CarriagewayPlan plan_carriageways(const std::filesystem::path& network_file,
     if (plan.dropped.contains(road.edge(body.edge).name)) continue;
     const BendRoom room = room_in_bends(body, road.left_hand);
     const double farthest = greatest(body.shift);
+    if (std::max({farthest, greatest(room.edge), greatest(room.twin)}) < kLeast) continue;
+    const bool apart = farthest >= kLeast;
+    if (apart) plan.farthest = std::max(plan.farthest, farthest);
     const auto reshape = [&](EdgeId id, const std::vector<double>& aside, bool reversed) {
       const std::string& name = road.edge(id).name;
       plan.shapes[name] = shape_text(body, aside, reversed);
-      if (farthest >= kLeast) plan.apart.insert(name);
+      if (apart) plan.apart.insert(name);
       if (greatest(aside) >= kLeast) plan.bends.insert(name);
     };
-    if (std::max({farthest, greatest(room.edge), greatest(room.twin)}) < kLeast) continue;
-    if (farthest >= kLeast) plan.farthest = std::max(plan.farthest, farthest);
     reshape(body.edge, room.edge, false);
     if (body.twin != kNoEdge) reshape(body.twin, room.twin, true);
   }

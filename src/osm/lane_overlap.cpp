@@ -9,13 +9,8 @@
 namespace sumogamma::osm {
 namespace {
 
-constexpr double kStep = 2.0;           // [m] between the places looked at
-constexpr double kShortest = 8.0;       // [m]
-constexpr double kAlong = 0.8;          // least |cos| of the angle between the lanes
-constexpr double kTolerance = 0.3;      // [m] of overlap that is no harm
-constexpr double kSameHeight = 4.0;     // [m]
-constexpr double kJunctionReach = 3.0;  // [m]
-constexpr double kCell = 12.0;          // [m]
+constexpr double kStep = 2.0;   // [m] between the places looked at
+constexpr double kCell = 12.0;  // [m]
 
 constexpr VehicleClassMask kMotors = vehicle_class::kMotorcycle | vehicle_class::kMoped |
                                      vehicle_class::kPassenger | vehicle_class::kDelivery |
@@ -78,7 +73,7 @@ std::optional<double> overlap_at(const Lane& lane, const Place& place, const Lan
   const Vec2 along = points[segment + 1] - points[segment];
   const double length = along.norm();
   const Vec2 direction = along / length;
-  if (std::abs(direction.dot(place.direction)) < kAlong) return std::nullopt;
+  if (std::abs(direction.dot(place.direction)) < lane_overlap::kAlong) return std::nullopt;
   const double t = direction.dot(place.point - points[segment]);
   // at a bend the feet of two pieces leave a wedge open, but nothing lies beyond a lane's ends
   const bool first = segment == 0, last = segment + 2 == points.size();
@@ -87,9 +82,9 @@ std::optional<double> overlap_at(const Lane& lane, const Place& place, const Lan
   const double foot = std::clamp(t, 0.0, length);
   const double depth =
       (lane.width + other.width) / 2 - (place.point - points[segment] - foot * direction).norm();
-  if (depth <= kTolerance) return std::nullopt;
+  if (depth <= lane_overlap::kTolerance) return std::nullopt;
   const double height = elevation_at(other, other.centerline.along_of_vertex(segment) + foot);
-  if (std::abs(height - place.height) > kSameHeight) return std::nullopt;
+  if (std::abs(height - place.height) > lane_overlap::kSameHeight) return std::nullopt;
   // two strips never share more than the narrower one's width
   return std::min({depth, lane.width, other.width});
 }
@@ -99,8 +94,8 @@ bool at_shared_junction(const Edge& edge, const Edge& other, double along, doubl
   const auto touches = [&](JunctionId junction) {
     return junction != kNoJunction && (other.from == junction || other.to == junction);
   };
-  return (along < kJunctionReach && touches(edge.from)) ||
-         (length - along < kJunctionReach && touches(edge.to));
+  return (along < lane_overlap::kJunctionReach && touches(edge.from)) ||
+         (length - along < lane_overlap::kJunctionReach && touches(edge.to));
 }
 
 struct Hit {
@@ -118,7 +113,7 @@ void append_stretches(LaneId lane, LaneId other, const std::vector<Hit>& hits, d
       depth = std::max(depth, hits[end].depth);
     const double from = static_cast<double>(hits[i].step) * step,
                  to = static_cast<double>(hits[end - 1].step + 1) * step;
-    if (to - from > kShortest) overlaps.push_back({lane, other, from, to, depth});
+    if (to - from > lane_overlap::kShortest) overlaps.push_back({lane, other, from, to, depth});
     i = end;
   }
 }

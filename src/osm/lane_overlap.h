@@ -6,6 +6,15 @@
 
 namespace sumogamma::osm {
 
+/// What counts as lying on each other, for those who look for it and those who mend it.
+namespace lane_overlap {
+inline constexpr double kTolerance = 0.3;      ///< [m] of overlap that is no harm
+inline constexpr double kShortest = 8.0;       ///< [m] of overlap that matters
+inline constexpr double kAlong = 0.8;          ///< least |cos| of the angle between two edges
+inline constexpr double kSameHeight = 4.0;     ///< [m]; what lies further above is apart
+inline constexpr double kJunctionReach = 3.0;  ///< [m] from a shared junction: nothing counts
+}  // namespace lane_overlap
+
 /// A stretch of one lane that lies on a lane of another edge.
 struct LaneOverlap {
   LaneId lane = kNoLane;    ///< whose stretch it is

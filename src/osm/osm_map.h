@@ -103,6 +103,10 @@ struct LocalMetric {
   explicit LocalMetric(GeoPoint reference);
   double east(GeoPoint p) const { return (p.lon - origin.lon) * meters_per_lon; }
   double north(GeoPoint p) const { return (p.lat - origin.lat) * meters_per_lat; }
+  /// The place so many metres east and north of the reference.
+  GeoPoint place(double east, double north) const {
+    return {origin.lon + east / meters_per_lon, origin.lat + north / meters_per_lat};
+  }
   double distance(GeoPoint a, GeoPoint b) const;
   /// Direction from a to b [rad], counter-clockwise from east.
   double bearing(GeoPoint a, GeoPoint b) const;

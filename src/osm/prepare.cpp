@@ -403,8 +403,7 @@ void split_carriageway_ends(OsmMap& map, const GeoBox& box, IssueLog& log) {
     const LocalMetric metric(here);
     const double bearing = bearing_out(map, b, pair[1].first);
     const std::int64_t copy = map.new_id();
-    map.nodes[copy].place = {here.lon + kApart * std::cos(bearing) / metric.meters_per_lon,
-                             here.lat + kApart * std::sin(bearing) / metric.meters_per_lat};
+    map.nodes[copy].place = metric.place(kApart * std::cos(bearing), kApart * std::sin(bearing));
     (pair[1].first ? b.nodes.front() : b.nodes.back()) = copy;
     log.add(Severity::Note, "carriageways_separated",
             "ends where two carriageways met in one point, now apart",
@@ -596,8 +595,8 @@ void add_footways_at_crossings(OsmMap& map, IssueLog& log) {
     const double along = metric.bearing(beside(arms[0]), beside(arms[1]));
     for (const double side : {kPi / 2, -kPi / 2}) {
       const std::int64_t end = map.new_id();
-      map.nodes[end].place = {here.lon + kReach * std::cos(along + side) / metric.meters_per_lon,
-                              here.lat + kReach * std::sin(along + side) / metric.meters_per_lat};
+      map.nodes[end].place =
+          metric.place(kReach * std::cos(along + side), kReach * std::sin(along + side));
       added.push_back({map.new_id(), {end, id}, {{"highway", "footway"}}});
     }
     log.add(Severity::Note, "crossing_kept",

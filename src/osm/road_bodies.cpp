@@ -203,6 +203,13 @@ std::vector<BodyLink> make_body_links(const RoadNetwork& road,
   return links;
 }
 
+void fade_out(const std::vector<double>& along, double slope, std::vector<double>& moves) {
+  for (std::size_t i = 1; i < moves.size(); ++i)
+    moves[i] = std::max(moves[i], moves[i - 1] - slope * (along[i] - along[i - 1]));
+  for (std::size_t i = moves.size() - 1; i-- > 0;)
+    moves[i] = std::max(moves[i], moves[i + 1] - slope * (along[i + 1] - along[i]));
+}
+
 void lay_lanes_again(const RoadNetwork& road, EdgeId edge, const std::vector<double>& old_widths,
                      RoadBody& body) {
   std::vector<std::size_t> order;

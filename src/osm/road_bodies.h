@@ -47,6 +47,10 @@ std::vector<RoadBody> make_road_bodies(const std::filesystem::path& network_file
 /// Where vehicles go straight on from body to body.
 std::vector<BodyLink> make_body_links(const RoadNetwork& road, const std::vector<RoadBody>& bodies);
 
+/// Raises moves along a line, none of them negative, so that they fade out by `slope` [m] in each
+/// metre to both sides of where they are. `along` and `moves` are by point [m].
+void fade_out(const std::vector<double>& along, double slope, std::vector<double>& moves);
+
 /// Lays an edge's lanes beside the line again after their widths changed, as netconvert would:
 /// about the middle of what they took before, or away from the line where they began at it.
 /// `old_widths` are the widths by position in body.lanes.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -31,42 +33,45 @@ bool is_ring(const MapWay& way) {
          way.nodes.front() == way.nodes.back();
 }
 
-/// Nodes of roads for cars by node that is next to them on some road. A roundabout's own have none.
-using Neighbours = std::map<std::int64_t, std::vector<std::int64_t>>;
+/// Roads for cars but roundabouts, as nodes with those next to them; a road ends where it comes to
+/// a ring.
+struct RoadGraph {
+  std::map<std::int64_t, std::vector<std::int64_t>> neighbours;
+  std::set<std::int64_t> on_rings;
 
-Neighbours find_neighbours(const OsmMap& map) {
-  Neighbours neighbours;
-  std::vector<std::int64_t> on_rings;
+  bool goes_on(std::int64_t node) const {
+    const std::vector<std::int64_t>& next = neighbours.at(node);
+    return next.size() == 2 && next[0] != next[1] && !on_rings.contains(node);
+  }
+};
+
+RoadGraph make_graph(const OsmMap& map) {
+  RoadGraph graph;
   for (const MapWay& way : map.ways) {
     if (!is_car_way(way) || way.nodes.size() < 2) continue;
     if (is_ring(way)) {
-      on_rings.insert(on_rings.end(), way.nodes.begin(), way.nodes.end());
+      graph.on_rings.insert(way.nodes.begin(), way.nodes.end());
       continue;
     }
     for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i) {
-      neighbours[way.nodes[i]].push_back(way.nodes[i + 1]);
-      neighbours[way.nodes[i + 1]].push_back(way.nodes[i]);
+      graph.neighbours[way.nodes[i]].push_back(way.nodes[i + 1]);
+      graph.neighbours[way.nodes[i + 1]].push_back(way.nodes[i]);
     }
   }
-  // whoever comes to a ring ends there: as many as it takes to be no node between two others
-  for (const std::int64_t node : on_rings)
-    if (const auto found = neighbours.find(node); found != neighbours.end())
-      found->second.insert(found->second.end(), 2, node);
-  return neighbours;
+  return graph;
 }
 
 std::vector<Road> find_roads(const OsmMap& map) {
-  const Neighbours neighbours = find_neighbours(map);
-  const auto goes_on = [](const std::vector<std::int64_t>& next) {
-    return next.size() == 2 && next[0] != next[1];
-  };
+  const RoadGraph graph = make_graph(map);
   std::vector<Road> roads;
-  for (const auto& [end, nexts] : neighbours) {
-    if (goes_on(nexts)) continue;
+  for (const auto& [end, nexts] : graph.neighbours) {
+    if (graph.goes_on(end)) continue;
     for (const std::int64_t first : nexts) {
       Road road{end, first};
-      for (auto next = &neighbours.at(first); goes_on(*next); next = &neighbours.at(road.back()))
-        road.push_back((*next)[(*next)[0] == road[road.size() - 2] ? 1 : 0]);
+      while (graph.goes_on(road.back())) {
+        const std::vector<std::int64_t>& next = graph.neighbours.at(road.back());
+        road.push_back(next[0] == road[road.size() - 2] ? next[1] : next[0]);
+      }
       // each is found from both of its ends
       if (std::pair(road.front(), road[1]) < std::pair(road.back(), road[road.size() - 2]))
         roads.push_back(std::move(road));
@@ -164,10 +169,7 @@ using Added = std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::i
 
 void redraw(const Road& road, const Line& line, const LocalMetric& metric, OsmMap& map,
             Added& added) {
-  const auto place_of = [&](const Vec2& p) {
-    return GeoPoint{metric.origin.lon + p.x() / metric.meters_per_lon,
-                    metric.origin.lat + p.y() / metric.meters_per_lat};
-  };
+  const auto place_of = [&](const Vec2& p) { return metric.place(p.x(), p.y()); };
   for (std::size_t n = 0; n + 1 < road.size(); ++n) {
     if (n > 0) map.nodes.at(road[n]).place = place_of(line.points[line.places[n]]);
     const std::vector<Vec2> piece(line.points.begin() + line.places[n],

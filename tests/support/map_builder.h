@@ -10,10 +10,7 @@ namespace sumogamma::osm {
 /// Maps for tests, in metres east and north of 48 N, 11 E.
 class MapBuilder {
  public:
-  GeoPoint at(double east, double north) const {
-    return {origin.lon + east / metric_.meters_per_lon,
-            origin.lat + north / metric_.meters_per_lat};
-  }
+  GeoPoint at(double east, double north) const { return metric_.place(east, north); }
   MapBuilder& node(std::int64_t id, double east, double north, Tags tags = {}) {
     map.nodes[id] = {at(east, north), std::move(tags)};
     map.next_id = std::max(map.next_id, id + 1);

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/units.h"
 #include "geometry/vec2.h"
 #include "support/map_builder.h"
