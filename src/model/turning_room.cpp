@@ -33,12 +33,13 @@ double halt_for_long_bodies(const RoadView& view, const Traveller& traveller,
   double halt = link.halt;
   for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
     const double place = link.stop_line + way.begin;
-    if (!way.foe_is_long || way.begin >= 0.0 || traveller.front > place || place >= halt ||
+    if (!way.foe_sweeps || way.begin >= 0.0 || traveller.front > place || place >= halt ||
         !is_for(way, scene, traveller.row))
       continue;
     for (const Approach& foe : approaches.of(way.foe))
-      if (foe.length > kLongBody && foe.front > -kNear && foe.front - foe.length < way.foe_end &&
-          foe.row != traveller.row && !on_other_storey(model.road, scene, traveller.row, foe.row))
+      if (turning_body(foe.length) == way.body && foe.front > -kNear &&
+          foe.front - foe.length < way.foe_end && foe.row != traveller.row &&
+          !on_other_storey(model.road, scene, traveller.row, foe.row))
         halt = std::min(halt, place);
   }
   return halt;
@@ -52,9 +53,9 @@ LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller
   const double front = traveller.front - link.stop_line;
   for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
     // who is on its way goes on, a long body where it is in nobody's way yet may still halt
-    const bool before_line = !way.foe_is_long && front <= 0.2;
+    const bool before_line = !way.foe_sweeps && front <= 0.2;
     const bool may_halt = before_line || front <= way.begin;
-    if (!may_halt || (!way.foe_is_long && traveller.length <= kLongBody)) continue;
+    if (!may_halt || (!way.foe_sweeps && turning_body(traveller.length) != way.body)) continue;
     const double line =
         (before_line ? std::min(link.halt, link.stop_line) : link.stop_line + way.begin) -
         kStopMargin;
@@ -67,9 +68,10 @@ LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller
     const Occupation ours =
         occupation(type, approach_of(traveller, link), way.begin, way.end, traveller.top_speed);
     for (const Approach& foe : approaches.of(way.foe)) {
-      if (foe.row == traveller.row || (way.foe_is_long && foe.length <= kLongBody)) continue;
+      if (foe.row == traveller.row || (way.foe_sweeps && turning_body(foe.length) != way.body))
+        continue;
       if (foe.front - foe.length >= way.foe_end) continue;
-      if (!is_for(way, scene, way.foe_is_long ? traveller.row : foe.row)) continue;
+      if (!is_for(way, scene, way.foe_sweeps ? traveller.row : foe.row)) continue;
       // it waits before its line, or before the place that is swept; whom bodies hold isn't coming;
       // who waits there with its body off the way can be passed
       const bool there = foe.front > way.foe_begin;

@@ -11,32 +11,41 @@ namespace sumogamma {
 
 namespace {
 
-// the longest body that turns anywhere [m]
-constexpr double kBusLength = 12.0, kBusWidth = 2.5, kBusAxle = 2.7, kBusRadius = 6.6;
-// of who is in the way, and some: bodies come out of a bend up to 0.3 m beside what is reckoned [m]
-constexpr double kHalfWidth = 1.45, kHalfWidthOfWide = 1.6;
+/// The largest of the bodies that turn alike [m].
+struct Sweeper {
+  TurningBody body;
+  VehicleClassMask vehicle_class;
+  double length, width;
+  double axle;                            ///< the rear one, behind the middle
+  double radius;                          ///< of its tightest turn
+  double half_width, half_width_of_wide;  ///< of who is in its way, and some
+};
+// buses come out of a bend up to 0.3 m beside what is reckoned
+constexpr Sweeper kSweepers[] = {
+    {TurningBody::Truck, vehicle_class::kTruck, 7.5, 2.4, 1.8, 4.4, 1.15, 1.3},
+    {TurningBody::Bus, vehicle_class::kBus, 12.0, 2.5, 2.7, 6.6, 1.45, 1.6}};
 constexpr double kPace = 0.5;       ///< [m]
-constexpr double kFarthest = 16.0;  ///< before a lane's end that anybody halts for a bus [m]
+constexpr double kFarthest = 20.0;  ///< before a lane's end that anybody halts for them [m]
 
-/// What a bus sweeps on its way over a link: its body at each half metre while it is askew. Its
-/// middle follows the way, its rear axle lies kBusAxle behind.
+/// What a body sweeps on its way over a link: its box at each half metre while it is askew. Its
+/// middle follows the way.
 struct Sweep {
   std::vector<OrientedBox> bodies;
   double first = 0;  ///< place of the first one's middle, from the link's stop line [m]
   Vec2 low = Vec2::Zero(), high = Vec2::Zero();  ///< their bounds [m]
 };
 
-Sweep sweep_of_bus(const RoadNetwork& network, ConnectionId id) {
+Sweep sweep_of(const Sweeper& sweeper, const RoadNetwork& network, ConnectionId id) {
   constexpr double kTurns = 0.12;  // [rad]
   constexpr double kAskew = 0.04;  // sine of its angle to its way
   const Connection& connection = network.connection(id);
   Sweep sweep;
-  if ((network.lane(connection.to).allowed & vehicle_class::kBus) == 0) return sweep;
+  if ((network.lane(connection.to).allowed & sweeper.vehicle_class) == 0) return sweep;
   const Polyline& before = network.lane(connection.from).centerline;
   const Vec2 leaves = network.lane(connection.to).centerline.direction_at(0.0);
   if (before.direction_at(before.length()).dot(leaves) > std::cos(kTurns)) return sweep;
-  const Path path = rounded_way(network, id, kBusLength, 2.0 * kBusLength,
-                                {kBusRadius, kBusLength, kBusWidth, network.left_hand});
+  const Path path = rounded_way(network, id, sweeper.length, 2.0 * sweeper.length,
+                                {sweeper.radius, sweeper.length, sweeper.width, network.left_hand});
   if (path.links.empty()) return sweep;
   double heading = heading_of(path.line.direction_at(0.0));
   sweep.low = Vec2::Constant(std::numeric_limits<double>::infinity());
@@ -45,11 +54,11 @@ Sweep sweep_of_bus(const RoadNetwork& network, ConnectionId id) {
   for (double along = 0.0; along <= path.line.length(); along += kPace) {
     const Vec2 forward = direction_of(heading), place = path.line.point_at(along);
     const double swing = cross(forward, path.line.direction_at(along));
-    heading += kPace * swing / kBusAxle;
+    heading += kPace * swing / sweeper.axle;
     const bool askew = std::abs(swing) > kAskew;
     if (!askew && sweep.bodies.empty()) continue;
     if (sweep.bodies.empty()) sweep.first = along - path.links.front().stop_line;
-    sweep.bodies.push_back({place, forward, {0.5 * kBusLength, 0.5 * kBusWidth}});
+    sweep.bodies.push_back({place, forward, {0.5 * sweeper.length, 0.5 * sweeper.width}});
     straight = askew ? 0 : straight + 1;
   }
   sweep.bodies.resize(sweep.bodies.size() - straight);
@@ -57,7 +66,7 @@ Sweep sweep_of_bus(const RoadNetwork& network, ConnectionId id) {
     sweep.low = sweep.low.cwiseMin(body.center);
     sweep.high = sweep.high.cwiseMax(body.center);
   }
-  const Vec2 reach = Vec2::Constant(0.5 * kBusLength + 2.0 * kHalfWidthOfWide);
+  const Vec2 reach = Vec2::Constant(0.5 * sweeper.length + 2.0 * sweeper.half_width_of_wide);
   sweep.low -= reach;
   sweep.high += reach;
   return sweep;
@@ -65,7 +74,7 @@ Sweep sweep_of_bus(const RoadNetwork& network, ConnectionId id) {
 
 /// Where `sweep` meets the way of others of a width, from `kFarthest` and some before its stop line
 /// to `end` behind it; foe_begin and foe_end are the sweeping body's, front and rear.
-std::optional<SweptWay> swept_part(const Sweep& sweep, const Path& way, double end,
+std::optional<SweptWay> swept_part(const Sweep& sweep, double length, const Path& way, double end,
                                    double half_width) {
   const double stop_line = way.links.front().stop_line;
   std::optional<SweptWay> part;
@@ -77,7 +86,7 @@ std::optional<SweptWay> swept_part(const Sweep& sweep, const Path& way, double e
     const OrientedBox slice{place, way.line.direction_at(along), {0.5 * kPace, half_width}};
     for (std::size_t k = 0; k < sweep.bodies.size(); ++k) {
       const OrientedBox& body = sweep.bodies[k];
-      if ((body.center - place).norm() > kBusLength || separation(slice, body) > 0.0) continue;
+      if ((body.center - place).norm() > length || separation(slice, body) > 0.0) continue;
       const double middle = sweep.first + static_cast<double>(k) * kPace;
       first = part ? std::min(first, middle) : middle;
       last = part ? std::max(last, middle) : middle;
@@ -86,47 +95,68 @@ std::optional<SweptWay> swept_part(const Sweep& sweep, const Path& way, double e
     }
   }
   if (!part) return part;
-  part->foe_begin = first + 0.5 * kBusLength;
-  part->foe_end = last - 0.5 * kBusLength;
+  part->foe_begin = first + 0.5 * length;
+  part->foe_end = last - 0.5 * length;
   return part;
+}
+
+/// The links of a junction that vehicles drive, and their ways as cars drive them.
+struct DrivenLinks {
+  std::vector<ConnectionId> links;
+  std::vector<Path> ways;
+};
+
+DrivenLinks driven_links(const RoadNetwork& network, const Junction& junction) {
+  constexpr double kLooked = kFarthest + 2.0;  // [m]
+  constexpr double kCarRadius = 3.8;           // [m]
+  DrivenLinks driven;
+  for (const ConnectionId id : junction.links) {
+    if (id == kNoConnection || !is_driven(network, id)) continue;
+    driven.links.push_back(id);
+    driven.ways.push_back(rounded_way(network, id, kLooked, kLooked, {kCarRadius}));
+  }
+  return driven;
+}
+
+/// Adds what a body that takes the link `id` sweeps of the ways of others.
+void add_swept(const Sweeper& sweeper, const RoadNetwork& network, const ConflictTable& conflicts,
+               const DrivenLinks& driven, ConnectionId id, SweptWayTable& table) {
+  const Sweep sweep = sweep_of(sweeper, network, id);
+  if (sweep.bodies.empty()) return;
+  const EdgeId edge = network.lane(network.connection(id).from).edge;
+  for (std::size_t k = 0; k < driven.links.size(); ++k) {
+    const ConnectionId other = driven.links[k];
+    const Path& way = driven.ways[k];
+    if (network.lane(network.connection(other).from).edge == edge || way.links.empty()) continue;
+    const auto& zones = conflicts[index_of(other)];
+    const bool ruled = std::any_of(zones.begin(), zones.end(),
+                                   [&](const ConflictZone& zone) { return zone.foe == id; });
+    const PathLink& link = way.links.front();
+    for (const bool wide : {false, true}) {
+      const double half_width = wide ? sweeper.half_width_of_wide : sweeper.half_width;
+      auto part = swept_part(sweep, sweeper.length, way, ruled ? 0.0 : link.end - link.stop_line,
+                             half_width);
+      if (!part || part->begin < -kFarthest) continue;
+      part->foe = id;
+      part->body = sweeper.body;
+      part->foe_sweeps = true;
+      part->for_wide = wide;
+      table[index_of(other)].push_back(*part);
+      table[index_of(id)].push_back({other, part->foe_begin, part->foe_end, part->begin, part->end,
+                                     sweeper.body, false, wide});
+    }
+  }
 }
 
 }  // namespace
 
 SweptWayTable find_swept_ways(const RoadNetwork& network, const ConflictTable& conflicts) {
-  constexpr double kLooked = kFarthest + 2.0;  // [m]
-  constexpr double kCarRadius = 3.8;           // [m]
   SweptWayTable table(network.connections.size());
   for (const Junction& junction : network.junctions) {
-    std::vector<ConnectionId> links;
-    for (const ConnectionId id : junction.links)
-      if (id != kNoConnection && is_driven(network, id)) links.push_back(id);
-    std::vector<Path> ways;
-    for (const ConnectionId id : links)
-      ways.push_back(rounded_way(network, id, kLooked, kLooked, {kCarRadius}));
-    for (const ConnectionId id : links) {
-      const Sweep sweep = sweep_of_bus(network, id);
-      const EdgeId edge = network.lane(network.connection(id).from).edge;
-      for (std::size_t k = 0; k < links.size() && !sweep.bodies.empty(); ++k) {
-        if (network.lane(network.connection(links[k]).from).edge == edge || ways[k].links.empty())
-          continue;
-        const auto& zones = conflicts[index_of(links[k])];
-        const bool ruled = std::any_of(zones.begin(), zones.end(),
-                                       [&](const ConflictZone& zone) { return zone.foe == id; });
-        const PathLink& link = ways[k].links.front();
-        for (const bool wide : {false, true}) {
-          auto part = swept_part(sweep, ways[k], ruled ? 0.0 : link.end - link.stop_line,
-                                 wide ? kHalfWidthOfWide : kHalfWidth);
-          if (!part || part->begin < -kFarthest) continue;
-          part->foe = id;
-          part->foe_is_long = true;
-          part->for_wide = wide;
-          table[index_of(links[k])].push_back(*part);
-          table[index_of(id)].push_back(
-              {links[k], part->foe_begin, part->foe_end, part->begin, part->end, false, wide});
-        }
-      }
-    }
+    const DrivenLinks driven = driven_links(network, junction);
+    for (const Sweeper& sweeper : kSweepers)
+      for (const ConnectionId id : driven.links)
+        add_swept(sweeper, network, conflicts, driven, id, table);
   }
   return table;
 }

@@ -42,7 +42,8 @@ class TurningRoomTest : public ::testing::Test {
     const ConnectionId foe = here_.path(other).links.front().connection;
     const auto& ways = here_.model.swept_ways[index_of(here_.path(row).links.front().connection)];
     const auto way = std::find_if(ways.begin(), ways.end(), [&](const SweptWay& each) {
-      return each.foe == foe && each.foe_is_long == other_is_long && !each.for_wide;
+      return each.foe == foe && each.foe_sweeps == other_is_long && !each.for_wide &&
+             each.body == TurningBody::Bus;
     });
     return way != ways.end() ? &*way : nullptr;
   }
@@ -57,6 +58,20 @@ TEST_F(TurningRoomTest, WhoWaitsLeavesRoomForABusThatComes) {
   here_.update();
   EXPECT_GT(halt_of(car), 2.0);
   EXPECT_LT(halt_of(car), 17.0);
+}
+
+// a truck of 7 m needed 75 s of backing and filling round a car at its line, with twenty behind it
+TEST_F(TurningRoomTest, WhoWaitsLeavesLessRoomForATruck) {
+  const std::size_t car = add_waiting(30.0, 8.0);
+  here_.update();
+  EXPECT_EQ(halt_of(car), 0.0) << "nobody comes";
+  add_bus("truck");
+  here_.update();
+  const double for_truck = halt_of(car);
+  EXPECT_GT(for_truck, 1.0);
+  add_bus();
+  here_.update();
+  EXPECT_GT(halt_of(car), for_truck);
 }
 
 TEST_F(TurningRoomTest, ACarThatTurnsNeedsNoMoreThanItsLane) {

@@ -24,7 +24,7 @@ TEST(SweptWays, ABusThatTurnsSweepsTheEndsOfLanesOnWhichOthersWait) {
   int ends = 0;
   for (std::size_t i = 0; i < table.size(); ++i)
     for (const SweptWay& way : table[i]) {
-      if (way.foe_is_long) {
+      if (way.foe_sweeps) {
         EXPECT_LE(way.begin, way.end);
       }
       EXPECT_NE(network.lane(network.connections[i].from).edge,
@@ -32,11 +32,11 @@ TEST(SweptWays, ABusThatTurnsSweepsTheEndsOfLanesOnWhichOthersWait) {
       // the other link knows the same
       const auto& theirs = table[index_of(way.foe)];
       EXPECT_TRUE(std::any_of(theirs.begin(), theirs.end(), [&](const SweptWay& other) {
-        return other.foe == static_cast<ConnectionId>(i) && other.foe_is_long != way.foe_is_long &&
+        return other.foe == static_cast<ConnectionId>(i) && other.foe_sweeps != way.foe_sweeps &&
                other.begin == way.foe_begin && other.foe_end == way.end;
       }));
-      if (!way.foe_is_long) continue;
-      EXPECT_GE(way.begin, -16.0) << "nobody halts farther back";
+      if (!way.foe_sweeps) continue;
+      EXPECT_GE(way.begin, -20.0) << "nobody halts farther back";
       ends += way.begin < 0.0;
     }
   EXPECT_GT(ends, 0);
@@ -47,9 +47,9 @@ TEST(SweptWays, WideBodiesNeedMoreRoomThanCars) {
   int more = 0;
   for (const auto& ways : find_swept_ways(network, build_conflict_table(network)))
     for (const SweptWay& car : ways) {
-      if (car.for_wide || !car.foe_is_long) continue;
+      if (car.for_wide || !car.foe_sweeps) continue;
       const auto wide = std::find_if(ways.begin(), ways.end(), [&](const SweptWay& other) {
-        return other.for_wide && other.foe_is_long && other.foe == car.foe;
+        return other.for_wide && other.foe_sweeps && other.foe == car.foe && other.body == car.body;
       });
       if (wide == ways.end()) continue;  // so far back that nobody halts for it
       EXPECT_LE(wide->begin, car.begin);
@@ -57,6 +57,23 @@ TEST(SweptWays, WideBodiesNeedMoreRoomThanCars) {
       more += wide->begin < car.begin;
     }
   EXPECT_GT(more, 0);
+}
+
+TEST(SweptWays, ATruckSweepsLessThanABus) {
+  const RoadNetwork network = narrow_corners();
+  int less = 0;
+  for (const auto& ways : find_swept_ways(network, build_conflict_table(network)))
+    for (const SweptWay& truck : ways) {
+      if (truck.body != TurningBody::Truck || !truck.foe_sweeps) continue;
+      const auto bus = std::find_if(ways.begin(), ways.end(), [&](const SweptWay& other) {
+        return other.body == TurningBody::Bus && other.foe_sweeps && other.foe == truck.foe &&
+               other.for_wide == truck.for_wide;
+      });
+      if (bus == ways.end()) continue;  // so far back that nobody halts for it
+      EXPECT_GE(truck.begin, bus->begin);
+      less += truck.begin > bus->begin;
+    }
+  EXPECT_GT(less, 0);
 }
 
 // side by side on lanes of 2.75 m a bus leaves others 0.25 m: it sweeps their lane only as long as
@@ -67,14 +84,17 @@ TEST(SweptWays, OnNarrowLanesEndWhereTheBusIsStraightAgain) {
   const SweptWayTable table = find_swept_ways(network, build_conflict_table(network));
   int halts = 0;
   for (const auto& ways : table)
-    for (const SweptWay& way : ways) halts += way.foe_is_long && way.for_wide && way.begin < -5.0;
+    for (const SweptWay& way : ways) halts += way.foe_sweeps && way.for_wide && way.begin < -5.0;
   EXPECT_GT(halts, 0) << "a bus that waits leaves a turning bus room";
 }
 
-TEST(SweptWays, WhereNoBusMayDriveNothingIsSwept) {
-  const RoadNetwork network = narrow_corners("bus");
-  const SweptWayTable table = find_swept_ways(network, build_conflict_table(network));
-  for (const auto& ways : table) EXPECT_TRUE(ways.empty());
+TEST(SweptWays, WhereABodyMayNotDriveItSweepsNothing) {
+  const RoadNetwork no_buses = narrow_corners("bus");
+  for (const auto& ways : find_swept_ways(no_buses, build_conflict_table(no_buses)))
+    for (const SweptWay& way : ways) EXPECT_EQ(way.body, TurningBody::Truck);
+  const RoadNetwork neither = narrow_corners("bus truck");
+  for (const auto& ways : find_swept_ways(neither, build_conflict_table(neither)))
+    EXPECT_TRUE(ways.empty());
 }
 
 TEST(SweptWays, StraightOnSweepsNothing) {
@@ -82,7 +102,7 @@ TEST(SweptWays, StraightOnSweepsNothing) {
   const SweptWayTable table = find_swept_ways(network, build_conflict_table(network));
   for (std::size_t i = 0; i < table.size(); ++i)
     for (const SweptWay& way : table[i])
-      EXPECT_FALSE(!way.foe_is_long && network.connections[i].direction == 's');
+      EXPECT_FALSE(!way.foe_sweeps && network.connections[i].direction == 's');
 }
 
 }  // namespace
