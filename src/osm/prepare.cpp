@@ -204,8 +204,11 @@ void normalise_sidewalk(MapWay& way, IssueLog& log) {
   }
   if (side == "separate" || side == "none") side = "no";
   if (side == "yes") side = "both";
-  // nobody walks through a road tunnel unless the map says so
-  if (before.empty() && side.empty() && tag_is(way.tags, "tunnel", {"yes"})) side = "no";
+  // nobody walks through a road tunnel unless the map says so, on its lanes neither
+  if (before.empty() && side.empty() && tag_is(way.tags, "tunnel", {"yes"})) {
+    side = "no";
+    way.tags.try_emplace("foot", "no");
+  }
   if (side == before) return;
   way.tags["sidewalk"] = side;
   log.add(Severity::Note, "sidewalk_rewritten", "sidewalk tags rewritten for netconvert 1.15",

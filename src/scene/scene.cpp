@@ -128,8 +128,12 @@ void count_standing(double dt, Scene& scene, std::size_t row) {
   constexpr double kCreepsShare = 0.3;            // of the preferred speed: people on foot
   const double speed = scene.velocity[row].norm();
   const double creeping = std::min(kCreeps, kCreepsShare * scene.preferred_speed[row]);
+  // who is pressed back along its way doesn't get on
+  const RoadContext& context = scene.context[row];
+  const double gets_on =
+      context.active ? std::min(speed, scene.velocity[row].dot(context.tangent)) : speed;
   scene.standing_time[row] = speed < kStands ? scene.standing_time[row] + dt : 0.0;
-  scene.waiting_time[row] = speed < creeping ? scene.waiting_time[row] + dt : 0.0;
+  scene.waiting_time[row] = gets_on < creeping ? scene.waiting_time[row] + dt : 0.0;
 }
 
 }  // namespace sumogamma

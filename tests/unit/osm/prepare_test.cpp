@@ -104,6 +104,25 @@ TEST(NormaliseTags, WritesSidewalksAsNetconvertReadsThem) {
   }
 }
 
+// somebody on foot met a bus in a tunnel of one lane to each side, and was pressed back through it
+// for four minutes, with a dozen behind the bus
+TEST(NormaliseTags, NobodyWalksThroughATunnelUnlessTheMapSaysSo) {
+  const std::pair<Tags, std::string> cases[] = {{{{"tunnel", "yes"}}, "no"},
+                                                {{{"tunnel", "yes"}, {"foot", "yes"}}, "yes"},
+                                                {{{"tunnel", "yes"}, {"sidewalk", "both"}}, ""},
+                                                {{{"tunnel", "yes"}, {"sidewalk:left", "yes"}}, ""},
+                                                {{{"tunnel", "building_passage"}}, ""},
+                                                {{}, ""}};
+  for (const auto& [tags, expected] : cases) {
+    MapBuilder b;
+    Tags all = tags;
+    all["highway"] = "primary";
+    b.node(1, 0, 0).node(2, 100, 0).way(10, {1, 2}, all);
+    normalise_tags(b.map, b.log);
+    EXPECT_EQ(tag(b.map.ways[0].tags, "foot"), expected);
+  }
+}
+
 TEST(NormaliseTags, GuessesLanesOfTwoWayMainRoadsOnly) {
   MapBuilder b;
   b.node(1, 0, 0).node(2, 100, 0);

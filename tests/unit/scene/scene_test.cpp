@@ -139,6 +139,25 @@ TEST(CountStanding, CreepingIsStillWaiting) {
   EXPECT_EQ(scene.waiting_time[0], 0.0);
 }
 
+TEST(CountStanding, WhoIsPressedBackDoesNotGetOn) {
+  Scene scene;
+  AgentState walker;
+  walker.id = {1};
+  walker.preferred_speed = 1.3;
+  append_agent(scene, walker);
+  scene.context[0].active = true;
+  scene.context[0].tangent = {1, 0};
+  auto waits_after = [&](double vx, double vy) {
+    scene.velocity[0] = {vx, vy};
+    count_standing(0.5, scene, 0);
+    return scene.waiting_time[0];
+  };
+  EXPECT_EQ(waits_after(1.0, 0.0), 0.0);
+  EXPECT_EQ(waits_after(-1.0, 0.0), 0.5) << "back along its way";
+  EXPECT_EQ(waits_after(0.0, 1.0), 1.0) << "aside";
+  EXPECT_EQ(scene.standing_time[0], 0.0) << "it moves all the same";
+}
+
 TEST(Footprint, ABoxIsCounterClockwiseAboutItsCentre) {
   const Footprint box = box_footprint(4, 2);
   ASSERT_EQ(box.outline().size(), 4u);
