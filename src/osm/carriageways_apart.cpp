@@ -128,17 +128,6 @@ std::optional<Clearance> clearance(const RoadBody& body, std::size_t i, const Ro
   return need;
 }
 
-/// True where the point is next to an end of its body at which the other body ends too.
-bool at_shared_junction(const RoadNetwork& road, const RoadBody& body, std::size_t i,
-                        const RoadBody& other) {
-  const Edge &edge = road.edge(body.edge), &foe = road.edge(other.edge);
-  const auto touches = [&](JunctionId junction) {
-    return junction != kNoJunction && (foe.from == junction || foe.to == junction);
-  };
-  return (body.along[i] - body.from < lane_overlap::kJunctionReach && touches(edge.from)) ||
-         (body.to - body.along[i] < lane_overlap::kJunctionReach && touches(edge.to));
-}
-
 using Clearances = std::map<std::size_t, std::vector<Clearance>>;
 
 /// By other body: the points of this one at which the two overlap.
@@ -158,7 +147,9 @@ Clearances find_clearances(const RoadNetwork& road, const std::vector<RoadBody>&
         if (foot && (!nearest || std::abs(foot->offset) < std::abs(nearest->offset)))
           nearest = foot;
       }
-      if (!nearest || at_shared_junction(road, body, i, bodies[other])) continue;
+      if (!nearest || at_shared_junction(road.edge(body.edge), road.edge(bodies[other].edge),
+                                         body.along[i] - body.from, body.to - body.along[i]))
+        continue;
       if (const auto need = clearance(body, i, bodies[other], *nearest))
         found[other].push_back(*need);
     }

@@ -89,15 +89,6 @@ std::optional<double> overlap_at(const Lane& lane, const Place& place, const Lan
   return std::min({depth, lane.width, other.width});
 }
 
-/// True where the place is next to an end of the lane's edge at which the other edge ends too.
-bool at_shared_junction(const Edge& edge, const Edge& other, double along, double length) {
-  const auto touches = [&](JunctionId junction) {
-    return junction != kNoJunction && (other.from == junction || other.to == junction);
-  };
-  return (along < lane_overlap::kJunctionReach && touches(edge.from)) ||
-         (length - along < lane_overlap::kJunctionReach && touches(edge.to));
-}
-
 struct Hit {
   std::size_t step = 0;
   double depth = 0;
@@ -133,7 +124,7 @@ void append_overlaps_of(const RoadNetwork& road, const PieceGrid& grid, LaneId i
     for (const Piece& piece : grid.near(place.point)) {
       const Lane& other = road.lane(piece.lane);
       if (other.edge == lane.edge || !must_be_apart(lane_use(lane), lane_use(other))) continue;
-      if (at_shared_junction(edge, road.edge(other.edge), along, length)) continue;
+      if (at_shared_junction(edge, road.edge(other.edge), along, length - along)) continue;
       const std::optional<double> depth = overlap_at(lane, place, other, piece.segment);
       if (!depth) continue;
       std::vector<Hit>& of_other = hits[piece.lane];
@@ -149,6 +140,14 @@ void append_overlaps_of(const RoadNetwork& road, const PieceGrid& grid, LaneId i
 LaneUse lane_use(const Lane& lane) {
   if ((lane.allowed & kMotors) != 0) return LaneUse::Driving;
   return (lane.allowed & vehicle_class::kBicycle) != 0 ? LaneUse::Cycling : LaneUse::Walking;
+}
+
+bool at_shared_junction(const Edge& edge, const Edge& other, double from_begin, double to_end) {
+  constexpr double kReach = 3.0;  // [m]
+  const auto touches = [&](JunctionId junction) {
+    return junction != kNoJunction && (other.from == junction || other.to == junction);
+  };
+  return (from_begin < kReach && touches(edge.from)) || (to_end < kReach && touches(edge.to));
 }
 
 std::vector<LaneOverlap> find_lane_overlaps(const RoadNetwork& road) {

@@ -8,12 +8,15 @@ namespace sumogamma::osm {
 
 /// What counts as lying on each other, for those who look for it and those who mend it.
 namespace lane_overlap {
-inline constexpr double kTolerance = 0.3;      ///< [m] of overlap that is no harm
-inline constexpr double kShortest = 8.0;       ///< [m] of overlap that matters
-inline constexpr double kAlong = 0.8;          ///< least |cos| of the angle between two edges
-inline constexpr double kSameHeight = 4.0;     ///< [m]; what lies further above is apart
-inline constexpr double kJunctionReach = 3.0;  ///< [m] from a shared junction: nothing counts
+inline constexpr double kTolerance = 0.3;   ///< [m] of overlap that is no harm
+inline constexpr double kShortest = 8.0;    ///< [m] of overlap that matters
+inline constexpr double kAlong = 0.8;       ///< least |cos| of the angle between two edges
+inline constexpr double kSameHeight = 4.0;  ///< [m]; what lies further above is apart
 }  // namespace lane_overlap
+
+/// True within 3 m of an end of an edge at which another edge ends, too: nothing counts there.
+/// Metres along the edge.
+bool at_shared_junction(const Edge& edge, const Edge& other, double from_begin, double to_end);
 
 /// A stretch of one lane that lies on a lane of another edge.
 struct LaneOverlap {

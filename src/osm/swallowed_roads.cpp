@@ -53,9 +53,8 @@ bool is_swallowed(const RoadNetwork& road, const Edge& edge) {
 std::vector<std::pair<ConnectionId, Polyline>> driven_ways(const RoadNetwork& road,
                                                            const Junction& junction) {
   std::vector<std::pair<ConnectionId, Polyline>> ways;
-  for (const ConnectionId id : junction.links)
-    if (id != kNoConnection && is_driven(road, id) &&
-        (road.lane(road.connection(id).from).allowed & road.lane(road.connection(id).to).allowed &
+  for (const ConnectionId id : driven_links(road, junction))
+    if ((road.lane(road.connection(id).from).allowed & road.lane(road.connection(id).to).allowed &
          vehicle_class::kPassenger) != 0)
       ways.emplace_back(id, link_geometry(road, id));
   return ways;

@@ -34,6 +34,13 @@ bool is_driven(const RoadNetwork& network, ConnectionId id) {
          network.lane(connection.to).kind == LaneKind::Normal;
 }
 
+std::vector<ConnectionId> driven_links(const RoadNetwork& network, const Junction& junction) {
+  std::vector<ConnectionId> links;
+  for (const ConnectionId id : junction.links)
+    if (id != kNoConnection && is_driven(network, id)) links.push_back(id);
+  return links;
+}
+
 Path rounded_way(const RoadNetwork& network, ConnectionId id, double before, double after,
                  const Cornering& cornering) {
   const Connection& connection = network.connection(id);

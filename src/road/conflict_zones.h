@@ -36,6 +36,9 @@ Path rounded_way(const RoadNetwork& network, ConnectionId id, double before, dou
 /// Does a link lead vehicles over a junction, from lane to lane?
 bool is_driven(const RoadNetwork& network, ConnectionId id);
 
+/// Those of a junction's links that do, in the order of its matrix.
+std::vector<ConnectionId> driven_links(const RoadNetwork& network, const Junction& junction);
+
 /// Centreline of a link over its junction: its internal lanes in order, or the crossing that it
 /// enters.
 Polyline link_geometry(const RoadNetwork& network, ConnectionId id);

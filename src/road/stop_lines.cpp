@@ -56,8 +56,8 @@ double setback_on(const Lane& lane, const std::vector<Way>& ways) {
 /// Middle lines of all ways over a junction that vehicles drive.
 std::vector<Polyline> driven_ways(const RoadNetwork& network, const Junction& junction) {
   std::vector<Polyline> ways;
-  for (const ConnectionId id : junction.links)
-    if (id != kNoConnection && is_driven(network, id)) ways.push_back(link_geometry(network, id));
+  for (const ConnectionId id : driven_links(network, junction))
+    ways.push_back(link_geometry(network, id));
   return ways;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "geometry/oriented_box.h"
 
@@ -100,38 +101,19 @@ std::optional<SweptWay> swept_part(const Sweep& sweep, double length, const Path
   return part;
 }
 
-/// The links of a junction that vehicles drive, and their ways as cars drive them.
-struct DrivenLinks {
-  std::vector<ConnectionId> links;
-  std::vector<Path> ways;
-};
-
-DrivenLinks driven_links(const RoadNetwork& network, const Junction& junction) {
-  constexpr double kLooked = kFarthest + 2.0;  // [m]
-  constexpr double kCarRadius = 3.8;           // [m]
-  DrivenLinks driven;
-  for (const ConnectionId id : junction.links) {
-    if (id == kNoConnection || !is_driven(network, id)) continue;
-    driven.links.push_back(id);
-    driven.ways.push_back(rounded_way(network, id, kLooked, kLooked, {kCarRadius}));
-  }
-  return driven;
-}
-
-/// Adds what a body that takes the link `id` sweeps of the ways of others.
+/// Adds what a body that takes the link `id` sweeps of the ways of others, as cars drive them.
 void add_swept(const Sweeper& sweeper, const RoadNetwork& network, const ConflictTable& conflicts,
-               const DrivenLinks& driven, ConnectionId id, SweptWayTable& table) {
+               const std::vector<Path>& ways, ConnectionId id, SweptWayTable& table) {
   const Sweep sweep = sweep_of(sweeper, network, id);
   if (sweep.bodies.empty()) return;
   const EdgeId edge = network.lane(network.connection(id).from).edge;
-  for (std::size_t k = 0; k < driven.links.size(); ++k) {
-    const ConnectionId other = driven.links[k];
-    const Path& way = driven.ways[k];
-    if (network.lane(network.connection(other).from).edge == edge || way.links.empty()) continue;
+  for (const Path& way : ways) {
+    const PathLink& link = way.links.front();
+    const ConnectionId other = link.connection;
+    if (network.lane(network.connection(other).from).edge == edge) continue;
     const auto& zones = conflicts[index_of(other)];
     const bool ruled = std::any_of(zones.begin(), zones.end(),
                                    [&](const ConflictZone& zone) { return zone.foe == id; });
-    const PathLink& link = way.links.front();
     for (const bool wide : {false, true}) {
       const double half_width = wide ? sweeper.half_width_of_wide : sweeper.half_width;
       auto part = swept_part(sweep, sweeper.length, way, ruled ? 0.0 : link.end - link.stop_line,
@@ -151,12 +133,18 @@ void add_swept(const Sweeper& sweeper, const RoadNetwork& network, const Conflic
 }  // namespace
 
 SweptWayTable find_swept_ways(const RoadNetwork& network, const ConflictTable& conflicts) {
+  constexpr double kLooked = kFarthest + 2.0;  // [m]
+  constexpr double kCarRadius = 3.8;           // [m]
   SweptWayTable table(network.connections.size());
   for (const Junction& junction : network.junctions) {
-    const DrivenLinks driven = driven_links(network, junction);
+    const std::vector<ConnectionId> links = driven_links(network, junction);
+    std::vector<Path> ways;
+    for (const ConnectionId id : links) {
+      Path way = rounded_way(network, id, kLooked, kLooked, {kCarRadius});
+      if (!way.links.empty()) ways.push_back(std::move(way));
+    }
     for (const Sweeper& sweeper : kSweepers)
-      for (const ConnectionId id : driven.links)
-        add_swept(sweeper, network, conflicts, driven, id, table);
+      for (const ConnectionId id : links) add_swept(sweeper, network, conflicts, ways, id, table);
   }
   return table;
 }

@@ -130,8 +130,7 @@ void count_standing(double dt, Scene& scene, std::size_t row) {
   const double creeping = std::min(kCreeps, kCreepsShare * scene.preferred_speed[row]);
   // who is pressed back along its way doesn't get on
   const RoadContext& context = scene.context[row];
-  const double gets_on =
-      context.active ? std::min(speed, scene.velocity[row].dot(context.tangent)) : speed;
+  const double gets_on = context.active ? scene.velocity[row].dot(context.tangent) : speed;
   scene.standing_time[row] = speed < kStands ? scene.standing_time[row] + dt : 0.0;
   scene.waiting_time[row] = gets_on < creeping ? scene.waiting_time[row] + dt : 0.0;
 }

@@ -82,6 +82,15 @@ TEST(SelectWays, ASquareIsCrossedNotRounded) {
   EXPECT_EQ(b.log.count("square_crossed"), 1);
 }
 
+/// What becomes of the tags of a road.
+Tags normalised(const std::string& highway, Tags tags) {
+  tags["highway"] = highway;
+  MapBuilder b;
+  b.node(1, 0, 0).node(2, 100, 0).way(10, {1, 2}, std::move(tags));
+  normalise_tags(b.map, b.log);
+  return b.map.ways[0].tags;
+}
+
 TEST(NormaliseTags, WritesSidewalksAsNetconvertReadsThem) {
   const std::pair<Tags, std::string> cases[] = {
       {{{"sidewalk", "separate"}}, "no"},
@@ -94,14 +103,8 @@ TEST(NormaliseTags, WritesSidewalksAsNetconvertReadsThem) {
       {{{"tunnel", "yes"}}, "no"},
       {{{"tunnel", "yes"}, {"sidewalk", "both"}}, "both"},
       {{}, ""}};
-  for (const auto& [tags, expected] : cases) {
-    MapBuilder b;
-    Tags all = tags;
-    all["highway"] = "residential";
-    b.node(1, 0, 0).node(2, 100, 0).way(10, {1, 2}, all);
-    normalise_tags(b.map, b.log);
-    EXPECT_EQ(tag(b.map.ways[0].tags, "sidewalk"), expected);
-  }
+  for (const auto& [tags, expected] : cases)
+    EXPECT_EQ(tag(normalised("residential", tags), "sidewalk"), expected);
 }
 
 // somebody on foot met a bus in a tunnel of one lane to each side, and was pressed back through it
@@ -113,14 +116,8 @@ TEST(NormaliseTags, NobodyWalksThroughATunnelUnlessTheMapSaysSo) {
                                                 {{{"tunnel", "yes"}, {"sidewalk:left", "yes"}}, ""},
                                                 {{{"tunnel", "building_passage"}}, ""},
                                                 {{}, ""}};
-  for (const auto& [tags, expected] : cases) {
-    MapBuilder b;
-    Tags all = tags;
-    all["highway"] = "primary";
-    b.node(1, 0, 0).node(2, 100, 0).way(10, {1, 2}, all);
-    normalise_tags(b.map, b.log);
-    EXPECT_EQ(tag(b.map.ways[0].tags, "foot"), expected);
-  }
+  for (const auto& [tags, expected] : cases)
+    EXPECT_EQ(tag(normalised("primary", tags), "foot"), expected);
 }
 
 TEST(NormaliseTags, GuessesLanesOfTwoWayMainRoadsOnly) {
