@@ -219,6 +219,24 @@ def roundabout(tracks):
                 if any(on_ring(s) for s in t.samples))}
 
 
+def roundabout_entry(tracks):
+    """Vehicles an hour on the ring past its western entry and into it from a queue, a stage of 300 s each, its first 30 s
+    left out, beside the capacity after the Highway Capacity Manual, 6th edition (one lane, one circulating lane)."""
+    ring, entered = [], []
+    for track in vehicles(tracks):
+        if track.name.startswith("ring"):
+            ring.append(track.passes(lambda s: s.x < 0 and s.y <= 0))
+        else:
+            entered.append(track.passes(lambda s: math.hypot(s.x, s.y) < 26.5))
+    stages = []
+    for begin in range(0, 900, 300):
+        def flow(times):
+            return 3600 * sum(t is not None and begin + 30 <= t < begin + 300 for t in times) / 270
+        circulating = flow(ring)
+        stages.append({"ring": circulating, "entered": flow(entered), "hcm": 1380 * math.exp(-1.02e-3 * circulating)})
+    return {"stages": stages}
+
+
 def over_road(people, road):
     """Of each who steps on the carriageway of the road along y = 0, `road` [m] wide to either side: wait at the kerb
     before that [s], where [m], whether it was on both sides."""
@@ -469,8 +487,9 @@ def platoon(tracks):
     return {"roads": roads}
 
 
-MEASURES = {f.__name__: f for f in (saturation, two_way_stop, all_way_stop, roundabout, zebra, mid_block,
-                                    bicycle_overtaken, bus_stop, mixed_queue, sidewalk_counterflow, lane_drop, platoon)}
+MEASURES = {f.__name__: f for f in (saturation, two_way_stop, all_way_stop, roundabout, roundabout_entry, zebra,
+                                    mid_block, bicycle_overtaken, bus_stop, mixed_queue, sidewalk_counterflow, lane_drop,
+                                    platoon)}
 
 
 def common(results, tracks):
@@ -510,6 +529,7 @@ HEADLINES = {
                      ("flow", "flow", "vehicles/h", 0)],
     "roundabout": [("halts on the ring", "halted_on_ring", "", 0), ("wait before it", "mean_wait_at_entry", "s", 1),
                    ("slowest lap", "slowest_lap_speed", "m/s", 1)],
+    "roundabout_entry": [],
     "zebra": [("people cut off", "cars_that_cut_off", "", 0), ("wait at the kerb", "mean_wait_at_kerb", "s", 1),
               ("delay of cars", "mean_car_delay", "s", 1), ("hardest braking", "hardest_braking", "m/s²", 1)],
     "mid_block": [("crossed", "people_crossed", "", 0), ("on the crossing", "on_the_crossing", "", 0),
@@ -548,6 +568,9 @@ def headline(figures, scenario):
         cells.append(f"{words} {', '.join(values)} {unit}".strip())
     if scenario == "sidewalk_counterflow":
         cells += [f"{w['density']:.2f} /m²: {w['speed']:.2f} m/s (Weidmann {w['weidmann']:.2f})" for w in figures["walks"]]
+    if scenario == "roundabout_entry":
+        cells += [f"{s['entered']:,.0f} vehicles/h enter beside {s['ring']:,.0f} on the ring (HCM 6: {s['hcm']:,.0f})"
+                  for s in figures["stages"]]
     cells.append(f"**{figures['colliding_pairs']} / {figures['stuck']} / {figures['arrived']} of {figures['inserted']}**")
     return "; ".join(cells)
 

@@ -58,7 +58,19 @@ double lock_along_path(const Path& path, const Scene& scene, const AgentType& ty
   return type.wheelbase * 2.0 * cross(forward, way) / std::max(way.squaredNorm(), 1.0);
 }
 
-/// Does a pose keep clear of everybody as they brake now, or come no closer to who is close?
+/// Where a vehicle is until it stands if it brakes now, and over the next second: nobody backs out
+/// across the way of who drives past.
+OrientedBox ahead_of(const AgentGeometry& their) {
+  constexpr double kDrivesPast = 1.0;  // [m/s]
+  constexpr double kAhead = 1.0;       // [s]
+  const double way = kAhead * their.velocity.dot(their.forward);
+  const double rest = their.braking.half.x() - their.half.x();  // half the way to a stop
+  if (way < kDrivesPast * kAhead || way < 2.0 * rest) return their.braking;
+  const OrientedBox box = their.box();
+  return {box.center + 0.5 * way * box.forward, box.forward, box.half + Vec2(0.5 * way, 0.0)};
+}
+
+/// Does a pose keep clear of everybody, or come no closer to who is close?
 bool keeps_clear(const RoadNetwork& network, const Scene& scene, const TickGeometry& geometry,
                  std::size_t row, const BodyState& body) {
   const AgentGeometry& own = geometry.agent[row];
@@ -75,8 +87,9 @@ bool keeps_clear(const RoadNetwork& network, const Scene& scene, const TickGeome
                   (their.position - body.position).norm() > (their.position - own.position).norm();
           return;
         }
-        const double gap = separation(box, their.braking);
-        if (gap < kept) clear = gap > separation(own.box(), their.braking) - 1e-9;
+        const OrientedBox taken = ahead_of(their);
+        const double gap = separation(box, taken);
+        if (gap < kept) clear = gap > separation(own.box(), taken) - 1e-9;
       });
   return clear;
 }

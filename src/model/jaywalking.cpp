@@ -73,8 +73,8 @@ bool holds(const RoadView& view, std::size_t row, const Meeting& meeting, const 
   const double into = (meeting.place - swath - piece.front) / piece.pace;
   const double past = kSetsOut + (meeting.place + swath + piece.length - piece.front) / piece.pace;
   const Occupation taken = occupation(
-      type, {kNoConnection, static_cast<std::uint32_t>(row), half_length, 2.0 * half_length, speed},
-      meeting.way - side, meeting.way + side, top_speed(model, road, scene, row));
+      view, {kNoConnection, static_cast<std::uint32_t>(row), half_length, 2.0 * half_length, speed},
+      meeting.way - side, meeting.way + side);
   const double margin = kMargin + (kLeast - kMargin) * std::min(piece.waited / kPatience, 1.0);
   if (taken.end + margin < into || taken.begin > past + margin) return false;
   return patient || taken.begin < kSeen || deceleration_to_stop(speed, gap) > kEasy;

@@ -9,7 +9,8 @@ namespace {
 // kept clear at the most, and driven on for so long then. Round a block whose roads are full nobody
 // would ever move on: somebody has to lend the queue the room of the junction [s]
 constexpr double kKeepsClear = 40.0, kGoesOn = 10.0;
-constexpr double kQueue = 80.0;  // beyond a link within which a queue is looked at [m]
+constexpr double kInRing = 10.0;  // likewise by who waits, in the end, for itself [s]
+constexpr double kQueue = 80.0;   // beyond a link within which a queue is looked at [m]
 
 /// Where the next queue behind a link may have its head [m along the path]: before the next link
 /// at which somebody might have to wait, infinite where none is near.
@@ -144,6 +145,19 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
   return {};
 }
 
+/// Does a row wait, over whom it waits for and so on, for itself? Then nobody gains by the room
+/// that it leaves.
+bool waits_for_itself(const RoadView& view, std::size_t row) {
+  constexpr int kLongest = 16;
+  std::size_t other = row;
+  for (int k = 0; k < kLongest; ++k) {
+    other = find_foe(view.scene, view.approaches.waiting(other).foe);
+    if (other == row) return true;
+    if (other >= view.scene.size()) return false;
+  }
+  return false;
+}
+
 }  // namespace
 
 LinkDecision keep_clear(const RoadView& view, const Course& course, const Traveller& traveller,
@@ -204,13 +218,15 @@ bool takes_turning_room(const RoadView& view, const Course& course, const PathLi
          (!signalled || view.scene.waiting_time[course.row] > kCycles);
 }
 
-void note_keeping_clear(const Course& course, const RoadContext& context, double dt, Scene& scene) {
+void note_keeping_clear(const RoadView& view, const Course& course, const RoadContext& context,
+                        double dt, Scene& scene) {
   double& kept = scene.keeps_clear[course.row];
   const bool for_others =
       context.reason == LimitReason::BlockedJunction || context.reason == LimitReason::TurningRoom;
   if (for_others && course.speed < 0.3) {
     kept += dt;
-    if (kept > kKeepsClear) kept = kKeepsClear + kGoesOn;
+    if (kept > kKeepsClear || (kept > kInRing && waits_for_itself(view, course.row)))
+      kept = kKeepsClear + kGoesOn;
   } else if (kept > kKeepsClear) {
     kept = kept - dt > kKeepsClear ? kept - dt : 0.0;
   } else if (scene.waiting_time[course.row] == 0.0) {

@@ -25,6 +25,7 @@ LinkDecision let_one_in(const RoadView& view, const Course& course, const Travel
 bool takes_turning_room(const RoadView& view, const Course& course, const PathLink& link);
 
 /// Counts for how long the agent has kept a junction, or the room that others need to turn, clear.
-void note_keeping_clear(const Course& course, const RoadContext& context, double dt, Scene& scene);
+void note_keeping_clear(const RoadView& view, const Course& course, const RoadContext& context,
+                        double dt, Scene& scene);
 
 }  // namespace sumogamma

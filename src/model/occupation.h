@@ -12,10 +12,15 @@ struct Occupation {
   double begin = 0, end = 0;  ///< both never where its rear has passed; who stands in it stays
 };
 
-/// From when the front gets to `begin` until the rear has left `end` [m past the link's begin], on
-/// the way up to `top_speed` [m/s].
-Occupation occupation(const AgentType& type, const Approach& who, double begin, double end,
-                      double top_speed);
+/// From when the front of a row with a path gets to `begin` until its rear has left `end` [m past
+/// the link's begin, as `who.front`], as fast as its path, its type and its liking let it.
+Occupation occupation(const RoadView& view, const Approach& who, double begin, double end);
+
+/// Time [s] in which somebody at `speed` [m/s] gets from one place of its path to another [m along
+/// it, of its middle], as its speed profile and `most` [m/s] let it, taking up speed with
+/// `acceleration` [m/s^2].
+double time_to_drive(const Path& path, double from, double to, double speed, double most,
+                     double acceleration);
 
 /// That a row with a path could drive where it is: what its path and its type leave [m/s].
 double top_speed(const Model& model, const RoadState& road, const Scene& scene, std::size_t row);

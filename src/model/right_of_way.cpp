@@ -18,6 +18,7 @@ constexpr double kCreeps = 0.1;      ///< who is on the junction and faster does
 constexpr double kAmber = 2.5;       ///< reckoned with from an amber on [s]
 constexpr double kCrawl = 1.0;       ///< whoever is slower stands within centimetres [m/s]
 constexpr double kTimeMargin = 1.0;  ///< left by who needn't yield to the other in a zone [s]
+constexpr double kBehind = 0.3;      ///< left by who yields behind a vehicle that has passed [s]
 // who has waited for long to give way leaves this share of its critical gap
 constexpr double kLeastShare = 0.4;
 // and asks this braking of who has the right of way in the lane that it joins, or at first [m/s^2]
@@ -138,19 +139,24 @@ struct Judge : RoadView {
     if (!foe_inside && ignores(zone, foe)) return Verdict::Free;
     if (is_ignored_by(foe)) zone.yields = true;
 
-    const double foe_top = top_speed(model, road, scene, foe.row);
-    Occupation theirs = occupation(foe_type, foe, zone.foe_begin, zone.foe_end, foe_top);
+    Occupation theirs = occupation(*this, foe, zone.foe_begin, zone.foe_end);
     if (theirs.begin == Occupation::kNever) return Verdict::Free;
     if (rests_in(zone, foe)) theirs.end = Occupation::kNever;
     const Approach own = approach_of(traveller, link);
-    const Occupation ours = occupation(own_type, own, zone.begin, zone.end, traveller.top_speed);
+    const Occupation ours = occupation(*this, own, zone.begin, zone.end);
     const double margin = zone.yields
                               ? own_type.critical_gap * (1.0 - impatience() * (1.0 - kLeastShare))
                               : kTimeMargin;
-    const bool overlap = ours.begin < theirs.end + margin && theirs.begin < ours.end + margin;
+    // who yields goes right behind a vehicle that has passed; who joins its lane before another
+    // that then follows it
+    const bool merges = zone.yields && turns_in(zone, foe_link);
+    const bool right_behind = zone.yields && !zone.foe_is_crossing;
+    const double behind = right_behind ? std::min(kBehind, margin) : margin;
+    const bool overlap = ours.begin < theirs.end + behind &&
+                         theirs.begin < (merges ? ours.begin : ours.end) + margin;
     if (!overlap)
-      return blocks_if(zone.yields && !foe_inside && !foe.stands && ours.begin < theirs.begin &&
-                       cuts_in(zone, foe, foe_top));
+      return blocks_if(merges && !foe.stands && ours.begin < theirs.begin &&
+                       braking_asked_of(zone, foe) > kAsked + impatience() * (kAskedMost - kAsked));
     // who has backed out of a deadlock lets everybody past, wherever it stands, and so does who
     // leaves room for a long body or lets one in; whom bodies hold isn't coming, and past the line
     // it is no use to wait for it
@@ -314,22 +320,30 @@ struct Judge : RoadView {
   double to_line() const { return link.stop_line - traveller.front; }
   /// From 0 to 1 while the traveller waits.
   double impatience() const { return std::min(scene.waiting_time[traveller.row] / kLongWait, 1.0); }
-  /// Would who comes along the lane that the link leads into have to brake hard for the traveller?
-  bool cuts_in(const ConflictZone& zone, const Approach& foe, double foe_top) const {
-    const Connection& foe_link = model.road.connection(zone.foe);
+  /// Does the traveller still wait to join a lane on which the foe comes without having to halt?
+  bool turns_in(const ConflictZone& zone, const Connection& foe_link) const {
     const bool halts_first = foe_link.state == 's' || foe_link.state == 'w';
-    if (past_line(zone) || halts_first || !joins_our_lane(foe_link)) return false;
-    const Entrant entrant{type_of(model.types, scene.type[traveller.row]),
+    return joins_our_lane(foe_link) && !halts_first && !past_line(zone);
+  }
+  /// Of who comes along the lane that the link leads into, if the traveller goes first [m/s^2].
+  double braking_asked_of(const ConflictZone& zone, const Approach& foe) const {
+    const double merged = link.stop_line + zone.end;
+    const double foe_front = scene.path_along[foe.row] + 0.5 * foe.length;
+    const Merging entrant{type_of(model.types, scene.type[traveller.row]),
                           *road.path(scene.path[traveller.row]),
                           traveller.front,
                           traveller.length,
                           traveller.speed,
                           scene.preferred_speed[traveller.row],
-                          link.stop_line + zone.begin,
-                          link.stop_line + zone.end};
-    const Oncomer oncomer{type_of(model.types, scene.type[foe.row]), zone.foe_end - foe.front,
-                          foe.speed, std::min(foe_top, scene.preferred_speed[foe.row])};
-    return braking_asked(entrant, oncomer) > kAsked + impatience() * (kAskedMost - kAsked);
+                          merged};
+    const Merging oncomer{type_of(model.types, scene.type[foe.row]),
+                          *road.path(scene.path[foe.row]),
+                          foe_front,
+                          foe.length,
+                          foe.speed,
+                          scene.preferred_speed[foe.row],
+                          foe_front + zone.foe_end - foe.front};
+    return braking_asked(entrant, link.stop_line + zone.begin, oncomer);
   }
   /// Have both to give way to others here, with no signal between them? Then who has begun to cross
   /// finishes, whoever of the two would go first at the line: nobody is caught on the junction.

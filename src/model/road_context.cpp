@@ -235,7 +235,7 @@ void update_road_contexts(const Model& model, const RoadState& road, const Spati
         } else {
           note_halt(course, scene);
           set_allowed_speed(view, course, dt, context);
-          note_keeping_clear(course, context, dt, scene);
+          note_keeping_clear(view, course, context, dt, scene);
         }
       }
       // a row reads other rows' state but never their new context

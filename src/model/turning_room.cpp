@@ -65,8 +65,7 @@ LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller
         deceleration_to_stop(traveller.speed, line + kStopMargin - traveller.front) >
             0.8 * type.max_deceleration;
     if (too_late || (decision.must_stop && line >= decision.stop_at)) continue;
-    const Occupation ours =
-        occupation(type, approach_of(traveller, link), way.begin, way.end, traveller.top_speed);
+    const Occupation ours = occupation(view, approach_of(traveller, link), way.begin, way.end);
     for (const Approach& foe : approaches.of(way.foe)) {
       if (foe.row == traveller.row || (way.foe_sweeps && turning_body(foe.length) != way.body))
         continue;
@@ -79,8 +78,7 @@ LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller
                          (traveller.length <= kLongBody &&
                           stands_beside(view, traveller, link, way.begin, way.end, foe))))
         continue;
-      Occupation theirs = occupation(type_of(model.types, scene.type[foe.row]), foe, way.foe_begin,
-                                     way.foe_end, top_speed(model, road, scene, foe.row));
+      Occupation theirs = occupation(view, foe, way.foe_begin, way.foe_end);
       // who waits there for something doesn't leave by itself
       if (there && approaches.rest_of(foe) - foe.length < way.foe_end)
         theirs.end = Occupation::kNever;

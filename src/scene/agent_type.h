@@ -40,10 +40,9 @@ struct AgentType {
   double attention_front = 0, attention_rear = 0;  ///< least reach of Att [m]; speed adds to it
   double headway = 0;                              ///< desired time gap to a leader [s]
   double min_gap = 0;                              ///< standstill gap to a leader [m]
-  double critical_gap =
-      1.0;                  ///< left before and after whoever has the right of way in a place where
-                            ///< ways cross [s]: HCM's critical headway less the time of crossing
-  Compliance compliance{};  ///< how far it keeps the rules, and how its agents differ
+  double critical_gap = 1.0;  ///< left before whoever has the right of way in a place where ways
+                              ///< cross [s]: HCM's critical headway less the time of crossing
+  Compliance compliance{};    ///< how far it keeps the rules, and how its agents differ
 };
 
 /// Rows in a fixed order; index with AgentTypeId.

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "geometry/rotation.h"
 #include "model/backing.h"
 #include "model/stopping_guard.h"
@@ -230,6 +232,32 @@ TEST_F(BackingTest, StopsInTimeBeforeWhoStandsFartherBehind) {
   const double way = stand_wedged(own, 40.0);
   EXPECT_GT(way, 0.5);
   EXPECT_LT(way, 1.5 - 0.2);
+}
+
+// a bus rolled back in a bend, and its front swung into the lorry that drove past it
+TEST_F(BackingTest, NobodyBacksOutAcrossTheWayOfWhoDrivesPast) {
+  const std::size_t own = here_.add("bus", {"WC", "CE"}, 100, 0, 0, -1, "WC_1");
+  // its path lies to its left: back along it the front swings to the right
+  here_.move(own, 100, -1.0);
+  here_.scene.heading[own] += 0.15;
+  const std::size_t past = here_.add("truck", {"WC", "CE"}, 80, 6, 0, -1, "WC_1");
+  here_.scene.heading[past] = here_.scene.heading[own] + std::numbers::pi;
+  // it comes towards the bus and passes beside its front with 0.3 m to spare
+  const Vec2 forward = direction_of(here_.scene.heading[own]);
+  const Vec2 side = here_.scene.position[own] - (1.25 + 0.3) * left_of(forward);
+  here_.scene.position[past] = side + 14.0 * forward - 1.25 * left_of(forward);
+  auto nearest = [&] {
+    double least = 10.0;
+    const Vec2 heading = direction_of(here_.scene.heading[own]);
+    for (const Vec2& corner : here_.scene.footprint[own].outline()) {
+      const Vec2 turned = corner.x() * heading + corner.y() * left_of(heading);
+      least = std::min(least, (here_.scene.position[own] + turned - side).dot(left_of(forward)));
+    }
+    return least;
+  };
+  here_.set_speed(past, 6);
+  EXPECT_GT(stand_wedged(own, 20.0), 0.5) << "straight back it swings out to nobody";
+  EXPECT_GT(nearest(), 0.2);
 }
 
 TEST(RollBack, TheRearAxleNeverSlides) {

@@ -3,6 +3,7 @@
 #include "model/context.h"
 #include "model/gamma_velocity.h"
 #include "model/merging.h"
+#include "model/occupation.h"
 #include "model/right_of_way.h"
 #include "support/road_scene.h"
 #include "support/small_net.h"
@@ -126,14 +127,24 @@ class PriorityTest : public ::testing::Test {
     here_.move(row, here_.path(row).links.front().stop_line - 2.25 - 0.6);
     return row;
   }
-  /// Where the way of `row` begins to be in that of `other` [m along its path].
-  double zone_of(std::size_t row, std::size_t other) const {
+  /// Where the ways of two over their first links are in each other's.
+  ConflictZone conflict_of(std::size_t row, std::size_t other) const {
     const PathLink& link = here_.path(row).links.front();
     const ConnectionId foe = here_.path(other).links.front().connection;
     for (const ConflictZone& zone : here_.model.conflicts[index_of(link.connection)])
-      if (zone.foe == foe) return link.stop_line + zone.begin;
+      if (zone.foe == foe) return zone;
     ADD_FAILURE() << "their ways don't cross";
-    return link.stop_line;
+    return {};
+  }
+  /// Where the way of `row` begins to be in that of `other` [m along its path].
+  double zone_of(std::size_t row, std::size_t other) const {
+    return here_.path(row).links.front().stop_line + conflict_of(row, other).begin;
+  }
+  /// When a row is between two places of its first link.
+  Occupation occupation_of(std::size_t row, double begin, double end) const {
+    const Approach who{here_.path(row).links.front().connection, static_cast<std::uint32_t>(row),
+                       here_.past_line(row), 4.5, here_.scene.speed[row]};
+    return occupation(here_.view(), who, begin, end);
   }
   RoadScene here_{net()};
 };
@@ -185,6 +196,46 @@ TEST_F(PriorityTest, WhoTurnsInWaitsForWhoWouldHaveToBrakeHard) {
   here_.move(major, line - 110);
   here_.update();
   EXPECT_EQ(here_.context(minor).reason, LimitReason::None);
+}
+
+// it had waited until who passes was out of the place where the ways meet, and a second longer; an
+// entry of a roundabout took three quarters of the vehicles that the Highway Capacity Manual
+// expects
+TEST_F(PriorityTest, WhoTurnsInGoesRightBehindWhoPassesAndWhoCrossesWaits) {
+  const std::size_t passing = here_.add("car", {"WC", "CE"}, 0, 10, 0, -1, "WC_0");
+  const std::size_t joining = add_at_line({"SC", "CE"}, "SC_0");
+  const ConflictZone zone = conflict_of(joining, passing);
+  // its rear is out of the way a moment before our front comes there
+  here_.move(passing, 0);
+  const double first = occupation_of(joining, zone.begin, zone.end).begin;
+  double at = here_.path(passing).links.front().stop_line;
+  auto leaves = [&] { return occupation_of(passing, zone.foe_begin, zone.foe_end).end; };
+  for (here_.move(passing, at); leaves() > first - 0.5; here_.move(passing, at)) at += 0.5;
+  here_.update();
+  EXPECT_EQ(here_.context(joining).reason, LimitReason::None);
+  for (here_.move(passing, at); leaves() < first - 0.1; here_.move(passing, at)) at -= 0.5;
+  here_.update();
+  EXPECT_EQ(here_.context(joining).reason, LimitReason::Yield);
+}
+
+TEST_F(PriorityTest, WhoTurnsInGoesBeforeWhoComesLaterAndNeedNotBrakeHard) {
+  const std::size_t joining = add_at_line({"SC", "CE"}, "SC_0");
+  const std::size_t coming = here_.add("car", {"WC", "CE"}, 0, 5, 0, -1, "WC_0");
+  here_.scene.preferred_speed[coming] = 5;
+  const ConflictZone zone = conflict_of(joining, coming);
+  double at = here_.path(coming).links.front().stop_line - 60;
+  auto arrives = [&] { return occupation_of(coming, zone.foe_begin, zone.foe_end).begin; };
+  const Occupation own = occupation_of(joining, zone.begin, zone.end);
+  for (here_.move(coming, at); arrives() > own.begin + 2.2; here_.move(coming, at)) at += 0.5;
+  EXPECT_LT(arrives(), own.end + 1.0) << "who crosses would wait";
+  here_.update();
+  EXPECT_EQ(here_.context(joining).reason, LimitReason::None);
+  // faster it would have to brake hard
+  here_.scene.preferred_speed[coming] = 13;
+  here_.set_speed(coming, 13);
+  for (here_.move(coming, at); arrives() < own.begin + 1.3; here_.move(coming, at)) at -= 0.5;
+  here_.update();
+  EXPECT_EQ(here_.context(joining).reason, LimitReason::Yield);
 }
 
 TEST_F(PriorityTest, OfTwoFromMinorRoadsWhoHasBegunToCrossFinishes) {
@@ -305,8 +356,8 @@ TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
     here_.scene.halted_for = {link.connection, turn.connection};
     here_.scene.halted_at = {own_at, minor_at};
     here_.scene.context.assign(2, {});
-    here_.scene.waiting_time = {3.0, 100.0 - minor_at};
-    here_.update(2);  // the other one sees that it is let in
+    here_.scene.waiting_time = {3.0, 5.0};  // it inched on
+    here_.update(2);                        // the other one sees that it is let in
   };
   came(60, 50);
   EXPECT_EQ(here_.context(own).reason, LimitReason::LetsIn);
@@ -442,6 +493,27 @@ TEST_F(PriorityTest, WhoHasKeptAJunctionClearForLongGoesOnForAWhile) {
   EXPECT_GT(blocked, 40.0);
 }
 
+// four who each kept a junction of a roundabout clear for the next one stood for five minutes
+TEST_F(PriorityTest, WhoKeepsAJunctionClearForItselfInTheEndGoesOnSooner) {
+  const std::size_t own = add_at_line({"WC", "CE"}, "WC_0");
+  const std::size_t queue = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  here_.move(queue, here_.path(own).links.front().end + 2.25 + 1.0);
+  const std::size_t third = here_.add("car", {"NC", "CS"}, 150, 0);
+  auto blocked_for = [&](std::int64_t third_waits_for) {
+    here_.scene.keeps_clear[own] = 0.0;
+    double blocked = 0;
+    for (double time = 0; time < 30.0; time += 0.5) {
+      here_.scene.context[queue].foe = here_.scene.id[third].value;
+      here_.scene.context[third].foe = third_waits_for;
+      here_.update(1, 0.5);
+      if (here_.context(own).reason == LimitReason::BlockedJunction) blocked += 0.5;
+    }
+    return blocked;
+  };
+  EXPECT_EQ(blocked_for(-1), 30.0);
+  EXPECT_NEAR(blocked_for(here_.scene.id[own].value), 20.0, 1.5);
+}
+
 /// A west-east road over two junctions so many metres apart, where another road crosses it each.
 ///
 ///         NA   N           edges are named after their ends: AB runs from A to B
@@ -476,7 +548,7 @@ TEST(JunctionsThatFollowClosely, AreKeptClearForSomeTimeThoughSomebodyCreeps) {
   const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
   here.move(own, here.path(own).links.at(0).stop_line - 2.25 - 0.6);
   const std::size_t foe = here.add("car", {"NB", "BS"}, 0, 10);
-  here.move(foe, here.path(foe).links.at(0).stop_line - 25);
+  here.move(foe, here.path(foe).links.at(0).stop_line - 32);
   here.update();
   EXPECT_EQ(here.context(own).foe, here.scene.id[foe].value);
   here.scene.standing_time[own] = 0.5;
@@ -1147,9 +1219,11 @@ TEST(BrakingAsked, IsTheHarderTheCloserSomebodyIsCutInOn) {
   RoadScene here(testing::small_net());
   const std::size_t own = here.add("car", {"in", "out"}, 90, 0);
   const AgentType& type = type_of(here.model.types, here.scene.type[own]);
+  const Path& path = here.path(own);
   auto asked = [&](double to_merged, double speed) {
-    return braking_asked({type, here.path(own), 92, 4.5, 0, 13, 95, 100},
-                         {type, to_merged, speed, speed});
+    // both on ways like this one, whose places at 100 m are the same
+    return braking_asked({type, path, 92, 4.5, 0, 13, 100}, 95,
+                         {type, path, 20, 4.5, speed, speed, 20 + to_merged});
   };
   EXPECT_EQ(asked(200, 12), 0.0);
   EXPECT_GT(asked(45, 12), 1.0);
