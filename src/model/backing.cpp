@@ -109,16 +109,6 @@ bool makes_room(const Scene& scene, std::size_t row) {
          scene.backing_left[leader] > 0.0 && scene.backing_left[leader] < kTries - kTried;
 }
 
-/// Does this row wait for another, or for whoever waits for it?
-bool waits_for(const Scene& scene, std::size_t row, std::size_t other) {
-  constexpr int kLongest = 12;
-  for (int k = 0; k < kLongest && row < scene.size(); ++k) {
-    row = foe_row(scene, row);
-    if (row == other) return true;
-  }
-  return false;
-}
-
 /// Does this row stand in the way of somebody wedged of whom `concerns` is true?
 template <typename Concerns>
 bool stands_before(const Model& model, const Scene& scene, const TickGeometry& geometry,
@@ -145,10 +135,13 @@ bool stands_before(const Model& model, const Scene& scene, const TickGeometry& g
 bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometry& geometry,
                        std::size_t row) {
   constexpr double kLong = 25.0;  // [s]
+  constexpr int kLongest = 12;
   return scene.standing_time[row] > kLong && !is_wedged(scene, row) &&
          !waits_at_red(scene.context[row]) &&
          stands_before(model, scene, geometry, row, [&](std::size_t other) {
-           return scene.blocked_time[other] > kHeldUp && waits_for(scene, row, other);
+           return scene.blocked_time[other] > kHeldUp &&
+                  waits_for(scene, row, other, kLongest,
+                            [&](std::size_t waiting) { return foe_row(scene, waiting); });
          });
 }
 

@@ -149,13 +149,9 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
 /// that it leaves.
 bool waits_for_itself(const RoadView& view, std::size_t row) {
   constexpr int kLongest = 16;
-  std::size_t other = row;
-  for (int k = 0; k < kLongest; ++k) {
-    other = find_foe(view.scene, view.approaches.waiting(other).foe);
-    if (other == row) return true;
-    if (other >= view.scene.size()) return false;
-  }
-  return false;
+  return waits_for(view.scene, row, row, kLongest, [&](std::size_t waiting) {
+    return find_foe(view.scene, view.approaches.waiting(waiting).foe);
+  });
 }
 
 }  // namespace
