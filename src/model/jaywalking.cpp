@@ -59,8 +59,8 @@ bool holds(const RoadView& view, std::size_t row, const Meeting& meeting, const 
   constexpr double kClear = 3.0;  // before who crawls [m]
   constexpr double kEasy = 2.0;   // to brake [m/s^2]
   constexpr double kSeen = 3.0;   // time for that at the least [s]
-  const auto& [model, road, scene, grid, approaches] = view;
-  const AgentType& type = type_of(model.types, scene.type[row]);
+  const Scene& scene = view.scene;
+  const AgentType& type = type_of(view.model.types, scene.type[row]);
   const double half_length = scene.footprint[row].radius;
   const double side = piece.half_width + kBeside;
   const double gap = meeting.way - half_length - side;
@@ -96,7 +96,9 @@ std::int64_t find_who_comes(const RoadView& view, std::size_t row, const Piece& 
     if (path == nullptr || path->walking) return;
     const double half_length = scene.footprint[other].radius;
     const double least = std::sqrt(distance) - width - half_length;
-    if (least > time * top_speed(view.model, view.road, scene, other)) return;
+    const double fastest = std::min(path->profile_at(scene.path_along[other]),
+                                    type_of(view.model.types, scene.type[other]).max_speed);
+    if (least > time * fastest) return;
     if (on_other_storey(view.model.road, scene, row, other)) return;
     const auto meeting =
         find_meeting(path->line, scene.path_along[other], half_length + 1.0, reach, piece);
@@ -111,7 +113,7 @@ std::int64_t find_who_comes(const RoadView& view, std::size_t row, const Piece& 
 
 }  // namespace
 
-LinkDecision decide_at_kerb(const RoadView& view, const Traveller& walker) {
+LinkDecision decide_at_kerb(const RoadView& view, const Traveller& walker, double pace) {
   const auto& [model, road, scene, grid, approaches] = view;
   const Path& path = *road.path(scene.path[walker.row]);
   for (const RoadCrossing& over : path.over_road) {
@@ -126,7 +128,7 @@ LinkDecision decide_at_kerb(const RoadView& view, const Traveller& walker) {
                       walker.front - over.begin,
                       walker.length,
                       0.5 * type_of(model.types, scene.type[walker.row]).width,
-                      std::max(walker.top_speed, 0.3),
+                      std::max(pace, 0.3),
                       scene.waiting_time[walker.row]};
     const std::int64_t foe = find_who_comes(view, walker.row, piece);
     if (foe < 0) break;

@@ -37,11 +37,6 @@ Occupation occupation(const RoadView& view, const Approach& who, double begin, d
   return {time_to(begin, most), time_to(end + who.length, cautious)};
 }
 
-double top_speed(const Model& model, const RoadState& road, const Scene& scene, std::size_t row) {
-  return std::min(road.path(scene.path[row])->profile_at(scene.path_along[row]),
-                  type_of(model.types, scene.type[row]).max_speed);
-}
-
 Approach approach_of(const Traveller& traveller, const PathLink& link) {
   return {link.connection,
           static_cast<std::uint32_t>(traveller.row),

@@ -22,9 +22,6 @@ Occupation occupation(const RoadView& view, const Approach& who, double begin, d
 double time_to_drive(const Path& path, double from, double to, double speed, double most,
                      double acceleration);
 
-/// That a row with a path could drive where it is: what its path and its type leave [m/s].
-double top_speed(const Model& model, const RoadState& road, const Scene& scene, std::size_t row);
-
 /// A traveller as those see it who come by other links.
 Approach approach_of(const Traveller& traveller, const PathLink& link);
 

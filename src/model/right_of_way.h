@@ -18,10 +18,9 @@ struct LinkDecision {
 /// The traveller whose link is judged.
 struct Traveller {
   std::size_t row = 0;
-  double front = 0;      ///< along its path [m]
-  double length = 0;     ///< [m]
-  double speed = 0;      ///< along its path [m/s]
-  double top_speed = 0;  ///< that it would like to reach [m/s]
+  double front = 0;   ///< along its path [m]
+  double length = 0;  ///< [m]
+  double speed = 0;   ///< along its path [m/s]
 };
 
 /// Signals, priority and occupied conflict zones (facts of the network) applied to one link.

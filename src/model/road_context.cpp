@@ -128,8 +128,7 @@ void set_allowed_speed(const RoadView& view, const Course& course, double dt,
             context);
   }
   const double length = 2.0 * course.half_length;
-  const Traveller traveller{course.row, front + beside_lane(model, course), length, course.speed,
-                            free_speed};
+  const Traveller traveller{course.row, front + beside_lane(model, course), length, course.speed};
   // who stands sees the light at the head of its queue
   constexpr double kSeesLight = 100.0;  // [m]
   bool first = true;
@@ -151,7 +150,7 @@ void set_allowed_speed(const RoadView& view, const Course& course, double dt,
     LinkDecision decision = decide_link(view, traveller, link);
     // who gets over the edge of its lane just before its line isn't too near to halt for that
     if (!decision.must_stop && traveller.front > front && link.stop_line > front) {
-      const Traveller own{course.row, front, length, course.speed, free_speed};
+      const Traveller own{course.row, front, length, course.speed};
       const LinkDecision held = decide_link(view, own, link);
       if (held.must_stop && held.reason == LimitReason::Signal) decision = held;
     }

@@ -138,8 +138,7 @@ void set_walker_limit(const RoadView& view, const Course& course, RoadContext& c
   const bool was_held = view.scene.context[course.row].reason == LimitReason::Signal ||
                         view.scene.waiting_time[course.row] > kHeldUp;
   const double front = course.along + course.half_length;
-  const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed,
-                            context.speed_limit};
+  const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed};
   auto halt = [&](const LinkDecision& decision) {
     const double allowed = std::max(0.0, (decision.stop_at - front) / 0.7);
     context.to_halt = std::max(decision.stop_at - front, 0.0);
@@ -147,7 +146,7 @@ void set_walker_limit(const RoadView& view, const Course& course, RoadContext& c
     context.reason = decision.reason;
     context.foe = decision.foe;
   };
-  const LinkDecision at_kerb = decide_at_kerb(view, traveller);
+  const LinkDecision at_kerb = decide_at_kerb(view, traveller, context.speed_limit);
   if (at_kerb.must_stop) return halt(at_kerb);
   for (PathLink link : course.path.links) {
     const double past = front - link.stop_line;

@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "model/locate.h"
 #include "model/model.h"
+#include "model/occupation.h"
 #include "model/road_context.h"
 #include "model/road_view.h"
 #include "model/tick_geometry.h"
@@ -110,6 +111,15 @@ class RoadScene {
   double past_line(std::size_t row, std::size_t link = 0) const {
     return scene.path_along[row] + half_extent(scene, row, direction_of(scene.heading[row])) -
            path(row).links.at(link).stop_line;
+  }
+
+  /// When a row is between two places of its first link [m past its begin].
+  Occupation occupation_of(std::size_t row, double begin, double end) const {
+    const double length = 2.0 * half_extent(scene, row, direction_of(scene.heading[row]));
+    return occupation(view(),
+                      {path(row).links.front().connection, static_cast<std::uint32_t>(row),
+                       past_line(row), length, scene.speed[row]},
+                      begin, end);
   }
 
   Model model;

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "model/following.h"
-#include "model/occupation.h"
 #include "support/road_scene.h"
 
 namespace sumogamma {
@@ -24,13 +23,6 @@ class OccupationTest : public ::testing::Test {
     here_.update();
     return row;
   }
-  Occupation of(std::size_t row, double begin, double end) const {
-    const double front = here_.past_line(row);
-    return occupation(here_.view(),
-                      {here_.path(row).links.front().connection, static_cast<std::uint32_t>(row),
-                       front, 4.5, here_.scene.speed[row], here_.scene.speed[row] < 0.5},
-                      begin, end);
-  }
   RoadScene here_{net()};
 };
 
@@ -49,14 +41,16 @@ TEST_F(OccupationTest, OnAStraightRoadTimeIsThatOfTheFastestWay) {
 TEST_F(OccupationTest, WhoTurnsSlowsDownBeforeAndComesLater) {
   const std::size_t straight = add_before_line({"WC", "CE"}, 30);
   const std::size_t turning = add_before_line({"WC", "CN"}, 30);
-  EXPECT_GT(of(turning, 6, 10).begin, of(straight, 6, 10).begin + 0.5);
-  EXPECT_GT(of(turning, 6, 10).end, of(straight, 6, 10).end + 0.5);
+  EXPECT_GT(here_.occupation_of(turning, 6, 10).begin,
+            here_.occupation_of(straight, 6, 10).begin + 0.5);
+  EXPECT_GT(here_.occupation_of(turning, 6, 10).end,
+            here_.occupation_of(straight, 6, 10).end + 0.5);
 }
 
 TEST_F(OccupationTest, EndsWhereTheRearHasPassed) {
   const std::size_t row = add_before_line({"WC", "CE"}, -8);
-  EXPECT_EQ(of(row, 1, 3).begin, Occupation::kNever);
-  const Occupation under_way = of(row, 4, 6);
+  EXPECT_EQ(here_.occupation_of(row, 1, 3).begin, Occupation::kNever);
+  const Occupation under_way = here_.occupation_of(row, 4, 6);
   EXPECT_EQ(under_way.begin, 0.0);
   EXPECT_GT(under_way.end, 0.0);
   EXPECT_LT(under_way.end, 1.0);
@@ -65,8 +59,8 @@ TEST_F(OccupationTest, EndsWhereTheRearHasPassed) {
 TEST_F(OccupationTest, WhoStandsInItStays) {
   const std::size_t row = add_before_line({"WC", "CE"}, -8);
   here_.set_speed(row, 0);
-  EXPECT_EQ(of(row, 4, 6).begin, 0.0);
-  EXPECT_EQ(of(row, 4, 6).end, Occupation::kNever);
+  EXPECT_EQ(here_.occupation_of(row, 4, 6).begin, 0.0);
+  EXPECT_EQ(here_.occupation_of(row, 4, 6).end, Occupation::kNever);
 }
 
 }  // namespace

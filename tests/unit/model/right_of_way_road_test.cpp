@@ -3,7 +3,6 @@
 #include "model/context.h"
 #include "model/gamma_velocity.h"
 #include "model/merging.h"
-#include "model/occupation.h"
 #include "model/right_of_way.h"
 #include "support/road_scene.h"
 #include "support/small_net.h"
@@ -140,12 +139,6 @@ class PriorityTest : public ::testing::Test {
   double zone_of(std::size_t row, std::size_t other) const {
     return here_.path(row).links.front().stop_line + conflict_of(row, other).begin;
   }
-  /// When a row is between two places of its first link.
-  Occupation occupation_of(std::size_t row, double begin, double end) const {
-    const Approach who{here_.path(row).links.front().connection, static_cast<std::uint32_t>(row),
-                       here_.past_line(row), 4.5, here_.scene.speed[row]};
-    return occupation(here_.view(), who, begin, end);
-  }
   RoadScene here_{net()};
 };
 
@@ -207,9 +200,9 @@ TEST_F(PriorityTest, WhoTurnsInGoesRightBehindWhoPassesAndWhoCrossesWaits) {
   const ConflictZone zone = conflict_of(joining, passing);
   // its rear is out of the way a moment before our front comes there
   here_.move(passing, 0);
-  const double first = occupation_of(joining, zone.begin, zone.end).begin;
+  const double first = here_.occupation_of(joining, zone.begin, zone.end).begin;
   double at = here_.path(passing).links.front().stop_line;
-  auto leaves = [&] { return occupation_of(passing, zone.foe_begin, zone.foe_end).end; };
+  auto leaves = [&] { return here_.occupation_of(passing, zone.foe_begin, zone.foe_end).end; };
   for (here_.move(passing, at); leaves() > first - 0.5; here_.move(passing, at)) at += 0.5;
   here_.update();
   EXPECT_EQ(here_.context(joining).reason, LimitReason::None);
@@ -224,8 +217,8 @@ TEST_F(PriorityTest, WhoTurnsInGoesBeforeWhoComesLaterAndNeedNotBrakeHard) {
   here_.scene.preferred_speed[coming] = 5;
   const ConflictZone zone = conflict_of(joining, coming);
   double at = here_.path(coming).links.front().stop_line - 60;
-  auto arrives = [&] { return occupation_of(coming, zone.foe_begin, zone.foe_end).begin; };
-  const Occupation own = occupation_of(joining, zone.begin, zone.end);
+  auto arrives = [&] { return here_.occupation_of(coming, zone.foe_begin, zone.foe_end).begin; };
+  const Occupation own = here_.occupation_of(joining, zone.begin, zone.end);
   for (here_.move(coming, at); arrives() > own.begin + 2.2; here_.move(coming, at)) at += 0.5;
   EXPECT_LT(arrives(), own.end + 1.0) << "who crosses would wait";
   here_.update();

@@ -33,7 +33,7 @@ class TurningRoomTest : public ::testing::Test {
   }
   double halt_of(std::size_t row) {
     const PathLink& link = here_.path(row).links.front();
-    const Traveller traveller{row, here_.scene.path_along[row] + 2.25, 4.5, 5.0, 13.0};
+    const Traveller traveller{row, here_.scene.path_along[row] + 2.25, 4.5, 5.0};
     return link.halt - halt_for_long_bodies(here_.view(), traveller, link);
   }
   /// Where the first link of `row` and that of `other` are in each other's way, for cars; the foe
@@ -188,7 +188,7 @@ TEST_F(TurningRoomTest, WhoHasRoomBesideABusThatWaitsDrivesPast) {
   auto is_held_by_bus_at = [&](double past) {
     here_.move(bus, turn.stop_line + past - 6.0);
     here_.update();
-    const Traveller traveller{car, here_.scene.path_along[car] + 2.25, 4.5, 5.0, 13.0};
+    const Traveller traveller{car, here_.scene.path_along[car] + 2.25, 4.5, 5.0};
     return leave_turning_room(here_.view(), traveller, link).must_stop;
   };
   EXPECT_TRUE(is_held_by_bus_at(way->foe_begin + 2.0));
