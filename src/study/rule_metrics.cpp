@@ -41,6 +41,24 @@ bool leads_over(const RoadNetwork& network, LaneId own, const Lane& lane) {
          });
 }
 
+/// The lane beside `lane`, to its left (side > 0) or right; kNoLane where there is none.
+LaneId lane_beside(const RoadNetwork& network, const Lane& lane, double side) {
+  return (side > 0) != network.left_hand ? lane.inner : lane.outer;
+}
+
+/// How far past a lane's stop line a point in the frame of the lane's end is [m]. The line runs
+/// through the ends of the lanes side by side, askew where one is longer than the other.
+double past_line(const RoadNetwork& network, const Lane& lane, const Vec2& point) {
+  const LaneId beside = lane_beside(network, lane, point.y());
+  if (beside == kNoLane) return point.x();
+  const double last = lane.centerline.length();
+  const Vec2 its_end =
+      to_body(network.lane(beside).centerline.points().back() - lane.centerline.points().back(),
+              lane.centerline.direction_at(last));
+  const bool apart = its_end.y() * point.y() > 0.0 && std::abs(its_end.y()) > std::abs(point.y());
+  return apart ? point.x() - its_end.x() * point.y() / its_end.y() : point.x();
+}
+
 double front_reach(const Footprint& footprint) {
   double reach = 0;
   for (const Vec2& vertex : footprint.outline()) reach = std::max(reach, vertex.x());
@@ -198,6 +216,8 @@ void RuleMonitor::judge_stop_line(const Row& agent, State& state, const Vec2& fr
                                   const RoadState& road) {
   if (network_.signals.empty()) return;
   find_lanes(agent, state.front, front_hits_);
+  if (state.short_of != kNoLane) front_hits_.push_back({state.short_of});
+  state.short_of = kNoLane;
   for (const LaneHit& hit : front_hits_) {
     const Lane& lane = network_.lane(hit.lane);
     if (lane.kind != LaneKind::Normal || !for_vehicles(lane)) continue;
@@ -205,14 +225,18 @@ void RuleMonitor::judge_stop_line(const Row& agent, State& state, const Vec2& fr
     const Vec2& end = lane.centerline.points().back();
     const Vec2 forward = lane.centerline.direction_at(lane.centerline.length());
     const Vec2 now = to_body(front - end, forward), was = to_body(state.front - end, forward);
-    if (was.x() > 0 || now.x() <= -kMeets || std::abs(now.y()) > 0.5 * lane.width) continue;
+    const double past = past_line(network_, lane, now);
+    if (past_line(network_, lane, was) > 0 || past <= -kMeets ||
+        std::abs(now.y()) > 0.5 * lane.width)
+      continue;
     // someone who crosses the lane's end sideways or on its way back doesn't take the lane's links
     if (direction_of(agent.scene.heading[agent.row]).dot(forward) < 0.5) continue;
     const std::size_t links = find_red_links(lane, road, red_links_);
     if (links == 0) continue;
-    if (now.x() <= 0) {
+    if (past <= 0) {
+      if (now.x() > 0) state.short_of = hit.lane;
       const bool meets = red_links_.size() == links && agent.scene.speed[agent.row] < kSlow;
-      at_lines_.push_back({hit.lane, agent.row, now.x(), now.y(), 0.5 * agent.type.width,
+      at_lines_.push_back({hit.lane, agent.row, past, now.y(), 0.5 * agent.type.width,
                            meets ? &agent.counts : nullptr});
       continue;
     }
@@ -221,7 +245,7 @@ void RuleMonitor::judge_stop_line(const Row& agent, State& state, const Vec2& fr
     std::size_t its_links = links;
     if (red_links_.size() == links) {
       const double over = std::abs(now.y()) + 0.5 * agent.type.width - 0.5 * lane.width;
-      const LaneId beside = (now.y() > 0) != network_.left_hand ? lane.inner : lane.outer;
+      const LaneId beside = lane_beside(network_, lane, now.y());
       if (over > 0 && beside != kNoLane) {
         const std::size_t others = find_red_links(network_.lane(beside), road, beside_red_);
         if (beside_red_.size() < others) {

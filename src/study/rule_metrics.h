@@ -113,9 +113,10 @@ class RuleMonitor {
     bool amid = false;             ///< not near an end of it when they last were on it
     double last_on = 0;            ///< when that was [s]
     EdgeId red_met = kNoEdge;      ///< vehicles: the edge at whose end they met a red light
-    LaneId at_end_of = kNoLane;    ///< pedestrians: the crossing on whose first half metre they are
-    bool stepped_on_red = false;   ///< that it showed red when they came there
-    double waited = 0;             ///< pedestrians: stood beside `red_crossings` [s]
+    LaneId short_of = kNoLane;    ///< vehicles: the lane beyond whose end they are, before its line
+    LaneId at_end_of = kNoLane;   ///< pedestrians: the crossing on whose first half metre they are
+    bool stepped_on_red = false;  ///< that it showed red when they came there
+    double waited = 0;            ///< pedestrians: stood beside `red_crossings` [s]
     std::vector<LaneId> red_crossings;  ///< that showed red meanwhile
     LaneId passed = kNoLane;  ///< vehicles: the lane with mixed lights whose end they passed
     double passed_at = 0;
@@ -161,7 +162,7 @@ class RuleMonitor {
   struct AtLine {
     LaneId lane = kNoLane;
     std::size_t row = 0;
-    double along = 0, offset = 0, half_width = 0;  ///< along: <= 0 before the end [m]
+    double along = 0, offset = 0, half_width = 0;  ///< along: <= 0 before the line [m]
     RuleCounts* meets = nullptr;  ///< where it is counted; null: it moves, or no red
   };
   std::vector<AtLine> at_lines_;

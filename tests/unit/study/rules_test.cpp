@@ -118,6 +118,44 @@ TEST(RulesBetweenLanes, WhoDrivesBetweenTwoLanesGoesByTheLightOfEither) {
   EXPECT_EQ(red_lights("motorcycle", 0.5 * outer.width - 0.1), 0u);
 }
 
+// The lane beside ends 2 m earlier: the stop line runs askew from one lane's end to the other's,
+// and who halts before it at the edge of the shorter lane is beyond that lane's end, yet before the
+// line.
+TEST(RulesBetweenLanes, TheStopLineRunsThroughTheEndsOfLanesSideBySide) {
+  RoadNetwork net = testing::read_plain_net(testing::crossroads("traffic_light"));
+  const Edge& edge = net.edge(net.edge_by_name.at("WC"));
+  Lane& inner = net.lanes[index_of(edge.lanes[1])];
+  const Vec2 begin = inner.centerline.points().front();
+  const double end = inner.centerline.length() - 2.0;
+  inner.centerline = Polyline({begin, inner.centerline.point_at(end)});
+  const LaneLocator locator(net);
+  const AgentTypeTable types = default_agent_types();
+  RoadState road;
+  road.signal_states.assign(net.signals.size(), std::string(32, 'r'));
+  const auto red_lights = [&](double offset, double past) {
+    RuleMonitor monitor(kStep, net, locator);
+    AgentState agent;
+    agent.type = find_agent_type(types, "car");
+    const AgentType& car = type_of(types, agent.type);
+    agent.footprint = box_footprint(car.length, car.width);
+    const Vec2 forward = inner.centerline.direction_at(end);
+    const Vec2 halt = inner.centerline.point_at(end) - offset * left_of(forward) + past * forward;
+    Scene scene;
+    append_agent(scene, agent);
+    for (int tick = 0; tick < 40; ++tick) {
+      const double left = std::max(8.0 - 4.0 * scene.time, 0.0);
+      scene.time += kStep;
+      scene.position[0] = halt - (0.5 * car.length + left) * forward;
+      monitor.add(scene, types, road);
+    }
+    return monitor.result(types).all.red_light_crossings;
+  };
+  const double at_edge = 0.5 * inner.width - 0.2;
+  EXPECT_EQ(red_lights(at_edge, 0.5), 0u);
+  EXPECT_EQ(red_lights(at_edge, 1.2), 1u);
+  EXPECT_EQ(red_lights(0.0, 0.5), 1u);
+}
+
 TEST_F(Rules, StoppingBeforeTheLineIsNoOffence) {
   road_.signal_states = {"rr"};
   add("car", {92.0, 0}, {0, 0});
