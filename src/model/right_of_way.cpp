@@ -138,6 +138,7 @@ struct Judge : RoadView {
       return Verdict::Free;
     if (!foe_inside && ignores(zone, foe)) return Verdict::Free;
     if (is_ignored_by(foe)) zone.yields = true;
+    if (!foe_inside && halts_at_line(foe)) return Verdict::Held;
 
     Occupation theirs = occupation(*this, foe, zone.foe_begin, zone.foe_end);
     if (theirs.begin == Occupation::kNever) return Verdict::Free;
@@ -218,6 +219,7 @@ struct Judge : RoadView {
                                0.7 * foe_type.max_deceleration;
       return blocks_if(vulnerable && unstoppable && foe_type.kinematics != Kinematics::Holonomic);
     }
+    if (steps_out(zone, foe, theirs)) return Verdict::Free;
     return Verdict::Blocks;
   }
 
@@ -242,6 +244,26 @@ struct Judge : RoadView {
     return on_foot(traveller.row) && traveller.front < link.stop_line && !foe.stands &&
            road.signal(model.road.connection(link.connection)) == 'O' &&
            !lets_people_go(model, scene, foe.row, link.connection);
+  }
+  /// Is a foe on the way to its line to halt there, as there is no room behind the junction or it
+  /// lets somebody else go? Who has halted like that lets the traveller go first, too.
+  bool halts_at_line(const Approach& foe) const {
+    constexpr double kAtLine = 0.3;  // [m]
+    const LimitReason why = approaches.waiting(foe.row).reason;
+    const bool for_others = why == LimitReason::BlockedJunction || why == LimitReason::LetsIn ||
+                            why == LimitReason::TurningRoom;
+    return for_others && !foe.stands && foe.front < 0.0 && approaches.rest_of(foe) < kAtLine &&
+           stops_at_ease(foe.speed, std::max(kAtLine - foe.front, 0.1),
+                         type_of(model.types, scene.type[foe.row]));
+  }
+  /// Does the traveller, on foot and for long at a crossing where vehicles go first, step out
+  /// before one that comes later and need not brake hard for it?
+  bool steps_out(const ConflictZone& zone, const Approach& foe, const Occupation& theirs) const {
+    constexpr double kLong = 30.0, kLater = 3.0;  // [s]
+    constexpr double kAsks = 2.0;                 // [m/s^2]
+    return on_foot(traveller.row) && !on_foot(foe.row) && !at_red &&
+           scene.waiting_time[traveller.row] > kLong && theirs.begin > kLater &&
+           deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) < kAsks;
   }
   bool past_line(const ConflictZone& zone) const {
     // who goes at red waits before the junction, not on it; who rolls out beyond its place there

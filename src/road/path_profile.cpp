@@ -233,17 +233,35 @@ std::optional<std::pair<std::size_t, std::size_t>> bridge_over(const Heading& he
   return std::nullopt;
 }
 
+/// First and last sample of the shortest piece across a tip, up to `farthest` samples from it, on
+/// which a body that turns with `radius` [m] comes round from the one branch to the other.
+std::optional<std::pair<std::size_t, std::size_t>> turn_before(const std::vector<Vec2>& samples,
+                                                               std::size_t tip,
+                                                               std::size_t farthest,
+                                                               double radius) {
+  const std::size_t most = std::min({farthest, tip, samples.size() - 1 - tip});
+  for (std::size_t reach = 1; reach <= most; ++reach)
+    if ((samples[tip + reach] - samples[tip - reach]).norm() >= 2.0 * radius)
+      return std::make_pair(tip - reach, tip + reach);
+  return std::nullopt;
+}
+
 /// Draws the line straight where it turns back on itself and on again, as between the ends of lanes
-/// that overlap: nobody drives to the tip and back. What turns round for good stays.
-void straighten_folds(double step, std::vector<Vec2>& samples) {
+/// that overlap: nobody drives to the tip and back. What turns round for good stays, but narrow
+/// vehicles turn where the way back is far enough away for that, not at the tip of an acute angle.
+void straighten_folds(double step, const Cornering& cornering, std::vector<Vec2>& samples) {
   constexpr double kReversal = -0.35;  // cosine of a turn within kNear
   constexpr double kNear = 1.0;        // [m]
   constexpr double kFarthest = 14.0;   // [m]
+  constexpr double kNarrow = 1.2;      // [m]
+  const auto farthest = static_cast<std::size_t>(kFarthest / step);
   const auto near = static_cast<std::size_t>(std::max(1.0, kNear / step));
   const Heading heading{samples, near};
   for (std::size_t tip = 2 * near; tip + 2 * near < samples.size(); ++tip) {
     if (Heading::cosine(heading.into(tip), heading.out_of(tip)) > kReversal) continue;
-    const auto bridge = bridge_over(heading, tip, static_cast<std::size_t>(kFarthest / step));
+    auto bridge = bridge_over(heading, tip, farthest);
+    if (!bridge && cornering.width > 0.0 && cornering.width < kNarrow)
+      bridge = turn_before(samples, tip, farthest, cornering.turning_radius);
     if (!bridge) continue;
     const auto [from, to] = *bridge;
     const Vec2 begin = samples[from], piece = samples[to] - begin;
@@ -295,7 +313,7 @@ void round_corners(const Cornering& cornering, Path& path) {
   for (std::size_t i = 0; i <= count; ++i)
     samples[i] = path.line.point_at(static_cast<double>(i) * step);
 
-  straighten_folds(step, samples);
+  straighten_folds(step, cornering, samples);
   std::vector<Vec2> sums(count + 2, Vec2::Zero());
   for (std::size_t i = 0; i <= count; ++i) sums[i + 1] = sums[i] + samples[i];
   // wide only where the line bends tighter than the body can: other bends are driven as they lie

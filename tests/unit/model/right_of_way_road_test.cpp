@@ -671,6 +671,32 @@ TEST_F(PriorityTest, WhoHasWaitedCrossesAQueueThatCreepsUpBeforeTheJunction) {
   EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield) << "the queue moves";
 }
 
+// into a full road cars came up to the line one by one, each to halt there, and who waited in the
+// side road gave way to every one of them
+TEST_F(PriorityTest, WhoComesUpToItsLineToHaltThereIsNotWaitedFor) {
+  const std::size_t minor = add_at_line({"SC", "CN"});
+  const std::size_t major = here_.add("car", {"WC", "CE"}, 0, 0);
+  const double line = here_.path(major).links.front().stop_line;
+  const auto update_with = [&](double speed, LimitReason reason, double to_halt) {
+    here_.move(major, line - 2.25 - 8.0);
+    here_.set_speed(major, speed);
+    here_.scene.context[major].reason = reason;
+    here_.scene.context[major].to_halt = to_halt;
+    here_.update();
+    return here_.context(minor).reason;
+  };
+  const double nowhere = std::numeric_limits<double>::infinity();
+  here_.update();
+  EXPECT_EQ(update_with(3, LimitReason::None, nowhere), LimitReason::Yield);
+  EXPECT_NE(update_with(3, LimitReason::BlockedJunction, 7.4), LimitReason::Yield);
+  EXPECT_NE(update_with(3, LimitReason::LetsIn, 7.4), LimitReason::Yield);
+  EXPECT_EQ(update_with(3, LimitReason::Leader, 7.4), LimitReason::Yield) << "who may drive on";
+  EXPECT_EQ(update_with(3, LimitReason::BlockedJunction, 30), LimitReason::Yield)
+      << "it halts behind the junction";
+  EXPECT_EQ(update_with(9, LimitReason::BlockedJunction, 7.4), LimitReason::Yield)
+      << "it can hardly halt";
+}
+
 // who rolls over the junction and halts there is not gone when its speed says so
 TEST_F(PriorityTest, NobodySetsOutForAPlaceInWhichSomebodyWillHalt) {
   const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 10, 0, -1, "WC_0");
@@ -1148,6 +1174,23 @@ TEST_F(PriorityTest, WhoTurnsIntoTheOtherLaneHoldsNobodyUp) {
   const Vec2 chosen = gamma_velocity(here_.model, here_.scene, here_.geometry, oncoming,
                                      here_.scene.behavior[oncoming], work);
   EXPECT_GT(chosen.norm(), 12.8);
+}
+
+// where vehicles go first and come without end, somebody on foot stood at the kerb for minutes
+TEST_F(CrossingTest, WhoHasWaitedForLongStepsOutBeforeWhoHaltsForItAtEase) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0, 195, 5);
+  here_.move(walker, here_.path(walker).links.at(0).stop_line - 0.3);
+  const std::size_t driver = here_.add("car", {"WC", "CE"}, 0, 12, 0, -1, "WC_1");
+  const double line = here_.path(driver).links.at(0).stop_line;
+  const auto waits = [&](double waited, double way) {
+    here_.move(driver, line - 2.25 - way);
+    here_.scene.waiting_time[walker] = waited;
+    here_.update();
+    return here_.context(walker).foe == here_.scene.id[driver].value;
+  };
+  EXPECT_TRUE(waits(20, 48));
+  EXPECT_FALSE(waits(40, 48)) << "four seconds away, it halts with 1.5 m/s^2";
+  EXPECT_TRUE(waits(40, 28)) << "it would have to brake harder";
 }
 
 TEST_F(CrossingTest, WalkersDoNotStepInFrontOfWhoCanNotStop) {

@@ -366,6 +366,25 @@ TEST(RoundCorners, WhoTurnsRoundStillTurnsRound) {
   EXPECT_NEAR(path.line.point_at(0.5 * path.line.length()).x(), 28.0, 2.0);
 }
 
+// A way that turns back at an acute angle: bicycles rode to its tip, amid those who came the other
+// way, and round on the spot.
+TEST(RoundCorners, WhoIsNarrowTurnsBeforeTheTipOfAnAcuteAngle) {
+  const auto farthest = [](const Cornering& cornering) {
+    Path path;
+    path.line = Polyline({{0, 0}, {40, 0}, {10, 15}});
+    path.stretches.push_back({});
+    path.stretches.back().to = path.line.length();
+    round_corners(cornering, path);
+    EXPECT_NEAR((path.line.points().back() - Vec2(10, 15)).norm(), 0.0, 1e-9);
+    double most = 0;
+    for (const Vec2& point : path.line.points()) most = std::max(most, point.x());
+    return most;
+  };
+  // 4 m apart are the two branches 8.7 m from the tip
+  EXPECT_LT(farthest({2.0, 1.8, 0.6}), 33.0);
+  EXPECT_GT(farthest({2.0, 4.5, 1.8}), 35.0) << "where a car turns is the map's to say";
+}
+
 TEST(SpeedProfile, BrakesSteadilyBetweenItsPlaces) {
   Path path;
   path.line = Polyline({{0, 0}, {4, 0}});
