@@ -68,7 +68,7 @@ bool is_red_for_walkers(const RoadView& view, const Lane& crossing) {
 /// where it waits for it.
 void keep_off_red_crossings(const RoadView& view, const Course& course, RoadContext& context) {
   constexpr double kNear = 2.0;    // [m]
-  constexpr double kLeast = 0.01;  // of a way that has a direction [m]
+  constexpr double kLeast = 1e-4;  // of a way that has a direction: nobody creeps on over it [m]
   const RoadNetwork& network = view.model.road;
   const Vec2& position = view.scene.position[course.row];
   const auto& own = course.path.stretches;

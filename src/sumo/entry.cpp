@@ -82,6 +82,11 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
       speed = std::min(speed, std::sqrt(ease * std::max(link.stop_line - half_length - 1.0, 0.0)));
   }
   const double wish = speed;
+  // whoever drives on for so long, beside who comes from aside, has nowhere to go [s]
+  constexpr double kAlone = 1.0;
+  const double way = on_foot ? 0.0 : kAlone * wish;
+  const Box alone{agent.position + 0.5 * way * direction, agent.heading,
+                  wanted.half_length + 0.5 * way, wanted.half_width};
   struct Follower {
     std::size_t row;
     double gap, speed;
@@ -99,7 +104,9 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
     const AgentType& kind = type_of(model.types, scene.type[row]);
     const bool drives = kind.kinematics != Kinematics::Holonomic;
     const bool from_aside = velocity.dot(direction) < kSameWay * velocity.norm();
-    if ((on_foot ? drives : from_aside) && overlap(wanted, covered(other, kind, velocity.norm())))
+    const bool comes_towards = velocity.dot(direction) < -0.5 * velocity.norm();
+    const Box& ours = comes_towards ? wanted : alone;
+    if ((on_foot ? drives : from_aside) && overlap(ours, covered(other, kind, velocity.norm())))
       return std::nullopt;
     // who is ahead and not quite in this lane may be on its way into it, and is if it says so
     const LaneId lane = path.stretches.front().lane;

@@ -1081,6 +1081,14 @@ TEST_F(WalkersAtRed, WhoWaitsBesideItsCrossingIsKeptOffIt) {
   EXPECT_NEAR(here_.context(walker).to_red[0].dot(-aside), 0.5 - 0.2, 0.1);
   EXPECT_FALSE(admits(-0.9 * aside));
   EXPECT_TRUE(admits(-0.3 * aside));
+  // at its edge: at 2 cm/s one was on it after 16 s
+  here_.move(walker, kerb + 0.3);
+  here_.scene.position[walker] += (2.5 - here_.context(walker).to_red[0].norm() + 0.05) * aside;
+  here_.update();
+  here_.scene.position[walker] += here_.context(walker).to_red[0];
+  here_.update();
+  EXPECT_FALSE(admits(-0.01 * aside));
+  EXPECT_TRUE(admits(Vec2::Zero()));
   put(walker, kerb - 0.2);
   EXPECT_GT(here_.context(walker).to_red[0].dot(across), 0.0);
   for (std::string& states : here_.road.signal_states) states = std::string(100, 'G');

@@ -86,6 +86,23 @@ TEST_F(EntryTest, NorInFrontOfWhoTurnsIn) {
   EXPECT_TRUE(speed_of_newcomer()) << "it turns away";
 }
 
+// a motorcycle began to drive at 10 m/s beside the tail of a bus that turned across its way
+TEST_F(EntryTest, NorBesideWhoTurnsAcrossItsWay) {
+  const std::size_t other = here_.add("car", {"in", "out"}, 0, 0);
+  const Vec2 start = here_.path(first_).line.point_at(0.0);
+  here_.scene.position[other] = start + Vec2(8.0, 4.5);
+  here_.scene.heading[other] = -0.5;
+  here_.set_speed(other, 5.0);
+  EXPECT_FALSE(speed_of_newcomer());
+  here_.scene.position[other] = start + Vec2(25.0, 4.5);
+  EXPECT_TRUE(speed_of_newcomer()) << "there is time to see it";
+  // the other direction of a road that bends
+  here_.scene.position[other] = start + Vec2(8.0, 4.5);
+  here_.scene.heading[other] = kPi + 0.2;
+  here_.set_speed(other, 5.0);
+  EXPECT_TRUE(speed_of_newcomer());
+}
+
 TEST_F(EntryTest, NobodyOnFootStartsBeforeWhoDrives) {
   const std::size_t walker = here_.add("pedestrian", {"in"}, 10, 0);
   const Polyline& way = here_.path(walker).line;
