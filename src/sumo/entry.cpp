@@ -39,12 +39,31 @@ Box box_of(const Scene& scene, std::size_t row) {
           half_extent(scene, row, left_of(forward))};
 }
 
-/// What somebody's body covers until it stands, if it brakes at ease after half a second.
-Box covered(const Box& body, const AgentType& type, double speed) {
+/// Does somebody drive over `place` until it stands, if it brakes at ease after half a second? On
+/// its path, straight on where it has none.
+bool comes_over(const Model& model, const RoadState& road, const Scene& scene, std::size_t row,
+                const Box& place) {
   constexpr double kReaction = 0.5;  // [s]
+  constexpr double kStep = 1.0;      // [m]
+  const Box body = box_of(scene, row);
+  const double speed = scene.velocity[row].norm();
+  const AgentType& type = type_of(model.types, scene.type[row]);
   const double way = speed * (kReaction + 0.5 * speed / type.comfortable_deceleration);
-  return {body.center + 0.5 * way * direction_of(body.heading), body.heading,
-          body.half_length + 0.5 * way, body.half_width};
+  const Path* path = road.path(scene.path[row]);
+  if (!path)
+    return overlap(place, {body.center + 0.5 * way * direction_of(body.heading), body.heading,
+                           body.half_length + 0.5 * way, body.half_width});
+  if (overlap(place, body)) return true;
+  const double begin = scene.path_along[row];
+  const Vec2 aside = body.center - path->line.point_at(begin);
+  const double offset = aside.dot(left_of(path->line.direction_at(begin)));
+  for (double along = begin + kStep; along < begin + way; along += kStep) {
+    const Vec2 forward = path->line.direction_at(along);
+    const Vec2 center = path->line.point_at(along) + offset * left_of(forward);
+    if (overlap(place, {center, heading_of(forward), body.half_length, body.half_width}))
+      return true;
+  }
+  return false;
 }
 
 /// May somebody have to be waited for at this link?
@@ -64,7 +83,7 @@ constexpr double kCrowd = 0.15;
 }  // namespace
 
 std::optional<double> entry_speed(const Model& model, const Path& path, const AgentState& agent,
-                                  const Ground& ground, const Scene& scene) {
+                                  const Ground& ground, const RoadState& road, const Scene& scene) {
   const AgentType& type = type_of(model.types, agent.type);
   const bool on_foot = type.kinematics == Kinematics::Holonomic;
   const Vec2 direction = path.line.direction_at(0.0);
@@ -105,8 +124,8 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
     const bool drives = kind.kinematics != Kinematics::Holonomic;
     const bool from_aside = velocity.dot(direction) < kSameWay * velocity.norm();
     const bool comes_towards = velocity.dot(direction) < -0.5 * velocity.norm();
-    const Box& ours = comes_towards ? wanted : alone;
-    if ((on_foot ? drives : from_aside) && overlap(ours, covered(other, kind, velocity.norm())))
+    if ((on_foot ? drives : from_aside) &&
+        comes_over(model, road, scene, row, comes_towards ? wanted : alone))
       return std::nullopt;
     // who is ahead and not quite in this lane may be on its way into it, and is if it says so
     const LaneId lane = path.stretches.front().lane;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/model.h"
+#include "model/road_state.h"
 #include "road/path.h"
 #include "scene/storey.h"
 
@@ -14,7 +15,7 @@ namespace sumogamma {
 /// and before the first line where something may have to be waited for, and force nobody behind it
 /// to brake hard. `ground`: there.
 std::optional<double> entry_speed(const Model& model, const Path& path, const AgentState& agent,
-                                  const Ground& ground, const Scene& scene);
+                                  const Ground& ground, const RoadState& road, const Scene& scene);
 
 /// Where beside the start of its path somebody on foot may start [m, positive left]: at `liked` and
 /// then, nearest first, aside of it within [`most_right`, `most_left`] and on the same side of the

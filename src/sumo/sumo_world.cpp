@@ -310,11 +310,11 @@ bool SumoWorld::insert_on(const Pending& pending, const std::shared_ptr<const Pa
     if (places.empty()) places.push_back(0.0);
     for (const double offset : places) {
       put_at(offset);
-      speed = entry_speed(model_, *path, agent, ground, scene);
+      speed = entry_speed(model_, *path, agent, ground, road, scene);
       if (speed) break;
     }
   } else {
-    speed = entry_speed(model_, *path, agent, ground, scene);
+    speed = entry_speed(model_, *path, agent, ground, road, scene);
   }
   if (!speed) return false;
   agent.speed = *speed;

@@ -50,7 +50,7 @@ class EntryTest : public ::testing::Test {
     agent.position = path.line.point_at(0.0);
     agent.heading = heading_of(path.line.direction_at(0.0));
     agent.preferred_speed = preferred;
-    return entry_speed(here_.model, path, agent, Ground{}, here_.scene);
+    return entry_speed(here_.model, path, agent, Ground{}, here_.road, here_.scene);
   }
   testing::RoadScene here_{testing::small_net()};
   std::size_t first_ = here_.add("car", {"in", "out"}, 120, 10);
