@@ -40,21 +40,24 @@ Box box_of(const Scene& scene, std::size_t row) {
 }
 
 /// Does somebody drive over `place` until it stands, if it brakes at ease after half a second? On
-/// its path, straight on where it has none.
+/// its path, straight on where it has none or points elsewhere.
 bool comes_over(const Model& model, const RoadState& road, const Scene& scene, std::size_t row,
                 const Box& place) {
   constexpr double kReaction = 0.5;  // [s]
   constexpr double kStep = 1.0;      // [m]
+  constexpr double kAligned = 0.9;   // cosine to its path
   const Box body = box_of(scene, row);
   const double speed = scene.velocity[row].norm();
   const AgentType& type = type_of(model.types, scene.type[row]);
   const double way = speed * (kReaction + 0.5 * speed / type.comfortable_deceleration);
   const Path* path = road.path(scene.path[row]);
-  if (!path)
+  const double begin = scene.path_along[row];
+  const bool follows =
+      path && path->line.direction_at(begin).dot(direction_of(body.heading)) > kAligned;
+  if (!follows)
     return overlap(place, {body.center + 0.5 * way * direction_of(body.heading), body.heading,
                            body.half_length + 0.5 * way, body.half_width});
   if (overlap(place, body)) return true;
-  const double begin = scene.path_along[row];
   const Vec2 aside = body.center - path->line.point_at(begin);
   const double offset = aside.dot(left_of(path->line.direction_at(begin)));
   for (double along = begin + kStep; along < begin + way; along += kStep) {

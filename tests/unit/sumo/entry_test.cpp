@@ -90,6 +90,7 @@ TEST_F(EntryTest, NorInFrontOfWhoTurnsIn) {
 TEST_F(EntryTest, NorBesideWhoTurnsAcrossItsWay) {
   const std::size_t other = here_.add("car", {"in", "out"}, 0, 0);
   const Vec2 start = here_.path(first_).line.point_at(0.0);
+  here_.scene.lane[other] = {};  // no leader
   here_.scene.position[other] = start + Vec2(8.0, 4.5);
   here_.scene.heading[other] = -0.5;
   here_.set_speed(other, 5.0);
