@@ -225,10 +225,9 @@ void RuleMonitor::judge_stop_line(const Row& agent, State& state, const Vec2& fr
     const Vec2& end = lane.centerline.points().back();
     const Vec2 forward = lane.centerline.direction_at(lane.centerline.length());
     const Vec2 now = to_body(front - end, forward), was = to_body(state.front - end, forward);
+    if (std::abs(now.y()) > 0.5 * lane.width) continue;
     const double past = past_line(network_, lane, now);
-    if (past_line(network_, lane, was) > 0 || past <= -kMeets ||
-        std::abs(now.y()) > 0.5 * lane.width)
-      continue;
+    if (past <= -kMeets || past_line(network_, lane, was) > 0) continue;
     // someone who crosses the lane's end sideways or on its way back doesn't take the lane's links
     if (direction_of(agent.scene.heading[agent.row]).dot(forward) < 0.5) continue;
     const std::size_t links = find_red_links(lane, road, red_links_);

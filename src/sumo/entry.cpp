@@ -40,13 +40,12 @@ Box box_of(const Scene& scene, std::size_t row) {
 }
 
 /// Does somebody drive over `place` until it stands, if it brakes at ease after half a second? On
-/// its path, straight on where it has none or points elsewhere.
+/// its path, straight on where it has none or points elsewhere. `body`: its own, now.
 bool comes_over(const Model& model, const RoadState& road, const Scene& scene, std::size_t row,
-                const Box& place) {
+                const Box& body, const Box& place) {
   constexpr double kReaction = 0.5;  // [s]
   constexpr double kStep = 1.0;      // [m]
   constexpr double kAligned = 0.9;   // cosine to its path
-  const Box body = box_of(scene, row);
   const double speed = scene.velocity[row].norm();
   const AgentType& type = type_of(model.types, scene.type[row]);
   const double way = speed * (kReaction + 0.5 * speed / type.comfortable_deceleration);
@@ -128,7 +127,7 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
     const bool from_aside = velocity.dot(direction) < kSameWay * velocity.norm();
     const bool comes_towards = velocity.dot(direction) < -0.5 * velocity.norm();
     if ((on_foot ? drives : from_aside) &&
-        comes_over(model, road, scene, row, comes_towards ? wanted : alone))
+        comes_over(model, road, scene, row, other, comes_towards ? wanted : alone))
       return std::nullopt;
     // who is ahead and not quite in this lane may be on its way into it, and is if it says so
     const LaneId lane = path.stretches.front().lane;
