@@ -4,20 +4,19 @@
 #   tools/test.sh quick    build, unit and property tests
 #   tools/test.sh deep     the same under the sanitizers, and more of it with clang
 #   tools/test.sh tidy     clang-tidy on every file (slow)
-#   tools/test.sh aims     what the traffic should reach and does not yet: fails until it does
 # The last line adds it all up; the exit code is 0 only where nothing failed.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib/common.sh"
 
 mode=${1:-full}
 case "$mode" in
-  full | quick | deep | tidy | aims) ;;
+  full | quick | deep | tidy) ;;
   -h | --help)
-    sed -n '2,8s/^# \{0,1\}//p' "$0"
+    sed -n '2,7s/^# \{0,1\}//p' "$0"
     exit 0
     ;;
   *)
-    sed -n '2,8s/^# \{0,1\}//p' "$0" >&2
+    sed -n '2,7s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac
@@ -25,7 +24,6 @@ cd "$project"
 
 stages=()
 lost=()
-without='^aim$'
 
 # test_stage PRESET LABELS [TARGET...]: builds the preset (or the targets in it) and runs the tests of the labels
 test_stage() {
@@ -38,7 +36,7 @@ test_stage() {
     return
   fi
   headline "$preset: tests"
-  "${runner[@]}" ctest --test-dir "build/$preset" -L "$labels" -LE "$without" -j "$jobs" --output-on-failure \
+  "${runner[@]}" ctest --test-dir "build/$preset" -L "$labels" -j "$jobs" --output-on-failure \
     --no-tests=error --output-junit "$project/build/$preset/tests.xml" < /dev/null |
     sed -uE '/^ +Start +[0-9]+: /d; s/ \.{3,}/ .../' || true
   if [[ -s build/$preset/tests.xml ]]; then
@@ -70,10 +68,6 @@ export TSAN_OPTIONS="suppressions=$project/tests/support/races.supp:halt_on_erro
 runner=()
 
 case "$mode" in
-  aims)
-    without='^$'
-    test_stage dev '^aim$' integration_traffic
-    ;;
   quick) test_stage dev '^(unit|property)$' ;;
   full)
     test_stage dev '.'

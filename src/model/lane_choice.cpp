@@ -103,6 +103,19 @@ double shift_to(const Model& model, const Lane& from, const Lane& to) {
   return (to.index > from.index ? inner : -inner) * 0.5 * (from.width + to.width);
 }
 
+/// Does a lane run into one with the lane of the path, soon after `along`? Who drives faster there
+/// gains nothing by changing: it is let in at the end.
+bool run_together_soon(const RoadNetwork& network, const Path& path, double along, LaneId other) {
+  const auto link = path.link_from(along);
+  if (link == path.links.end()) return false;
+  constexpr double kSoon = 100.0;  // [m]
+  const Connection& own = network.connection(link->connection);
+  if (link->stop_line - along > kSoon || own.from == other) return false;
+  const auto& outgoing = network.lane(other).outgoing;
+  return std::any_of(outgoing.begin(), outgoing.end(),
+                     [&](ConnectionId id) { return network.connection(id).to == own.to; });
+}
+
 /// The neighbouring lane on which this agent would rather be, kNoLane where it stays.
 LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
                    const Surroundings& around, std::size_t row) {
@@ -123,6 +136,7 @@ LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
   double most = stay + kGain;
   for (const LaneId id : {lane.inner, lane.outer}) {
     if (id == kNoLane) continue;
+    if (run_together_soon(model.road, path, around.along, id)) continue;
     const Lane& other = model.road.lane(id);
     const LaneOption& option = options[static_cast<std::size_t>(other.index)];
     if (option.cost == std::numeric_limits<double>::infinity()) continue;

@@ -161,7 +161,8 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
   const bool narrow = is_narrow(type.width);
   const bool overtakes = scene.overtaking_room[row] > 0.0;
   // who gives up overtaking falls back behind whoever it was about to pass
-  const bool returns = !narrow && !overtakes && std::abs(own_offset - aim) > kFarAside;
+  const double wanted = scene.passing_offset[row];
+  const bool returns = !narrow && !overtakes && std::abs(own_offset - wanted) > kFarAside;
   const double margin = kept_aside(type, speed);
   ahead.seen_to = along + reach;
 
@@ -222,7 +223,7 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
         std::abs(aim_beside(road, scene, other, place.offset) - aim) < sides)
       cap_passing(std::max(0.0, scene.speed[other] + kCloses * (gap - type.min_gap)),
                   scene.id[other].value, ahead);
-    const bool comes_back = returns && gap > 0.0 && clearance < kept;
+    const bool comes_back = returns && gap > 0.0 && std::abs(place.offset - wanted) - sides < kept;
     if (std::abs(place.offset - swept) > sides + kept && !comes_back) {
       const bool merges = changes_into_way(*path, scene, row, other, place.along);
       const bool halted = scene.standing_time[other] > kHesitates;

@@ -16,6 +16,7 @@ constexpr double kAtMiddle = 0.2;      // of the road [m]
 constexpr double kInWay = 0.5;         // aside that counts as in the way [m]
 constexpr double kSideways = 0.7;      // [m/s]
 constexpr double kFaster = 7.0;        // than who is overtaken, at most [m/s]
+constexpr double kPassing = 6.0;       // takes so long [s]
 constexpr double kRoomToReturn = 2.5;  // behind and ahead of the body [m]
 
 /// Who is overtaken, from the nearest to the last that leaves no gap to return into.
@@ -28,10 +29,21 @@ struct Overtaken {
   bool open = false;  ///< there is a gap ahead of the last
 };
 
-/// Ahead, in the way of the body where it likes to be.
-bool is_in_way(const Surroundings& around, const RoadUser& user, double liked) {
-  return user.front > around.along - around.half_length &&
+/// In the way of the body where it likes to be, and not behind it.
+bool is_in_way(const Surroundings& around, const RoadUser& user, double liked, double behind = 0) {
+  return user.front > around.along - around.half_length - behind &&
          std::abs(user.offset - liked) < user.half_width + around.half_width + kInWay;
+}
+
+/// Would the body, which has got past everybody in its way, cut somebody off if it came back now?
+bool is_just_past(const Surroundings& around, double liked) {
+  constexpr double kNoseRoom = 1.0;  // [m]
+  const double rear = around.along - around.half_length;
+  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+    const double closes = std::max(user.speed - around.speed, 0.0);  // within a second [m]
+    return user.aligned && is_narrow(2.0 * user.half_width) && user.front < rear &&
+           is_in_way(around, user, liked, kNoseRoom + closes);
+  });
 }
 
 Overtaken find_overtaken(const Surroundings& around, double liked, double inner_side) {
@@ -44,7 +56,11 @@ Overtaken find_overtaken(const Surroundings& around, double liked, double inner_
       if (is_in_way(around, user, liked) && user.front > from &&
           (!next || user.front < next->front))
         next = &user;
-    found.open = next == nullptr || (found.any && next->rear - found.front > needed);
+    // what is left once it is past, should who is ahead be slower
+    const double left = next && found.any ? next->rear - found.front -
+                                                kPassing * std::max(found.speed - next->speed, 0.0)
+                                          : 0.0;
+    found.open = next == nullptr || (found.any && left > needed);
     if (found.open) return found;
     if (!next->aligned || next->on_foot || !is_narrow(2.0 * next->half_width)) return found;
     const double side = inner_side * next->offset + next->half_width;
@@ -71,8 +87,8 @@ double straight_ahead(const Path& path, double along, double most) {
 double overtaking_room(const Model& model, const RoadState& road, const Scene& scene,
                        const SpatialGrid& grid, const Surroundings& around, std::size_t row,
                        Surroundings& far) {
-  constexpr double kMargin = 2.8, kKept = 1.2;  // [s]
-  constexpr double kStarts = 1.0;               // more where somebody may start [s]
+  constexpr double kMargin = 3.5, kKept = 1.2;  // [s]
+  constexpr double kStarts = 2.0;               // likewise to who may start in sight [s]
   constexpr double kClear = 15.0;               // before a junction [m]
   const Path& path = *road.path(scene.path[row]);
   const PathStretch& here = path.stretch_at(around.along);
@@ -88,8 +104,9 @@ double overtaking_room(const Model& model, const RoadState& road, const Scene& s
   const double aside_now = inner_side * around.offset;
   const bool over_now = aside_now + around.half_width > 0.5 * lane.width - kAtMiddle;
   const bool begun = scene.overtaking_room[row] > 0.0 && over_now;
-  // past: back to its own side
-  if (!overtaken.any) return begun ? scene.overtaking_room[row] : 0.0;
+  // past: back to its own side, but not right before a nose
+  if (!overtaken.any)
+    return begun && is_just_past(around, liked) ? scene.overtaking_room[row] : 0.0;
 
   // how long it takes to get past and back
   const AgentType& type = type_of(model.types, scene.type[row]);
@@ -124,11 +141,10 @@ double overtaking_room(const Model& model, const RoadState& road, const Scene& s
   const double margin = begun ? kKept : kMargin;
   const double sight = straight_ahead(path, around.along, kSight);
   // whoever may come from where it doesn't see comes as fast as the road allows; where the road
-  // begins somebody may start, but hardly just now
+  // begins somebody may start just now, but hardly will
   const bool begins = opposite.incoming.empty() && around.along + sight > here.to - 1.0;
   const double closing_speed = mean_speed + opposite.speed_limit;
-  const double unseen =
-      begins ? way + closing_speed * (margin + kStarts) : closing_speed * (time + margin);
+  const double unseen = closing_speed * (time + (begins ? kStarts : margin));
   if (!begun && sight < unseen) return 0.0;
 
   // nobody comes, neither towards it nor from behind
@@ -138,8 +154,8 @@ double overtaking_room(const Model& model, const RoadState& road, const Scene& s
     if (side + user.half_width < 0.5 * lane.width && user.aligned) continue;
     if (std::abs(side - target) > user.half_width + around.half_width + kInWay) continue;
     if (user.rear > front) {
-      const double closing = mean_speed - user.speed;
-      if (closing > 0.0 && user.rear - front < closing * (time + margin)) return 0.0;
+      const double closing = mean_speed - user.speed, at_end = top - user.speed;
+      if (closing > 0.0 && user.rear - front < closing * time + at_end * margin) return 0.0;
     } else if (user.front > around.along - around.half_length) {
       return 0.0;
     } else if (user.aligned) {

@@ -33,7 +33,7 @@ bool is_near_junction(const Path& path, const Surroundings& around) {
 /// is close, and counts on other narrow ones to go on as it does.
 double filtering_hope(const Scene& scene, const Surroundings& around, double offset,
                       double free_speed, double margin) {
-  constexpr double kOutlook = 8.0;   // [s]
+  constexpr double kOutlook = 20.0;  // [s]
   constexpr double kGoesOn = 2.0;    // [m/s]
   constexpr double kBrakesOn = 2.0;  // [s]
   const double front = around.along + around.half_length;

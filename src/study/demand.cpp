@@ -15,6 +15,7 @@
 #include "base/random.h"
 #include "base/subprocess.h"
 #include "base/units.h"
+#include "scene/sumo_defaults.h"
 
 namespace sumogamma {
 namespace {
@@ -255,6 +256,13 @@ std::string number(double value, int decimals = 2) {
   return text;
 }
 
+/// A vType's speedFactor: normal about `mean`, its deviation and bounds as shares of that.
+std::string normal_factor(double mean, double deviation, double least, double most) {
+  std::string text = "normc(" + number(mean, 3);
+  for (const double share : {deviation, least, most}) text += "," + number(mean * share, 3);
+  return text + ")";
+}
+
 bool has_own_pace(const AgentType& type) {
   return type.sumo_class == "pedestrian" || type.sumo_class == "bicycle";
 }
@@ -272,8 +280,11 @@ void append_vehicle_type(pugi::xml_node root, const AgentType& type) {
   set("minGap", number(type.min_gap));
   // people on foot and on bicycles differ in the speed they like, others in how they take the limit
   set("maxSpeed", number(slow ? type.preferred_speed * 1.6 : type.max_speed));
-  if (slow) set("desiredMaxSpeed", number(type.preferred_speed));
-  set("speedFactor", slow ? "normc(1,0.15,0.6,1.5)" : "normc(1,0.1,0.7,1.3)");
+  if (type.sumo_class == "bicycle") set("desiredMaxSpeed", number(type.preferred_speed));
+  // SUMO tells nobody the desiredMaxSpeed of people: it stays the default, and the factor says more
+  const bool on_foot = type.sumo_class == "pedestrian";
+  const double mean = on_foot ? type.preferred_speed / kWalkingSpeed : 1.0;
+  set("speedFactor", slow ? normal_factor(mean, 0.15, 0.6, 1.5) : normal_factor(1, 0.1, 0.7, 1.3));
 }
 
 void append_trip(pugi::xml_node root, const RoadNetwork& road, const TypeWork& work,

@@ -137,7 +137,12 @@ bool RuleMonitor::overtakes(const Row& agent, const LaneHit& hit) const {
   const Scene& scene = agent.scene;
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const Vec2& position = scene.position[row];
-    if (row == agent.row || (position - scene.position[agent.row]).norm() > kBeside) continue;
+    const Vec2 way = position - scene.position[agent.row];
+    // who is ahead is overtaken while the agent closes up, too
+    const Vec2& velocity = scene.velocity[agent.row];
+    const double closes = kSoon * (scene.speed[agent.row] - scene.speed[row]);
+    const double reach = way.dot(velocity) > 0.0 ? std::max(kBeside, closes) : kBeside;
+    if (row == agent.row || way.norm() > reach) continue;
     const Vec2 forward = direction_of(scene.heading[row]);
     if (!is_narrow(2.0 * half_extent(scene, row, left_of(forward))) ||
         forward.dot(hit.direction) > -0.5 || scene.speed[row] > scene.speed[agent.row] + kFaster)

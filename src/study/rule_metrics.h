@@ -68,7 +68,8 @@ struct RedLightEvent {
 /// kMoving, on a normal lane, off junctions, more than 120 degrees from every lane of the place
 /// that vehicles may use. Lanes on another storey than one's own don't count (bridges). Overtaking:
 /// the same, on a lane that the network calls the opposite one of a lane on which somebody narrow
-/// goes the same way, no further off than kBeside and no more than kFaster faster.
+/// goes the same way, no further off than kBeside, or ahead and reached within kSoon, and no more
+/// than kFaster faster.
 ///
 /// Roads crossed between junctions: the pieces of a walk over a road (Path::over_road) that were
 /// walked to their end. Only a path says what somebody means: plain SUMO's people have none.
@@ -86,6 +87,7 @@ class RuleMonitor {
   static constexpr double kMoving = 0.5;   ///< [m/s]
   static constexpr double kEntered = 0.5;  ///< [m]
   static constexpr double kBeside = 20.0;  ///< from middle to middle [m]
+  static constexpr double kSoon = 4.0;     ///< [s]
   static constexpr double kFaster = 1.0;   ///< [m/s]
   static constexpr double kAside = 10.0;   ///< [s]
   static constexpr double kPause = 1.0;    ///< [s]

@@ -39,6 +39,7 @@ struct SumoAgentDetails {
   double max_speed =
       0;  ///< of the vType; persons: at most SUMO's walking speed, before the factor [m/s]
   double speed_factor = 1;
+  double allowed_speed = 0;  ///< vehicles: what SUMO lets it drive on its lane at departure [m/s]
   std::string lane;          ///< at departure, may be empty
   double lane_position = 0;  ///< front bumper along that lane [m]
   std::vector<std::string>

@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "base/error.h"
+#include "scene/sumo_defaults.h"
 #include "sumo/backend.h"
 #include "sumo/ghost.h"
-#include "sumo/sumo_defaults.h"
 #include "sumo/sumo_process.h"
 #include "sumo/watch_list.h"
 
@@ -82,6 +82,7 @@ SumoAgentDetails common_details(const std::string& id) {
 
 SumoAgentDetails vehicle_details(const std::string& id, double time) {
   SumoAgentDetails details = common_details<libsumo::Vehicle>(id);
+  details.allowed_speed = value_or(0.0, [&] { return libsumo::Vehicle::getAllowedSpeed(id); });
   details.route =
       value_or(std::vector<std::string>(), [&] { return libsumo::Vehicle::getRoute(id); });
   const auto stops = value_or(std::vector<libsumo::TraCINextStopData>(),

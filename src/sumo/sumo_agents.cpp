@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "base/random.h"
+#include "scene/sumo_defaults.h"
 
 namespace sumogamma {
 
@@ -125,10 +126,22 @@ std::vector<std::shared_ptr<const Path>> paths_besides(const Model& model,
   return paths;
 }
 
+void choose_pace(const RoadNetwork& network, SumoAgentDetails& details) {
+  constexpr double kSame = 0.01;  // [m/s]
+  if (details.vehicle_class != "bicycle") return;
+  const auto lane = network.lane_by_name.find(details.lane);
+  const double by_road = lane == network.lane_by_name.end()
+                             ? 0.0
+                             : network.lane(lane->second).speed_limit * details.speed_factor;
+  const bool own_pace = details.allowed_speed > 0.0 && details.allowed_speed < by_road - kSame;
+  details.max_speed = std::min(
+      details.max_speed, own_pace ? details.allowed_speed : kCyclingSpeed * details.speed_factor);
+}
+
 void choose_speed_factor(const AgentType& type, std::uint64_t seed, SumoAgentDetails& details) {
   if (type.compliance.speed_factor <= 0.0) return;
   const double factor = draw_speed_factor(type.compliance, seed, number_of(details.id));
-  // SUMO's maximum speed of who rides at a pace of its own holds its factor already
+  // the pace of a bicycle holds its factor already
   if (details.vehicle_class == "bicycle" && details.speed_factor > 0.0)
     details.max_speed *= factor / details.speed_factor;
   details.speed_factor = factor;

@@ -100,6 +100,7 @@ void SumoWorld::take_departed(Scene&) {
       continue;
     }
     Pending pending{std::move(details), *type, nullptr, {}, false};
+    choose_pace(model_.road, pending.details);
     bool driven = options_.control.any() && wants_control(pending.details, *type);
     if (driven || options_.control.has_region)
       choose_speed_factor(type_of(model_.types, *type), options_.seed, pending.details);

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "base/error.h"
+#include "scene/sumo_defaults.h"
 #include "sumo/backend.h"
 #include "sumo/ghost.h"
-#include "sumo/sumo_defaults.h"
 #include "sumo/sumo_process.h"
 #include "sumo/traci_client.h"
 #include "sumo/traci_message.h"
@@ -136,6 +136,7 @@ void ask_details(TraciWriter& message, const std::string& id, bool is_person) {
   if (is_person) {
     message.get(domain, traci::kStage, id, 0);
   } else {
+    message.get(domain, traci::kAllowedSpeed, id);
     message.get(domain, traci::kEdges, id);
     message.get(domain, traci::kStops, id, 0);
   }
@@ -166,6 +167,7 @@ SumoAgentDetails read_details(TraciReader& reply, const std::string& id, bool is
       }
     }
   } else {
+    details.allowed_speed = read_number(reply, domain, traci::kAllowedSpeed, 0);
     details.route = read_texts(reply, domain, traci::kEdges);
     if (std::optional<TraciReader> value = read_answer(reply, domain, traci::kStops))
       details.stops = read_stops(*value, time);

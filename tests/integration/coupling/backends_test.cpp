@@ -105,6 +105,28 @@ TEST_P(Backends, TellsTheSpeedThatAPersonWalksAt) {
   EXPECT_NEAR(fastest, details.max_speed * details.speed_factor, 0.02);
 }
 
+// a desiredMaxSpeed, which no getter tells, shows in what SUMO lets a bicycle ride
+TEST_P(Backends, TellsTheSpeedThatABicycleRidesAt) {
+  scenario().folder().write("riders.rou.xml", R"(<routes>
+  <vType id="rider" vClass="bicycle" maxSpeed="9" desiredMaxSpeed="4" speedFactor="0.9" speedDev="0"/>
+  <vehicle id="rider" type="rider" depart="0"><route edges="C0C1 C1C2"/></vehicle>
+</routes>)");
+  scenario().write_config("riders.sumocfg", "net.net.xml", "riders.rou.xml");
+  const auto sumo = start(scenario().folder().file("riders.sumocfg"));
+  SumoStep step;
+  const std::string rider = "rider";
+  ASSERT_TRUE(run_until(*sumo, step, 5, [&] { return has(step.departed_vehicles, rider); }));
+  const SumoAgentDetails details = sumo->details({&rider, 1}, {}).at(0);
+  EXPECT_NEAR(details.allowed_speed, 3.6, 1e-9);
+  sumo->watch(rider, false);
+  double fastest = 0;
+  for (int i = 0; i < 200; ++i) {
+    sumo->step({}, {}, step);
+    fastest = std::max(fastest, step.agents.at(0).speed);
+  }
+  EXPECT_NEAR(fastest, details.allowed_speed, 0.02);
+}
+
 TEST_P(Backends, TellsTheStopsOfAVehicle) {
   const auto sumo = start();
   SumoStep step;

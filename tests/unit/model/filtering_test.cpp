@@ -96,6 +96,12 @@ class Filtering : public ::testing::Test {
 
 TEST_F(Filtering, AimsAtTheMiddleBetweenTheQueues) { EXPECT_NEAR(place(), 1.75, 1e-6); }
 
+// who looked 8 s ahead saw nothing in the gap until it stood too close behind a car to turn out
+TEST_F(Filtering, ChoosesTheGapWhileItIsStillFarAway) {
+  here_.move(rider_, 52);
+  EXPECT_NEAR(place(), 1.75, 1e-6);
+}
+
 TEST_F(Filtering, FollowsNobodyWhomItMeansToPassAndGetsSlowBeforeThem) {
   here_.scene.passing_offset[rider_] = here_.scene.lateral_aim[rider_] = place();
   DrivingAhead ahead;
@@ -240,6 +246,30 @@ TEST_F(ChangingLanes, WhoIsAheadOfTheOthersNoseGoesOn) {
 TEST_F(ChangingLanes, WhoFiltersGoesOnBetweenTheLanes) {
   begin("motorcycle", 1.2, 0.3);
   EXPECT_FALSE(halts());
+}
+
+// who changed lanes before a lane ended pushed in before somebody whom it had to let in anyway
+TEST(BetterLane, NobodyChangesForALaneThatRunsIntoItsOwn) {
+  for (const bool one_lane_after : {false, true}) {
+    PlainNet net;
+    net.nodes =
+        "<node id='W' x='0' y='0'/><node id='M' x='120' y='0' type='zipper'/>"
+        "<node id='E' x='400' y='0'/>";
+    net.edges =
+        "<edge id='WM' from='W' to='M' numLanes='2' speed='13.89'/>"
+        "<edge id='ME' from='M' to='E' numLanes='" +
+        std::string(one_lane_after ? "1" : "2") + "' speed='13.89'/>";
+    net.connections = one_lane_after ? "<connection from='WM' to='ME' fromLane='0' toLane='0'/>"
+                                       "<connection from='WM' to='ME' fromLane='1' toLane='0'/>"
+                                     : "";
+    RoadScene here{testing::read_plain_net(net)};
+    const std::size_t own = here.add("car", {"WM", "ME"}, 40, 8, 0, -1, "WM_0");
+    here.add("bus", {"WM", "ME"}, 62, 3, 0, -1, "WM_0");
+    here.update();
+    const LaneId before = here.path(own).stretch_at(70).lane;
+    let_all_look(here);
+    EXPECT_EQ(here.path(own).stretch_at(70).lane == before, one_lane_after);
+  }
 }
 
 /// A road of two lanes into a short one that has them as well, and then a road from its left lane

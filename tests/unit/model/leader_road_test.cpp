@@ -97,6 +97,19 @@ TEST_F(LeaderTest, SomebodyBesideTheWayCountsOnlyWhereBodiesWouldMeet) {
   EXPECT_EQ(leader_of(own).id, -1);
 }
 
+// a car went back to its side through between a bicycle and the middle of the road, at 10 m/s and
+// 4 cm from it: it was not far from where it aimed for the moment, but from where it wanted to be
+TEST_F(LeaderTest, WhoGivesUpOvertakingFollowsThoughItIsClearOfTheOtherYet) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 20, 10);
+  const std::size_t rider = here_.add("bicycle", {"in", "out"}, 30, 4);
+  here_.move(own, 20, 1.6);
+  here_.scene.lateral_aim[own] = 1.6;
+  here_.scene.passing_offset[own] = 1.6;
+  EXPECT_EQ(leader_of(own).id, -1);
+  here_.scene.passing_offset[own] = 0.0;
+  EXPECT_EQ(leader_of(own).id, static_cast<std::int64_t>(here_.scene.id[rider].value));
+}
+
 TEST_F(LeaderTest, OfTwoAbreastWhoPressTogetherOneIsAhead) {
   const std::size_t a = here_.add("car", {"in", "out"}, 50, 5);
   const std::size_t b = here_.add("car", {"in", "out"}, 50.4, 5);

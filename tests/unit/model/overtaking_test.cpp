@@ -59,6 +59,14 @@ TEST_F(Overtaking, NeedsAGapToReturnInto) {
   EXPECT_GT(room(), 0.0);
 }
 
+// a car passed one bicycle behind a slower queue, found the gap closed, and stayed over the middle
+TEST_F(Overtaking, NeedsAGapThatIsLeftOnceItIsPast) {
+  const std::size_t truck = here_.add("truck", {"east_1", "east_2"}, 330, 4);
+  EXPECT_GT(room(), 0.0);
+  here_.set_speed(truck, 3);
+  EXPECT_EQ(room(), 0.0);
+}
+
 TEST_F(Overtaking, NotBeforeAJunction) {
   here_.move(car_, 1140);
   here_.move(bicycle_, 1151);
@@ -70,6 +78,17 @@ TEST_F(Overtaking, NobodyIsOvertakenWhoIsHardlySlowerOrNotThere) {
   EXPECT_EQ(room(), 0.0);
   here_.scene.preferred_speed[car_] = 13.9;
   here_.move(bicycle_, 290);
+  EXPECT_EQ(room(), 0.0);
+}
+
+// the queue ahead of a bicycle was no reason to stay over the middle beside it
+TEST_F(Overtaking, WhoIsPastGoesBackUnlessRightBeforeANose) {
+  here_.scene.overtaking_room[car_] = 3.2;
+  here_.add("truck", {"east_1", "east_2"}, 330, 4);
+  here_.move(car_, 316, 1.7);
+  here_.move(bicycle_, 312.2);
+  EXPECT_GT(room(), 0.0);
+  here_.move(bicycle_, 310.5);
   EXPECT_EQ(room(), 0.0);
 }
 

@@ -153,6 +153,30 @@ TEST(ChooseSpeedFactor, SumosStaysUnlessTheTypeHasOne) {
   EXPECT_NE(details.speed_factor, first);
 }
 
+/// Pace of somebody on a bicycle whom SUMO lets ride at `allowed` on the small net's road.
+double pace_of(const std::string& vehicle_class, double allowed, double factor) {
+  const Model model = small_model();
+  SumoAgentDetails details;
+  details.vehicle_class = vehicle_class;
+  details.lane = "in_1";
+  details.max_speed = 13.0;
+  details.speed_factor = factor;
+  details.allowed_speed = allowed;
+  choose_pace(model.road, details);
+  return details.max_speed;
+}
+
+TEST(ChoosePace, IsWhatSumoLetsABicycleRideWhereTheRoadAllowsMore) {
+  const double limit =
+      small_model().road.lane(small_model().road.lane_by_name.at("in_1")).speed_limit;
+  ASSERT_GT(limit, 10.0);
+  EXPECT_EQ(pace_of("bicycle", 3.8, 0.9), 3.8);
+  // the road decides, or nothing is known: SUMO's default, 20 km/h
+  EXPECT_DOUBLE_EQ(pace_of("bicycle", 0.9 * limit, 0.9), 5.0);
+  EXPECT_DOUBLE_EQ(pace_of("bicycle", 0.0, 0.9), 5.0);
+  EXPECT_EQ(pace_of("passenger", 3.8, 0.9), 13.0);
+}
+
 TEST(ChooseMidBlock, IsDrawnForPeopleAtTheRateOfTheirType) {
   AgentTypeTable types = default_agent_types();
   AgentType person = type_of(types, find_agent_type(types, "pedestrian"));

@@ -12,4 +12,7 @@ inline constexpr double kWalkingSpeed = 5.0 / 3.6;
 /// A person's walking speed before its speed factor, from the maxSpeed that SUMO tells [m/s].
 constexpr double walking_speed(double max_speed) { return std::min(max_speed, kWalkingSpeed); }
 
+/// SUMO's default desiredMaxSpeed of bicycles, 20 km/h [m/s] (same page).
+inline constexpr double kCyclingSpeed = 20.0 / 3.6;
+
 }  // namespace sumogamma
