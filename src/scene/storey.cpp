@@ -104,17 +104,30 @@ void go_on(const RoadNetwork& network, LaneId id, double left, std::vector<LaneI
   }
 }
 
+/// Adds those that lead into a lane over the last `left` [m] before its begin.
+void go_back(const RoadNetwork& network, LaneId id, double left, std::vector<LaneId>& lanes) {
+  if (left < 0.0) return;
+  auto add = [&](LaneId before) {
+    if (std::find(lanes.begin(), lanes.end(), before) != lanes.end()) return;
+    lanes.push_back(before);
+    go_back(network, before, left - network.lane(before).centerline.length(), lanes);
+  };
+  const Lane& lane = network.lane(id);
+  for (const ConnectionId before : lane.incoming) {
+    const Connection& link = network.connection(before);
+    add(link.via != kNoLane ? link.via : link.from);
+  }
+  if (lane.kind != LaneKind::Internal || lane.junction == kNoJunction) return;
+  for (const ConnectionId link : network.junction(lane.junction).links)
+    if (link != kNoConnection && network.connection(link).via == id)
+      add(network.connection(link).from);
+}
+
 /// The lane of a place and those that it leads into or comes from within kSeam.
 std::vector<LaneId> lanes_about(const RoadNetwork& network, const Ground& place) {
-  const Lane& lane = network.lane(place.lane);
   std::vector<LaneId> lanes;
   go_on(network, place.lane, kSeam + place.along, lanes);
-  if (place.along >= kSeam) return lanes;
-  for (const ConnectionId id : lane.incoming) lanes.push_back(network.connection(id).from);
-  if (lane.kind == LaneKind::Internal && lane.junction != kNoJunction)
-    for (const ConnectionId id : network.junction(lane.junction).links)
-      if (id != kNoConnection && network.connection(id).via == place.lane)
-        lanes.push_back(network.connection(id).from);
+  go_back(network, place.lane, kSeam - place.along, lanes);
   return lanes;
 }
 

@@ -278,11 +278,12 @@ void append_vehicle_type(pugi::xml_node root, const AgentType& type) {
   set("length", number(type.length));
   set("width", number(type.width));
   set("minGap", number(type.min_gap));
-  // people on foot and on bicycles differ in the speed they like, others in how they take the limit
-  set("maxSpeed", number(slow ? type.preferred_speed * 1.6 : type.max_speed));
-  if (type.sumo_class == "bicycle") set("desiredMaxSpeed", number(type.preferred_speed));
-  // SUMO tells nobody the desiredMaxSpeed of people: it stays the default, and the factor says more
+  // people on foot and on bicycles differ in the speed they like, others in how they take the
+  // limit; SUMO tells nobody the desiredMaxSpeed of people: it stays the default, and the factor
+  // says more
   const bool on_foot = type.sumo_class == "pedestrian";
+  if (!on_foot) set("maxSpeed", number(slow ? type.preferred_speed * 1.6 : type.max_speed));
+  if (slow && !on_foot) set("desiredMaxSpeed", number(type.preferred_speed));
   const double mean = on_foot ? type.preferred_speed / kWalkingSpeed : 1.0;
   set("speedFactor", slow ? normal_factor(mean, 0.15, 0.6, 1.5) : normal_factor(1, 0.1, 0.7, 1.3));
 }

@@ -46,13 +46,19 @@ void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
     if (vehicle && speed < kWaiting) waiting_ += step_;
     state.known = true;
     state.position = scene.position[row];
-    if (speed < kStanding) {
+    const bool in_place = state.stands && (scene.position[row] - state.stopped).norm() < kInPlace;
+    if (speed < kStanding || in_place) {
+      if (!state.stands) {
+        state.stands = true;
+        state.stopped = scene.position[row];
+        state.stopped_at = scene.time - step_;
+      }
       add_standing(scene, row, state);
     } else {
       if (state.record >= 0) stuck_[static_cast<std::size_t>(state.record)].moved_on = true;
       state.record = -1;
       state.standing = 0;
-      state.stopped_at = scene.time;
+      state.stands = false;
     }
     if (state.record >= 0) ++stuck_now_;
   }
@@ -63,7 +69,6 @@ void FlowMonitor::add_standing(const Scene& scene, std::size_t row, State& state
   const bool excused = (context.active && (context.reason == LimitReason::Signal ||
                                            context.reason == LimitReason::Stop)) ||
                        red_lights_.ahead(scene.lane[row].lane);
-  if (state.standing == 0) state.stopped_at = scene.time - step_;
   if (!excused) state.standing += step_;
   longest_ = std::max(longest_, state.standing);
   // half a step less: sums of steps don't meet a whole number of seconds exactly

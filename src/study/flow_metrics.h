@@ -42,12 +42,14 @@ struct StuckAgent {
   bool ring = false;
 };
 
-/// Speeds, distances and standstills. An agent stands below kStanding. Standing time counts while
-/// no red light is ahead and no planned halt is on; a red light suspends the count and only moving
-/// resets it, so that a queue which doesn't move through several cycles is found out.
+/// Speeds, distances and standstills. An agent stands below kStanding, and as long as it stays
+/// within kInPlace of where it came to a stand: who shuffles to and fro gets nowhere. Standing time
+/// counts while no red light is ahead and no planned halt is on; a red light suspends the count and
+/// only moving resets it, so that a queue which doesn't move through several cycles is found out.
 class FlowMonitor {
  public:
   static constexpr double kStanding = 0.2;    ///< [m/s]
+  static constexpr double kInPlace = 1.0;     ///< [m]
   static constexpr double kStuckTime = 60.0;  ///< [s]
   static constexpr double kWaiting = 0.1;     ///< SUMO's threshold of waiting time [m/s]
 
@@ -64,10 +66,10 @@ class FlowMonitor {
 
  private:
   struct State {
-    bool known = false;
+    bool known = false, stands = false;
     bool ever_stuck = false;
     std::int32_t record = -1;  ///< index into stuck_ of the present standstill
-    Vec2 position = Vec2::Zero();
+    Vec2 position = Vec2::Zero(), stopped = Vec2::Zero();
     double stopped_at = 0, standing = 0;
   };
   void add_standing(const Scene& scene, std::size_t row, State& state);

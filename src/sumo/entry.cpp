@@ -169,15 +169,19 @@ std::vector<double> entry_offsets(double liked, double most_right, double most_l
   return offsets;
 }
 
-bool touches_wall(const Model& model, const AgentState& agent) {
+bool is_walled_off(const Model& model, const AgentState& agent, const Vec2& middle) {
   if (model.obstacles.empty()) return false;
   const ConvexPolygon outline =
       place_polygon(agent.footprint.outline(), direction_of(agent.heading));
   std::vector<std::uint32_t> found;
-  model.obstacles.find_near(agent.position, agent.footprint.radius, found);
+  const Vec2 aside = agent.position - middle;
+  model.obstacles.find_near(agent.position, agent.footprint.radius + aside.norm(), found);
   return std::any_of(found.begin(), found.end(), [&](std::uint32_t index) {
     const ObstacleIndex::Side& side = model.obstacles.side(index);
-    return clearance(outline, side.from - agent.position, side.to - agent.position).distance <= 0.0;
+    const auto share = crossing_shares(middle, aside, side.from, side.to - side.from);
+    const bool between = share && share->minCoeff() >= 0.0 && share->maxCoeff() <= 1.0;
+    return between ||
+           clearance(outline, side.from - agent.position, side.to - agent.position).distance <= 0.0;
   });
 }
 

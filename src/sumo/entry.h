@@ -22,7 +22,8 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
 /// path, away from who comes towards it.
 std::vector<double> entry_offsets(double liked, double most_right, double most_left);
 
-/// Does somebody who starts here stand in a wall, or touch one?
-bool touches_wall(const Model& model, const AgentState& agent);
+/// Does somebody who starts here touch a wall, or stand behind one as seen from the `middle` of its
+/// way: inside a house?
+bool is_walled_off(const Model& model, const AgentState& agent, const Vec2& middle);
 
 }  // namespace sumogamma

@@ -25,8 +25,9 @@ std::vector<std::shared_ptr<const Path>> paths_besides(const Model& model,
                                                        AgentTypeId type_id, const Path& path);
 
 /// Puts the pace of its own at which somebody rides a bicycle into details.max_speed, its factor in
-/// it: vType's desiredMaxSpeed, which TraCI does not tell, is seen where SUMO lets it ride no faster
-/// than that on a road that allows more; elsewhere it is SUMO's default. Others keep their maximum.
+/// it: vType's desiredMaxSpeed, which TraCI does not tell, is seen where SUMO lets it ride no
+/// faster than that on a road that allows more; elsewhere it is SUMO's default. Others keep their
+/// maximum.
 void choose_pace(const RoadNetwork& network, SumoAgentDetails& details);
 
 /// Puts a factor drawn from the type in place of the one that SUMO drew from the vType, where the

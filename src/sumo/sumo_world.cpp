@@ -305,7 +305,7 @@ bool SumoWorld::insert_on(const Pending& pending, const std::shared_ptr<const Pa
     auto put_at = [&](double offset) { agent.position = middle + offset * left; };
     std::erase_if(places, [&](double offset) {
       put_at(offset);
-      return touches_wall(model_, agent);
+      return is_walled_off(model_, agent, middle);
     });
     // where walls leave nothing else, amid the way
     if (places.empty()) places.push_back(0.0);

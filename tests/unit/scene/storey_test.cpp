@@ -76,6 +76,23 @@ TEST_F(StoreyTest, ACrossingBehindTheEndOfTheLaneCounts) {
   }
 }
 
+// two junctions with 10 cm of road between them over a tunnel: a car on the second was taken for
+// somebody in the tunnel, 0.4 m deep in a car there
+TEST_F(StoreyTest, ACrossingBeforeTheJunctionBehindCounts) {
+  const Lane& bridge = net_.lane(net_.lane_by_name.at("bridge_0"));
+  const double x = bridge.centerline.points().front().x();
+  const Ground above{net_.lane_by_name.at("bridge_0"), bridge.centerline.project({x, 0}).along, 2};
+  Lane& road = net_.lanes[index_of(net_.lane_by_name.at("in_1"))];
+  const Connection& link = net_.connection(road.outgoing.front());
+  ASSERT_NE(link.via, kNoLane);
+  Lane& out = net_.lanes[index_of(link.to)];
+  road.centerline = Polyline({{0, 0}, {x + 2, 0}});
+  net_.lanes[index_of(link.via)].centerline = Polyline({{x + 2, 0}, {x + 4, 0}});
+  out.centerline = Polyline({{x + 4, 0}, {x + 60, 0}});
+  EXPECT_TRUE(apart({link.to, 3, 0}, above));
+  EXPECT_FALSE(apart({link.to, 30, 0}, above)) << "heights alone don't tell";
+}
+
 TEST_F(StoreyTest, WhereRoadsCrossWithNoJunctionNeitherHeightsNorLayersCount) {
   Lane& bridge = net_.lanes[index_of(net_.lane_by_name.at("bridge_0"))];
   bridge.elevation = {0, 0};

@@ -82,6 +82,20 @@ TEST_F(Flow, StuckAfterAMinute) {
   EXPECT_EQ(monitor_.stuck().size(), 2u) << "each standstill is listed";
 }
 
+// people went to and fro before walls for minutes, and nobody counted them
+TEST_F(Flow, WhoShufflesToAndFroGetsNowhere) {
+  const std::size_t row = add("pedestrian", {0, 0});
+  run(1);
+  for (int k = 0; k < 62; ++k) {
+    scene_.velocity[row] = {k % 2 ? 0.5 : -0.5, 0};
+    run(1);
+  }
+  EXPECT_EQ(monitor_.result(types_).stuck_agents, 1u);
+  scene_.velocity[row] = {0.5, 0};
+  run(3);
+  EXPECT_EQ(monitor_.stuck_now(), 0u);
+}
+
 TEST_F(Flow, ARedLightSuspendsTheCountButDoesNotResetIt) {
   add("car", {50, 0}, "in_1", 50);
   road_.signal_states = {"rr"};

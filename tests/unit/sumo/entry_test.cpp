@@ -33,9 +33,22 @@ TEST(Entry, NobodyStartsInAWall) {
   AgentState agent;
   agent.footprint = box_footprint(0.4, 0.48);
   agent.position = {0, 0.9};
-  EXPECT_TRUE(touches_wall(model, agent));
+  EXPECT_TRUE(is_walled_off(model, agent, {0, 0}));
   agent.position = {0, 0.7};
-  EXPECT_FALSE(touches_wall(model, agent));
+  EXPECT_FALSE(is_walled_off(model, agent, {0, 0}));
+}
+
+// whoever began inside a house went to and fro before its walls for the rest of the run
+TEST(Entry, NobodyStartsInsideAHouse) {
+  Obstacle house;
+  house.outline = {{-5, 1}, {5, 1}, {5, 9}, {-5, 9}};
+  Model model;
+  model.obstacles = ObstacleIndex({house});
+  AgentState agent;
+  agent.footprint = box_footprint(0.4, 0.48);
+  agent.position = {0, 2};
+  EXPECT_TRUE(is_walled_off(model, agent, {0, 0}));
+  EXPECT_FALSE(is_walled_off(model, agent, {0, 3})) << "as in a station";
 }
 
 class EntryTest : public ::testing::Test {
