@@ -81,4 +81,16 @@ void ObstacleIndex::find_near(const Vec2& center, double radius,
   found.erase(std::unique(found.begin(), found.end()), found.end());
 }
 
+bool ObstacleIndex::is_between(const Vec2& from, const Vec2& to) const {
+  if (empty()) return false;
+  const Vec2 way = to - from;
+  std::vector<std::uint32_t> found;
+  find_near(0.5 * (from + to), 0.5 * way.norm(), found);
+  return std::any_of(found.begin(), found.end(), [&](std::uint32_t index) {
+    const auto share =
+        crossing_shares(from, way, side(index).from, side(index).to - side(index).from);
+    return share && share->minCoeff() >= 0.0 && share->maxCoeff() <= 1.0;
+  });
+}
+
 }  // namespace sumogamma

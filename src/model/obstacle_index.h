@@ -26,6 +26,9 @@ class ObstacleIndex {
   /// ascending order.
   void find_near(const Vec2& center, double radius, std::vector<std::uint32_t>& found) const;
 
+  /// Does a side lie between two places?
+  bool is_between(const Vec2& from, const Vec2& to) const;
+
  private:
   std::size_t cell_of(double offset, std::size_t count) const;
 

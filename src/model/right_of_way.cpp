@@ -257,13 +257,17 @@ struct Judge : RoadView {
                          type_of(model.types, scene.type[foe.row]));
   }
   /// Does the traveller, on foot and for long at a crossing where vehicles go first, step out
-  /// before one that comes later and need not brake hard for it?
+  /// before one that comes later, or in the end before one that stands or creeps before its line,
+  /// and need not brake hard for it?
   bool steps_out(const ConflictZone& zone, const Approach& foe, const Occupation& theirs) const {
-    constexpr double kLong = 30.0, kLater = 3.0;  // [s]
-    constexpr double kAsks = 2.0;                 // [m/s^2]
-    return on_foot(traveller.row) && !on_foot(foe.row) && !at_red &&
-           scene.waiting_time[traveller.row] > kLong && theirs.begin > kLater &&
-           deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) < kAsks;
+    constexpr double kLong = 30.0, kVeryLong = 45.0, kLater = 3.0;  // [s]
+    constexpr double kAsks = 2.0;                                   // [m/s^2]
+    const double waited = scene.waiting_time[traveller.row];
+    // in a queue that moves by fits and starts somebody always comes
+    const bool comes_later =
+        theirs.begin > kLater || (waited > kVeryLong && foe.speed < kCrawl && foe.front < 0.0);
+    return on_foot(traveller.row) && !on_foot(foe.row) && !at_red && waited > kLong &&
+           comes_later && deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) < kAsks;
   }
   bool past_line(const ConflictZone& zone) const {
     // who goes at red waits before the junction, not on it; who rolls out beyond its place there

@@ -123,16 +123,20 @@ std::uint64_t hash_state(const Scene& scene, std::uint64_t hash) {
   return hash;
 }
 
-void count_standing(double dt, Scene& scene, std::size_t row) {
+void count_standing(double dt, Kinematics kinematics, Scene& scene, std::size_t row) {
   constexpr double kStands = 0.3, kCreeps = 1.0;  // [m/s]
   constexpr double kCreepsShare = 0.3;            // of the preferred speed: people on foot
+  constexpr double kForgets = 10.0;               // of the wait, in a second of getting on [s]
+  constexpr double kAll = std::numeric_limits<double>::infinity();
   const double speed = scene.velocity[row].norm();
   const double creeping = std::min(kCreeps, kCreepsShare * scene.preferred_speed[row]);
   // who is pressed back along its way doesn't get on
   const RoadContext& context = scene.context[row];
   const double gets_on = context.active ? scene.velocity[row].dot(context.tangent) : speed;
   scene.standing_time[row] = speed < kStands ? scene.standing_time[row] + dt : 0.0;
-  scene.waiting_time[row] = gets_on < creeping ? scene.waiting_time[row] + dt : 0.0;
+  const double forgotten = kinematics == Kinematics::Holonomic ? kForgets * dt : kAll;
+  scene.waiting_time[row] = gets_on < creeping ? scene.waiting_time[row] + dt
+                                               : std::max(scene.waiting_time[row] - forgotten, 0.0);
 }
 
 }  // namespace sumogamma

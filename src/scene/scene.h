@@ -80,8 +80,10 @@ struct Scene {
   std::size_t size() const { return id.size(); }
 };
 
-/// Counts once a tick for how long a row has stood, and for how long it has not got on.
-void count_standing(double dt, Scene& scene, std::size_t row);
+/// Counts once a tick for how long a row has stood, and for how long it has not got on. On foot a
+/// step forward and back doesn't take the wait back to its beginning, six seconds of walking take a
+/// minute.
+void count_standing(double dt, Kinematics kinematics, Scene& scene, std::size_t row);
 
 /// One agent as a row to append. Everything that has a natural default has it.
 struct AgentState {

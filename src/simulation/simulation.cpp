@@ -102,7 +102,7 @@ void tick(Simulation& sim, World& world) {
       apply(sim.commands[row], sim.dt, scene, row);
       ++sim.times.agent_steps;
     }
-    count_standing(sim.dt, scene, row);
+    count_standing(sim.dt, type_of(sim.model.types, scene.type[row]).kinematics, scene, row);
     update_wedge(sim.dt, scene, row);
     update_backing(sim.model, sim.geometry, sim.dt, scene, row);
   }

@@ -171,17 +171,14 @@ std::vector<double> entry_offsets(double liked, double most_right, double most_l
 
 bool is_walled_off(const Model& model, const AgentState& agent, const Vec2& middle) {
   if (model.obstacles.empty()) return false;
+  if (model.obstacles.is_between(middle, agent.position)) return true;
   const ConvexPolygon outline =
       place_polygon(agent.footprint.outline(), direction_of(agent.heading));
   std::vector<std::uint32_t> found;
-  const Vec2 aside = agent.position - middle;
-  model.obstacles.find_near(agent.position, agent.footprint.radius + aside.norm(), found);
+  model.obstacles.find_near(agent.position, agent.footprint.radius, found);
   return std::any_of(found.begin(), found.end(), [&](std::uint32_t index) {
     const ObstacleIndex::Side& side = model.obstacles.side(index);
-    const auto share = crossing_shares(middle, aside, side.from, side.to - side.from);
-    const bool between = share && share->minCoeff() >= 0.0 && share->maxCoeff() <= 1.0;
-    return between ||
-           clearance(outline, side.from - agent.position, side.to - agent.position).distance <= 0.0;
+    return clearance(outline, side.from - agent.position, side.to - agent.position).distance <= 0.0;
   });
 }
 

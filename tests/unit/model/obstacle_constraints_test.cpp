@@ -110,6 +110,17 @@ TEST(ObstacleConstraints, EveryPlaneAdmitsStandingEvenInsideAWall) {
   }
 }
 
+TEST(ObstacleIndex, KnowsWhatStandsBetweenTwoPlaces) {
+  Obstacle house;
+  house.outline = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  const ObstacleIndex index({house});
+  EXPECT_TRUE(index.is_between({-3, 0}, {3, 0}));
+  EXPECT_TRUE(index.is_between({-3, 0}, {0, 0})) << "from outside to inside";
+  EXPECT_FALSE(index.is_between({-3, 0}, {-1.1, 0}));
+  EXPECT_FALSE(index.is_between({-3, 2}, {3, 2}));
+  EXPECT_FALSE(ObstacleIndex().is_between({-3, 0}, {3, 0}));
+}
+
 TEST(ObstacleIndex, FindsTheSidesOfABruteForceSearch) {
   const ObstacleIndex index(concave_room());
   std::vector<std::uint32_t> found;

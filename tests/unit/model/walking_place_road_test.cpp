@@ -91,6 +91,23 @@ TEST_F(WalkingPlaceTest, NobodyAimsAtAWall) {
 }
 
 // somebody and a bus that stood across the sidewalk waited for each other for minutes
+// between the corners of two houses somebody pressed against a wall for six minutes
+TEST_F(WalkingPlaceTest, WhoIsCaughtInANookMakesForTheMiddleOfItsWay) {
+  Obstacle wall;
+  wall.outline = {{10.5, -1.5}, {14, -1.5}, {14, -0.6}, {10.5, -0.6}};
+  here_.model.road.obstacles = {wall};
+  here_.model.obstacles = ObstacleIndex(here_.model.road.obstacles);
+  const std::size_t own = walker(10, -1.0, 0.0);
+  here_.scene.lateral_aim[own] = -1.0;
+  const auto goal_after = [&](double waited) {
+    here_.scene.waiting_time[own] = waited;
+    here_.update();
+    return here_.context(own).sub_goal;
+  };
+  EXPECT_GT(goal_after(5.0).x(), 10.5);
+  EXPECT_LT((goal_after(12.0) - Vec2(10.3, 0.0)).norm(), 0.1);
+}
+
 TEST_F(WalkingPlaceTest, WhoHasWaitedLongBeforeAVehicleWalksRoundIt) {
   const std::size_t own = walker(10, 0, 0.2);
   const std::size_t car =

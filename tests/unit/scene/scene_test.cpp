@@ -127,7 +127,7 @@ TEST(CountStanding, CreepingIsStillWaiting) {
   auto tick = [&](double speed) {
     for (std::size_t row = 0; row < scene.size(); ++row) {
       scene.velocity[row] = {speed, 0};
-      count_standing(0.5, scene, row);
+      count_standing(0.5, row == 0 ? Kinematics::SingleTrack : Kinematics::Holonomic, scene, row);
     }
   };
   tick(0.0);
@@ -137,6 +137,22 @@ TEST(CountStanding, CreepingIsStillWaiting) {
   EXPECT_EQ(scene.waiting_time[1], 0.0) << "on foot this is walking";
   tick(1.5);
   EXPECT_EQ(scene.waiting_time[0], 0.0);
+}
+
+// somebody who was pressed half a step forward at the kerb had waited for nothing
+TEST(CountStanding, AStepDoesNotEndTheWaitOfPeople) {
+  Scene scene;
+  AgentState walker;
+  walker.preferred_speed = 1.3;
+  append_agent(scene, walker);
+  auto waits_after = [&](double seconds, double speed) {
+    scene.velocity[0] = {speed, 0};
+    for (int k = 0; k < 10; ++k) count_standing(0.1 * seconds, Kinematics::Holonomic, scene, 0);
+    return scene.waiting_time[0];
+  };
+  EXPECT_NEAR(waits_after(60.0, 0.0), 60.0, 1e-9);
+  EXPECT_NEAR(waits_after(0.5, 1.0), 55.0, 1e-9);
+  EXPECT_EQ(waits_after(6.0, 1.0), 0.0);
 }
 
 TEST(CountStanding, WhoIsPressedBackDoesNotGetOn) {
@@ -149,7 +165,7 @@ TEST(CountStanding, WhoIsPressedBackDoesNotGetOn) {
   scene.context[0].tangent = {1, 0};
   auto waits_after = [&](double vx, double vy) {
     scene.velocity[0] = {vx, vy};
-    count_standing(0.5, scene, 0);
+    count_standing(0.5, Kinematics::Holonomic, scene, 0);
     return scene.waiting_time[0];
   };
   EXPECT_EQ(waits_after(1.0, 0.0), 0.0);
