@@ -520,7 +520,7 @@ def measure(scenario, folder):
     return rounded({"scenario": scenario, **common(results, tracks), **MEASURES[scenario](tracks)})
 
 
-# what docs/traffic.md shows of each scenario: words, where to find it, decimals
+# what docs/micro_scenarios.md shows of each scenario: words, where to find it, decimals
 HEADLINES = {
     "saturation": [("flow of a lane from the queue", "saturation_flow", "vehicles/h", 0)],
     "two_way_stop": [("side road halts", "halted_share", "", 2), ("its wait", "minor_mean_wait", "s", 1),

@@ -1,5 +1,5 @@
 // One test a small scenario: what traffic does there, as tools/measure_traffic.py computes it from
-// the trajectories. Bands: docs/traffic.md, "Micro-scenarios".
+// the trajectories. Bands: docs/micro_scenarios.md.
 #include <fstream>
 
 #include "traffic_run.h"
