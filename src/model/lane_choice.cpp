@@ -9,6 +9,7 @@
 #include "model/locate.h"
 #include "model/overtaking.h"
 #include "model/passing.h"
+#include "model/right_of_way.h"
 #include "model/walking_place.h"
 
 namespace sumogamma {
@@ -105,15 +106,13 @@ double shift_to(const Model& model, const Lane& from, const Lane& to) {
 
 /// Does a lane run into one with the lane of the path, soon after `along`? Who drives faster there
 /// gains nothing by changing: it is let in at the end.
-bool run_together_soon(const RoadNetwork& network, const Path& path, double along, LaneId other) {
-  const auto link = path.link_from(along);
-  if (link == path.links.end()) return false;
+bool run_together_soon(const Model& model, const Path& path, double along, LaneId other) {
   constexpr double kSoon = 100.0;  // [m]
-  const Connection& own = network.connection(link->connection);
-  if (link->stop_line - along > kSoon || own.from == other) return false;
-  const auto& outgoing = network.lane(other).outgoing;
+  const auto link = path.link_from(along);
+  if (link == path.links.end() || link->stop_line - along > kSoon) return false;
+  const auto& outgoing = model.road.lane(other).outgoing;
   return std::any_of(outgoing.begin(), outgoing.end(),
-                     [&](ConnectionId id) { return network.connection(id).to == own.to; });
+                     [&](ConnectionId id) { return runs_together(model, link->connection, id); });
 }
 
 /// The neighbouring lane on which this agent would rather be, kNoLane where it stays.
@@ -136,7 +135,7 @@ LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
   double most = stay + kGain;
   for (const LaneId id : {lane.inner, lane.outer}) {
     if (id == kNoLane) continue;
-    if (run_together_soon(model.road, path, around.along, id)) continue;
+    if (run_together_soon(model, path, around.along, id)) continue;
     const Lane& other = model.road.lane(id);
     const LaneOption& option = options[static_cast<std::size_t>(other.index)];
     if (option.cost == std::numeric_limits<double>::infinity()) continue;

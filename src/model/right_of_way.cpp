@@ -441,13 +441,6 @@ SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& 
   return can_stop ? SignalDuty::Stop : SignalDuty::None;
 }
 
-/// Do two links lead from lanes of one road into one lane?
-bool runs_together(const Model& model, ConnectionId a, ConnectionId b) {
-  const Connection &own = model.road.connection(a), &other = model.road.connection(b);
-  return own.to == other.to && own.from != other.from &&
-         model.road.lane(own.from).edge == model.road.lane(other.from).edge;
-}
-
 /// Is somebody in a zone of a foe's link, or will be soon?
 bool comes_soon(const ConflictZone& zone, const Approach& foe) {
   constexpr double kSoon = 6.0;    // [s]
@@ -579,6 +572,12 @@ bool stands_beside(const RoadView& view, const Traveller& traveller, const PathL
     if (away.norm() < own_half + kSide) return false;
   }
   return true;
+}
+
+bool runs_together(const Model& model, ConnectionId a, ConnectionId b) {
+  const Connection &own = model.road.connection(a), &other = model.road.connection(b);
+  return own.to == other.to && own.from != other.from &&
+         model.road.lane(own.from).edge == model.road.lane(other.from).edge;
 }
 
 bool has_crossing_traffic(const Model& model, ConnectionId link) {

@@ -31,6 +31,9 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
 bool stands_beside(const RoadView& view, const Traveller& traveller, const PathLink& link,
                    double begin, double end, const Approach& foe);
 
+/// Do two links lead from lanes of one road into one lane?
+bool runs_together(const Model& model, ConnectionId a, ConnectionId b);
+
 /// Does anybody cross or join at a link but those who come from the next lane of the same road?
 bool has_crossing_traffic(const Model& model, ConnectionId link);
 

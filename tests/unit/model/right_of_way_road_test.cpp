@@ -1199,23 +1199,11 @@ TEST_F(CrossingTest, WhoHasWaitedForLongStepsOutBeforeWhoHaltsForItAtEase) {
   EXPECT_TRUE(waits(20, 48));
   EXPECT_FALSE(waits(40, 48)) << "four seconds away, it halts with 1.5 m/s^2";
   EXPECT_TRUE(waits(40, 28)) << "it would have to brake harder";
-}
-
-// where queues moved by fits and starts somebody always came within three seconds, for four minutes
-TEST_F(CrossingTest, InTheEndPeopleStepOutBeforeWhoCreeps) {
-  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0, 195, 5);
-  here_.move(walker, here_.path(walker).links.at(0).stop_line - 0.3);
-  const std::size_t driver = here_.add("car", {"WC", "CE"}, 0, 0.8, 0, -1, "WC_1");
-  const double line = here_.path(driver).links.at(0).stop_line;
-  const auto waits = [&](double waited, double past) {
-    here_.move(driver, line - 2.25 + past);
-    here_.scene.waiting_time[walker] = waited;
-    here_.update();
-    return here_.context(walker).foe == here_.scene.id[driver].value;
-  };
-  EXPECT_TRUE(waits(40, -1.5));
-  EXPECT_FALSE(waits(50, -1.5));
-  EXPECT_TRUE(waits(50, 0.4)) << "it is on the crossing already";
+  // where queues move by fits and starts somebody always comes within three seconds
+  here_.set_speed(driver, 0.8);
+  EXPECT_TRUE(waits(40, 1.5));
+  EXPECT_FALSE(waits(50, 1.5));
+  EXPECT_TRUE(waits(50, -0.4)) << "it is on the crossing already";
 }
 
 TEST_F(CrossingTest, WalkersDoNotStepInFrontOfWhoCanNotStop) {

@@ -32,6 +32,13 @@ class WalkingPlaceTest : public ::testing::Test {
     here_.move(row, east ? x : 60 - x, east ? offset : -offset);
     return row;
   }
+  /// Over the right side of the eastward way, up to `top`.
+  void put_wall(double west, double east, double top) {
+    Obstacle wall;
+    wall.outline = {{west, -1.5}, {east, -1.5}, {east, top}, {west, top}};
+    here_.model.road.obstacles = {wall};
+    here_.model.obstacles = ObstacleIndex(here_.model.road.obstacles);
+  }
   double place_of(std::size_t row) {
     here_.update();
     look_around(here_.model, here_.road, here_.scene, here_.geometry.grid, row, 8, 2.5, around_);
@@ -81,10 +88,7 @@ TEST_F(WalkingPlaceTest, WhoMeetsAStreamFollowsThoseWhoWalkItsOwnWay) {
 }
 
 TEST_F(WalkingPlaceTest, NobodyAimsAtAWall) {
-  Obstacle wall;
-  wall.outline = {{12, -1.5}, {14, -1.5}, {14, -0.2}, {12, -0.2}};
-  here_.model.road.obstacles = {wall};
-  here_.model.obstacles = ObstacleIndex(here_.model.road.obstacles);
+  put_wall(12, 14, -0.2);
   const std::size_t own = walker(10, -0.8, 1.3);
   here_.scene.path_offset[own] = here_.scene.passing_offset[own] = -0.8;
   EXPECT_GT(place_of(own), -0.2 + 0.24);
@@ -93,10 +97,7 @@ TEST_F(WalkingPlaceTest, NobodyAimsAtAWall) {
 // somebody and a bus that stood across the sidewalk waited for each other for minutes
 // between the corners of two houses somebody pressed against a wall for six minutes
 TEST_F(WalkingPlaceTest, WhoIsCaughtInANookMakesForTheMiddleOfItsWay) {
-  Obstacle wall;
-  wall.outline = {{10.5, -1.5}, {14, -1.5}, {14, -0.6}, {10.5, -0.6}};
-  here_.model.road.obstacles = {wall};
-  here_.model.obstacles = ObstacleIndex(here_.model.road.obstacles);
+  put_wall(10.5, 14, -0.6);
   const std::size_t own = walker(10, -1.0, 0.0);
   here_.scene.lateral_aim[own] = -1.0;
   const auto goal_after = [&](double waited) {
