@@ -40,9 +40,9 @@ inline constexpr std::uint8_t kIdList = 0x00, kPosition = 0x42, kAngle = 0x43, k
                               kMaxSpeed = 0x41, kLength = 0x44, kVehicleClass = 0x49, kWidth = 0x4d,
                               kHeight = 0xbc, kType = 0x4f, kLane = 0x51, kEdges = 0x54,
                               kLanePosition = 0x56, kSpeedFactor = 0x5e, kStops = 0x74,
-                              kAllowedSpeed = 0xb7, kMoveToXy = 0xb4, kRemove = 0x81, kStage = 0xc0, kStagesLeft = 0xc2,
-                              kRemoveStage = 0xc5, kVirtualDetection = 0x22, kSignalState = 0x20,
-                              kOption = 0x32, kTime = 0x66, kStepLength = 0x7b;
+                              kAllowedSpeed = 0xb7, kMoveToXy = 0xb4, kRemove = 0x81, kStage = 0xc0,
+                              kStagesLeft = 0xc2, kRemoveStage = 0xc5, kVirtualDetection = 0x22,
+                              kSignalState = 0x20, kOption = 0x32, kTime = 0x66, kStepLength = 0x7b;
 inline constexpr std::uint8_t kDepartedVehicles = 0x74, kArrivedVehicles = 0x7a,
                               kDepartedPersons = 0x25, kArrivedPersons = 0x27,
                               kTeleportCount = 0x75, kEmergencyStopCount = 0x89,
