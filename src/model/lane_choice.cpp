@@ -135,7 +135,6 @@ LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
   double most = stay + kGain;
   for (const LaneId id : {lane.inner, lane.outer}) {
     if (id == kNoLane) continue;
-    if (run_together_soon(model, path, around.along, id)) continue;
     const Lane& other = model.road.lane(id);
     const LaneOption& option = options[static_cast<std::size_t>(other.index)];
     if (option.cost == std::numeric_limits<double>::infinity()) continue;
@@ -145,7 +144,8 @@ LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
     const double shift = shift_to(model, lane, other);
     const double there =
         hoped_speed(around, shift, std::min(free_speed, other.speed_limit * 1.2), 0.3);
-    if (there <= most || there < kSlowest || !is_safe(scene, around, row, shift, kSafeBraking))
+    if (there <= most || there < kSlowest || !is_safe(scene, around, row, shift, kSafeBraking) ||
+        run_together_soon(model, path, around.along, id))
       continue;
     most = there;
     best = id;

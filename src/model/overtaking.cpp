@@ -56,12 +56,16 @@ Overtaken find_overtaken(const Surroundings& around, double liked, double inner_
       if (is_in_way(around, user, liked) && user.front > from &&
           (!next || user.front < next->front))
         next = &user;
-    // what is left once it is past, should who is ahead be slower
-    const double left = next && found.any ? next->rear - found.front -
-                                                kPassing * std::max(found.speed - next->speed, 0.0)
-                                          : 0.0;
-    found.open = next == nullptr || (found.any && left > needed);
-    if (found.open) return found;
+    if (next == nullptr) {
+      found.open = true;
+      return found;
+    }
+    if (found.any) {
+      // the gap that is left once it is past, should who is ahead be slower
+      const double closes = kPassing * std::max(found.speed - next->speed, 0.0);
+      found.open = next->rear - found.front - closes > needed;
+      if (found.open) return found;
+    }
     if (!next->aligned || next->on_foot || !is_narrow(2.0 * next->half_width)) return found;
     const double side = inner_side * next->offset + next->half_width;
     found.offset = found.any ? std::max(found.offset, side) : side;
