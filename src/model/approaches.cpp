@@ -57,4 +57,11 @@ std::span<const Approach> ApproachTable::of(ConnectionId id) const {
   return std::span<const Approach>(approaches_).subspan(range.begin, range.end - range.begin);
 }
 
+bool waits_for_itself(const Scene& scene, const ApproachTable& approaches, std::size_t row) {
+  constexpr int kLongest = 16;
+  return waits_for(scene, row, row, kLongest, [&](std::size_t waiting) {
+    return find_foe(scene, approaches.waiting(waiting).foe);
+  });
+}
+
 }  // namespace sumogamma

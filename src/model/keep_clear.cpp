@@ -145,15 +145,6 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
   return {};
 }
 
-/// Does a row wait, over whom it waits for and so on, for itself? Then nobody gains by the room
-/// that it leaves.
-bool waits_for_itself(const RoadView& view, std::size_t row) {
-  constexpr int kLongest = 16;
-  return waits_for(view.scene, row, row, kLongest, [&](std::size_t waiting) {
-    return find_foe(view.scene, view.approaches.waiting(waiting).foe);
-  });
-}
-
 }  // namespace
 
 LinkDecision keep_clear(const RoadView& view, const Course& course, const Traveller& traveller,
@@ -221,8 +212,10 @@ void note_keeping_clear(const RoadView& view, const Course& course, const RoadCo
       context.reason == LimitReason::BlockedJunction || context.reason == LimitReason::TurningRoom;
   if (for_others && course.speed < 0.3) {
     kept += dt;
-    if (kept > kKeepsClear || (kept > kInRing && waits_for_itself(view, course.row)))
-      kept = kKeepsClear + kGoesOn;
+    // who waits for itself, in the end, gains nothing by the room that it leaves
+    const bool in_ring =
+        kept > kInRing && waits_for_itself(view.scene, view.approaches, course.row);
+    if (kept > kKeepsClear || in_ring) kept = kKeepsClear + kGoesOn;
   } else if (kept > kKeepsClear) {
     kept = kept - dt > kKeepsClear ? kept - dt : 0.0;
   } else if (scene.waiting_time[course.row] == 0.0) {

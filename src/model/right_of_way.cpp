@@ -12,11 +12,12 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kFillsLane = 1.2;   ///< nobody overtakes what is wider than this on a link [m]
-constexpr double kPatience = 4.0;    ///< waited for somebody who waits for a third one [s]
-constexpr double kCreeps = 0.1;      ///< who is on the junction and faster doesn't stand [m/s]
-constexpr double kAmber = 2.5;       ///< reckoned with from an amber on [s]
-constexpr double kCrawl = 1.0;       ///< whoever is slower stands within centimetres [m/s]
+constexpr double kFillsLane = 1.2;  ///< nobody overtakes what is wider than this on a link [m]
+constexpr double kPatience = 4.0;  ///< who has waited for a third one so long isn't about to go [s]
+constexpr double kLooks = 1.5;     ///< and is looked at for so long [s]
+constexpr double kCreeps = 0.1;    ///< who is on the junction and faster doesn't stand [m/s]
+constexpr double kAmber = 2.5;     ///< reckoned with from an amber on [s]
+constexpr double kCrawl = 1.0;     ///< whoever is slower stands within centimetres [m/s]
 constexpr double kTimeMargin = 1.0;  ///< left by who needn't yield to the other in a zone [s]
 constexpr double kBehind = 0.3;      ///< left by who yields behind a vehicle that has passed [s]
 // who has waited for long to give way leaves this share of its critical gap
@@ -88,8 +89,8 @@ bool lets_go_first(const Model& model, const Scene& scene, const ApproachTable& 
   };
   if (waiting.foe == scene.id[row].value && on_foot(row) != on_foot(foe.row)) return on_foot(row);
   const double own = scene.waiting_time[row], other = scene.waiting_time[foe.row];
-  // it has waited long for a third one and so have we: of two that stand for nothing one goes
-  if (waiting.foe != scene.id[row].value && std::min(own, other) > kPatience) return true;
+  // it has waited long for a third one and isn't about to go
+  if (waiting.foe != scene.id[row].value && other > kPatience && own > kLooks) return true;
   return has_waited_longer(scene, row, foe.row);
 }
 
@@ -207,9 +208,11 @@ struct Judge : RoadView {
     if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
     if (waits_behind(foe) || ends_in_queue(zone, foe)) return Verdict::Held;
     // no rule for this pair, or whoever has to wait is past the line already: who gets there first
-    // goes first, the other waits for it
+    // goes first, the other waits for it. Nobody who has to wait makes a foe brake hard
+    const bool cuts_off =
+        zone.yields && !stops_at_ease(foe.speed, zone.foe_begin - foe.front, foe_type);
     if (zone.unruled || (past_line(zone) && (zone.yields || is_committed(zone, foe))))
-      return blocks_if(theirs.begin < ours.begin ||
+      return blocks_if(cuts_off || theirs.begin < ours.begin ||
                        (theirs.begin == ours.begin && scene.id[foe.row] < scene.id[traveller.row]));
     if (!zone.yields) {
       if (comes_out(zone, foe, theirs) && theirs.begin < ours.begin) return Verdict::Blocks;
@@ -293,12 +296,14 @@ struct Judge : RoadView {
     const auto first = path.link_from(traveller.front - traveller.length);
     return first != path.links.end() && first->stop_line + 0.3 < traveller.front;
   }
-  /// Have both stood on the junction for long? Conflict zones are wider than bodies: of those who
-  /// wait for each other in a ring, whoever isn't waited for by rule alone tries.
+  /// Have both stood on the junction for long, or for some seconds in a ring of those who wait for
+  /// one another? Conflict zones are wider than bodies: whoever isn't waited for by rule alone
+  /// tries.
   bool in_deadlock(const Approach& foe) const {
-    constexpr double kLong = 8.0;  // [s]
+    constexpr double kLong = 8.0, kInRing = 3.0;  // [s]
     const double both = std::min(scene.waiting_time[traveller.row], scene.waiting_time[foe.row]);
-    if (!on_junction() || both < kLong) return false;
+    if (!on_junction() || both < kInRing) return false;
+    if (both < kLong && !waits_for_itself(scene, approaches, traveller.row)) return false;
     const LimitReason reason = approaches.waiting(foe.row).reason;
     const bool yields = reason == LimitReason::Yield || reason == LimitReason::Crossing;
     // who isn't held by a rule and moves has begun to try

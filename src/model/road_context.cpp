@@ -39,14 +39,18 @@ double stop_acceleration(const Scene& scene, const Course& course, double free_s
   return following_acceleration(course.type, course.speed, free_speed, gap, 0.0);
 }
 
-/// Remembers for stop signs that the agent came to a halt before its next link.
-void note_halt(const Course& course, Scene& scene) {
+/// Remembers for stop signs that the agent came to a halt before its next link, or the one right
+/// behind it where it has priority at the next.
+void note_halt(const RoadNetwork& road, const Course& course, Scene& scene) {
   constexpr double kAtLine = 4.0, kHalt = 0.3;
   if (scene.standing_time[course.row] < kHalt) return;
   const double front = course.along + course.half_length;
   for (const PathLink& link : course.path.links) {
     if (link.stop_line < front - 0.3) continue;
-    if (link.halt < front + kAtLine && scene.halted_for[course.row] != link.connection) {
+    if (link.halt >= front + kAtLine) return;
+    const Connection& connection = road.connection(link.connection);
+    if (connection.state == 'M' && connection.signal == kNoSignal) continue;
+    if (scene.halted_for[course.row] != link.connection) {
       scene.halted_for[course.row] = link.connection;
       scene.halted_at[course.row] = scene.time;
     }
@@ -232,7 +236,7 @@ void update_road_contexts(const Model& model, const RoadState& road, const Spati
         if (path->walking) {
           set_walker_limits(view, course, context);
         } else {
-          note_halt(course, scene);
+          note_halt(model.road, course, scene);
           set_allowed_speed(view, course, dt, context);
           note_keeping_clear(view, course, context, dt, scene);
         }
