@@ -561,6 +561,24 @@ TEST(JunctionsThatFollowClosely, AreKeptClearForSomeTimeThoughSomebodyCreeps) {
   }
 }
 
+// Two motorcycles stood for 82 s at a stop sign right behind a line where they had priority: their
+// halt counted for that line.
+TEST(JunctionsThatFollowClosely, AHaltBeforeTheFirstCountsForTheStopSignOfTheSecond) {
+  RoadScene here(two_junctions(8, "priority"));
+  const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
+  auto path = std::make_shared<Path>(here.path(own));
+  here.model.road.connections[index_of(path->links[0].connection)].state = 'M';
+  here.model.road.connections[index_of(path->links[1].connection)].state = 's';
+  path->links[1].halt = path->links[0].stop_line + 0.5;
+  here.road.paths[static_cast<std::size_t>(here.scene.path[own])] = path;
+  here.move(own, path->links[1].halt - 0.7 - 2.25);
+  here.update();
+  EXPECT_EQ(here.context(own).reason, LimitReason::Yield);
+  here.scene.standing_time[own] = 1.0;
+  here.update();
+  EXPECT_EQ(here.context(own).reason, LimitReason::None);
+}
+
 // Queues that waited for a light stood on the junction before it, across the ways of others.
 TEST(JunctionsThatFollowClosely,
      WhoHasNoRoomBeforeALightWaitsForItBeforeTheJunctionThatItWouldBlock) {
@@ -601,6 +619,29 @@ TEST_F(PriorityTest, OfTwoWhoHaveWaitedOnAJunctionForLongNobodyTriesWhileTheOthe
   here_.scene.context[foe] = {};
   here_.update();
   EXPECT_NE(here_.context(own).foe, here_.scene.id[foe].value) << "it stands, held by nothing";
+}
+
+// a motorcycle, a car, and a car behind the first stood for eight seconds, each for the next one
+TEST_F(PriorityTest, ARingOnAJunctionDissolvesAfterThreeSeconds) {
+  const std::size_t own = here_.add("car", {"SC", "CN"}, 0, 0);
+  here_.move(own, here_.path(own).links.front().stop_line + 0.5);
+  const std::size_t foe = here_.add("bus", {"WC", "CE"}, 0, 0, 0, -1, "WC_1");
+  here_.move(foe, here_.path(foe).links.front().end - 3.0);
+  const std::size_t third = here_.add("car", {"NC", "CS"}, 150, 0);
+  auto is_held = [&](std::size_t third_waits_for, double waited) {
+    const std::vector<std::size_t> chain = {own, foe, third, third_waits_for};
+    for (std::size_t k = 0; k < 3; ++k) {
+      here_.scene.context[chain[k]].reason = LimitReason::Yield;
+      here_.scene.context[chain[k]].foe = here_.scene.id[chain[k + 1]].value;
+    }
+    here_.scene.waiting_time = {waited + 1.0, waited, waited};
+    here_.update();
+    return here_.context(own).foe == here_.scene.id[foe].value;
+  };
+  EXPECT_FALSE(is_held(own, 4.0));
+  EXPECT_TRUE(is_held(own, 2.0));
+  EXPECT_TRUE(is_held(third, 4.0)) << "the third one waits for somebody else";
+  EXPECT_FALSE(is_held(third, 9.0));
 }
 
 TEST_F(PriorityTest, NobodyWaitsForWhoIsHeldByBodiesAlone) {
@@ -764,6 +805,39 @@ TEST_F(PriorityTest, WhoCreepsOnTheJunctionIsNotTakenForSomebodyWhoStands) {
   };
   EXPECT_NE(decide(0.0), LimitReason::Yield);
   EXPECT_EQ(decide(0.4), LimitReason::Yield);
+}
+
+// in a mini-roundabout each let those go first who waited for somebody else, for four seconds each
+TEST_F(PriorityTest, WhoWaitsForAThirdOneIsPassedAfterALook) {
+  const std::size_t own = add_at_line({"SC", "CN"});
+  const std::size_t foe = add_at_line({"WC", "CE"}, "WC_0");
+  auto is_held = [&](double own_wait, double their_wait) {
+    here_.scene.waiting_time[own] = own_wait;
+    here_.scene.waiting_time[foe] = their_wait;
+    here_.scene.context[foe].reason = LimitReason::Yield;
+    here_.scene.context[foe].foe = 77;
+    here_.update();
+    return here_.context(own).reason == LimitReason::Yield;
+  };
+  EXPECT_FALSE(is_held(2.0, 6.0));
+  EXPECT_TRUE(is_held(1.0, 6.0)) << "it has just come";
+  EXPECT_TRUE(is_held(2.0, 3.0)) << "the other may be about to go";
+}
+
+// a bus that had rolled beyond its place amid a junction set out before a lorry at 10 m/s, since it
+// was the first to get into its way; they met nose to nose, and 47 stood behind them
+TEST_F(PriorityTest, WhoHasToWaitBeyondItsPlaceOnTheJunctionCutsNobodyOff) {
+  const std::size_t own = here_.add("car", {"WC", "CN"}, 0, 0);
+  const std::size_t oncoming = here_.add("car", {"EC", "CW"}, 0, 0);
+  here_.move(own, zone_of(own, oncoming) - 0.35 - 2.25);
+  ASSERT_GT(zone_of(own, oncoming) - 0.35, here_.path(own).links.front().inside + 0.3)
+      << "past its place";
+  here_.move(oncoming, zone_of(oncoming, own) - 20 - 2.25);
+  for (const double speed : {4.0, 12.0}) {
+    here_.set_speed(oncoming, speed);
+    here_.update();
+    EXPECT_EQ(here_.context(own).reason == LimitReason::Yield, speed > 10) << speed;
+  }
 }
 
 TEST_F(PriorityTest, WhoHasBackedOutLetsTheOthersPast) {
