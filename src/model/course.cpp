@@ -90,13 +90,18 @@ constexpr double kDrift = 0.15;  // out of one's lane [m/s]
 
 constexpr double kStepAhead = 0.3;  ///< [m]
 
-/// Is somebody on foot caught in a nook beside its way, a wall before its `goal`? Houses leave the
-/// middle of the way free.
-bool is_caught(const Model& model, const Scene& scene, const Course& course, const Vec2& goal) {
+/// Is somebody on foot caught in a nook beside its way, a wall between its body and its `goal`?
+/// Houses leave the middle of the way free.
+bool is_caught(const Model& model, const Scene& scene, const Course& course, double half_width,
+               const Vec2& goal) {
   constexpr double kLong = 10.0;  // [s]
-  return scene.waiting_time[course.row] > kLong &&
-         scene.context[course.row].reason == LimitReason::None &&
-         model.obstacles.is_between(scene.position[course.row], goal);
+  if (scene.waiting_time[course.row] <= kLong ||
+      scene.context[course.row].reason != LimitReason::None)
+    return false;
+  const Vec2 position = scene.position[course.row];
+  const Vec2 side = half_width * left_of((goal - position).normalized());
+  return model.obstacles.is_between(position + side, goal + side) ||
+         model.obstacles.is_between(position - side, goal - side);
 }
 
 }  // namespace
@@ -122,7 +127,7 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
     const double kept = std::clamp(2.0 * turn, 0.0, 1.0);
     const Vec2 middle = line.point_at(ahead) + beyond * direction;
     context.sub_goal = middle + kept * offset * left_of(direction);
-    if (is_caught(model, scene, course, context.sub_goal))
+    if (is_caught(model, scene, course, half_width, context.sub_goal))
       context.sub_goal = line.point_at(course.along + kStepAhead);
     const Vec2 chord = middle - line.point_at(course.along);
     context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : direction;

@@ -10,13 +10,15 @@ double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& 
                       std::size_t row) {
   const Path* path = road.path(scene.path[row]);
   if (path == nullptr) return 0.0;
-  // one tick moves an agent by a few metres at most; the window forgives a detour
-  constexpr double kBack = 4.0, kAhead = 8.0;
+  // one tick moves an agent by a few metres at most; the window forgives a detour. On foot a way
+  // may fold back beside itself: whoever is past the fold stays so
+  constexpr double kBack = 4.0, kBackOnFoot = 0.5, kAhead = 8.0;
   const double last = scene.path_along[row];
-  PolylinePosition place = path->line.project(scene.position[row], last - kBack, last + kAhead);
+  const double from = last - (path->walking ? kBackOnFoot : kBack);
+  PolylinePosition place = path->line.project(scene.position[row], from, last + kAhead);
   // a fast body takes more than the window in a long step: look on where it is at the window's end
   for (double ahead = kAhead; place.along > last + 0.75 * ahead && ahead < 100.0; ahead *= 2.0)
-    place = path->line.project(scene.position[row], last - kBack, last + 2.0 * ahead);
+    place = path->line.project(scene.position[row], from, last + 2.0 * ahead);
   scene.path_along[row] = place.along;
   const PathStretch& stretch = path->stretch_at(place.along);
   const double advanced = place.along - stretch.from;

@@ -47,6 +47,22 @@ TEST(LocateOnPath, FollowsAPathThatCrossesItselfInOrder) {
   }
 }
 
+// somebody went to and fro for five minutes where its way went into a corner and out again
+TEST(LocateOnPath, WhoIsOnFootAndPastAFoldOfItsWayStaysPastIt) {
+  RoadScene here(testing::small_net());
+  Path fold;
+  fold.walking = true;
+  fold.line = Polyline({{0, 0}, {10, 0}, {10, 0.1}, {0, 0.6}});
+  fold.stretches.push_back({});
+  fold.stretches.back().lane = here.model.road.lane_by_name.at("in_0");
+  fold.stretches.back().to = fold.line.length();
+  const auto pedestrian = find_agent_type(here.model.types, "pedestrian");
+  const std::size_t own = here.add(pedestrian, std::make_shared<const Path>(fold), 11.5, 1);
+  here.scene.position[own] = Vec2(8.6, 0.05);  // nearer to the way into the corner
+  locate_on_path(here.model.road, here.road, here.scene, own);
+  EXPECT_NEAR(here.scene.path_along[own], 11.5, 0.2);
+}
+
 TEST(LocateOnPath, KeepsUpAtTheLongestStepAndTheHighestSpeed) {
   // --step allows 0.5 s; a motorcycle may do 50 m/s: 25 m a tick
   RoadScene here(testing::small_net());

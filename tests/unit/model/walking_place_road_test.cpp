@@ -94,7 +94,6 @@ TEST_F(WalkingPlaceTest, NobodyAimsAtAWall) {
   EXPECT_GT(place_of(own), -0.2 + 0.24);
 }
 
-// somebody and a bus that stood across the sidewalk waited for each other for minutes
 // between the corners of two houses somebody pressed against a wall for six minutes
 TEST_F(WalkingPlaceTest, WhoIsCaughtInANookMakesForTheMiddleOfItsWay) {
   put_wall(10.5, 14, -0.6);
@@ -109,6 +108,23 @@ TEST_F(WalkingPlaceTest, WhoIsCaughtInANookMakesForTheMiddleOfItsWay) {
   EXPECT_LT((goal_after(12.0) - Vec2(10.3, 0.0)).norm(), 0.1);
 }
 
+// at the corner of a house that it could see past somebody shuffled for two minutes
+TEST_F(WalkingPlaceTest, WhoSeesItsGoalPastACornerButDoesNotFitPastItIsCaughtToo) {
+  put_wall(10.5, 11, -0.6);
+  const std::size_t own = walker(10, -0.5, 0.0);
+  here_.scene.waiting_time[own] = 12.0;
+  here_.scene.lateral_aim[own] = -0.5;
+  here_.update();
+  const Vec2 past_it(12, -0.5);
+  ASSERT_FALSE(here_.model.obstacles.is_between(here_.scene.position[own], past_it));
+  EXPECT_LT((here_.context(own).sub_goal - Vec2(10.3, 0.0)).norm(), 0.1);
+  here_.move(own, 10, -0.3);
+  here_.scene.lateral_aim[own] = -0.3;
+  here_.update();
+  EXPECT_GT(here_.context(own).sub_goal.x(), 10.5) << "it fits";
+}
+
+// somebody and a bus that stood across the sidewalk waited for each other for minutes
 TEST_F(WalkingPlaceTest, WhoHasWaitedLongBeforeAVehicleWalksRoundIt) {
   const std::size_t own = walker(10, 0, 0.2);
   const std::size_t car =
