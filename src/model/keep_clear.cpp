@@ -213,9 +213,9 @@ void note_keeping_clear(const RoadView& view, const Course& course, const RoadCo
   if (for_others && course.speed < 0.3) {
     kept += dt;
     // who waits for itself, in the end, gains nothing by the room that it leaves
-    const bool in_ring =
-        kept > kInRing && waits_for_itself(view.scene, view.approaches, course.row);
-    if (kept > kKeepsClear || in_ring) kept = kKeepsClear + kGoesOn;
+    if (kept > kKeepsClear ||
+        (kept > kInRing && waits_for_itself(view.scene, view.approaches, course.row)))
+      kept = kKeepsClear + kGoesOn;
   } else if (kept > kKeepsClear) {
     kept = kept - dt > kKeepsClear ? kept - dt : 0.0;
   } else if (scene.waiting_time[course.row] == 0.0) {

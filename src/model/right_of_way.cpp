@@ -189,9 +189,7 @@ struct Judge : RoadView {
     // who is left on the junction from an earlier phase leaves it before others come
     const bool clears = clears_junction(traveller.row, link.connection, -to_line());
     const bool foe_clears = clears_junction(foe.row, zone.foe, foe.front);
-    if (clears && !foe_clears && !foe_inside &&
-        stops_at_ease(foe.speed, zone.foe_begin - foe.front, foe_type))
-      return Verdict::Free;
+    if (clears && !foe_clears && !foe_inside && foe_may_halt(zone, foe)) return Verdict::Free;
     if (foe_clears && !clears && !foe_inside &&
         stops_at_ease(own.speed, zone.begin - own.front, own_type) &&
         (!foe.stands || waiting.reason == LimitReason::Yield) &&
@@ -209,8 +207,7 @@ struct Judge : RoadView {
     if (waits_behind(foe) || ends_in_queue(zone, foe)) return Verdict::Held;
     // no rule for this pair, or whoever has to wait is past the line already: who gets there first
     // goes first, the other waits for it. Nobody who has to wait makes a foe brake hard
-    const bool cuts_off =
-        zone.yields && !stops_at_ease(foe.speed, zone.foe_begin - foe.front, foe_type);
+    const bool cuts_off = zone.yields && !foe_may_halt(zone, foe);
     if (zone.unruled || (past_line(zone) && (zone.yields || is_committed(zone, foe))))
       return blocks_if(cuts_off || theirs.begin < ours.begin ||
                        (theirs.begin == ours.begin && scene.id[foe.row] < scene.id[traveller.row]));
@@ -279,6 +276,11 @@ struct Judge : RoadView {
     if (at_red || !place.inside) return traveller.front > link.stop_line + kEdge;
     return traveller.front > place.along + kMargin + kEdge;
   }
+  /// Can a foe still halt at ease before the zone?
+  bool foe_may_halt(const ConflictZone& zone, const Approach& foe) const {
+    return stops_at_ease(foe.speed, zone.foe_begin - foe.front,
+                         type_of(model.types, scene.type[foe.row]));
+  }
   /// Is a foe past the place where it would wait for the traveller, and before the zone no more?
   bool is_committed(const ConflictZone& zone, const Approach& foe) const {
     const auto& links = road.path(scene.path[foe.row])->links;
@@ -287,8 +289,7 @@ struct Judge : RoadView {
     });
     if (its == links.end()) return true;
     return foe.front > waiting_place(*its, zone.foe_begin).along - its->stop_line + 0.3 &&
-           !stops_at_ease(foe.speed, zone.foe_begin - foe.front,
-                          type_of(model.types, scene.type[foe.row]));
+           !foe_may_halt(zone, foe);
   }
   /// Is some of the traveller's body on a junction, this one or one before?
   bool on_junction() const {
