@@ -13,7 +13,8 @@ AgentTypeTable default_agent_types() {
   auto add = [&](AgentType type) { types.push_back(std::move(type)); };
   // sizes: SUMO's vClass defaults (page Vehicle_Type_Parameter_Defaults); wheelbases, horizons,
   // attention and responsibility: facts on the reference's AgentParams; accelerations: SUMO's
-  // vClass defaults
+  // vClass defaults; in bends: the side friction that low-speed streets are designed for, 0.40 at
+  // 20 km/h and 0.32 at 30 (docs/traffic.md), less where people stand or loads tip
   add({.name = "pedestrian",
        .sumo_class = "pedestrian",
        .kinematics = Kinematics::Holonomic,
@@ -68,7 +69,7 @@ AgentTypeTable default_agent_types() {
        .max_acceleration = 4.0,
        .comfortable_deceleration = 3.0,
        .max_deceleration = 8.0,
-       .max_lateral_acceleration = 3.0,
+       .max_lateral_acceleration = 3.5,
        .tracking_error = 0.4,
        .horizon = 4.0,
        .attention_front = 15.0,
@@ -88,7 +89,7 @@ AgentTypeTable default_agent_types() {
        .max_acceleration = 2.5,
        .comfortable_deceleration = 2.5,
        .max_deceleration = 8.0,
-       .max_lateral_acceleration = 3.0,
+       .max_lateral_acceleration = 3.5,
        .tracking_error = 0.5,
        .horizon = 4.0,
        .attention_front = 15.0,
@@ -108,7 +109,7 @@ AgentTypeTable default_agent_types() {
        .max_acceleration = 2.3,
        .comfortable_deceleration = 2.5,
        .max_deceleration = 8.0,
-       .max_lateral_acceleration = 2.7,
+       .max_lateral_acceleration = 3.1,
        .tracking_error = 0.5,
        .horizon = 4.0,
        .attention_front = 15.0,
@@ -128,7 +129,7 @@ AgentTypeTable default_agent_types() {
        .max_acceleration = 1.2,
        .comfortable_deceleration = 1.8,
        .max_deceleration = 6.0,
-       .max_lateral_acceleration = 1.5,
+       .max_lateral_acceleration = 1.8,
        .tracking_error = 0.6,
        .horizon = 5.0,
        .attention_front = 20.0,
@@ -148,7 +149,7 @@ AgentTypeTable default_agent_types() {
        .max_acceleration = 1.3,
        .comfortable_deceleration = 1.9,
        .max_deceleration = 6.0,
-       .max_lateral_acceleration = 1.8,
+       .max_lateral_acceleration = 2.1,
        .tracking_error = 0.6,
        .horizon = 5.0,
        .attention_front = 20.0,
