@@ -133,7 +133,13 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
     const LaneId lane = path.stretches.front().lane;
     const bool comes_in = scene.lane[row].lane == lane || scene.merge_to[row] == lane;
     const double aside = relative.x() <= 0.0 ? 0.3 : comes_in ? 3.5 : 0.7;
-    if (on_foot || std::abs(relative.y()) > half_width + other.half_width + aside) continue;
+    if (on_foot) continue;
+    if (std::abs(relative.y()) > half_width + other.half_width + aside) {
+      // who comes from behind out of a bend is beside the line straight back
+      if (relative.x() < 0.0 && comes_over(model, road, scene, row, other, wanted))
+        return std::nullopt;
+      continue;
+    }
     const double ahead = scene.velocity[row].dot(direction);
     const double free = std::abs(relative.x()) - half_length - scene.footprint[row].radius - gap;
     if (relative.x() > 0.0) {

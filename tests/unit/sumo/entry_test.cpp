@@ -99,6 +99,20 @@ TEST_F(EntryTest, NorInFrontOfWhoTurnsIn) {
   EXPECT_TRUE(speed_of_newcomer()) << "it turns away";
 }
 
+// a bicycle began right before the nose of a car that came out of a bend
+TEST_F(EntryTest, NorInFrontOfWhoComesOutOfABend) {
+  const std::size_t other = here_.add("car", {"in", "out"}, 0, 0);
+  const Vec2 start = here_.path(first_).line.point_at(0.0);
+  here_.scene.path[other] = kNoPath;
+  here_.scene.position[other] = start + Vec2(-9.0, 2.4);
+  here_.scene.heading[other] = -0.25;
+  here_.set_speed(other, 9.0);
+  EXPECT_FALSE(speed_of_newcomer());
+  here_.scene.heading[other] = 0.0;
+  here_.set_speed(other, 9.0);
+  EXPECT_TRUE(speed_of_newcomer()) << "it passes beside";
+}
+
 // a motorcycle began to drive at 10 m/s beside the tail of a bus that turned across its way
 TEST_F(EntryTest, NorBesideWhoTurnsAcrossItsWay) {
   const std::size_t other = here_.add("car", {"in", "out"}, 0, 0);
