@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kFromEnds = 12.0;      // nearer than that roads may overlap as they meet [m]
 constexpr double kLeastSine = 0.5;      // parallel roads that touch don't cross [sin of the angle]
+constexpr double kRise = 1.5;           // over or under a link, which may only pass by roads [m]
 constexpr double kShortestLoop = 40.0;  // lanes at the inside of hairpins fold over themselves [m]
 
 // where a footway crosses a road with no node in common, people cross the road
@@ -80,6 +81,43 @@ void add_crossings(const Road& one, const Road& other, RoadNetwork& network) {
   }
 }
 
+/// Adds where a link crosses a road that doesn't come to its junction, a storey higher or lower:
+/// the lane that leads into it and the one behind cross that road as well, beyond their ends.
+void add_crossings_of_link(const Connection& link, const std::vector<Road>& roads,
+                           RoadNetwork& network) {
+  const Lane& via = network.lane(link.via);
+  const std::vector<Vec2>& own = via.centerline.points();
+  const auto add = [&](LaneId lane, double along, const Road& road, double there) {
+    const EdgeId edge = network.lane(lane).edge;
+    if (edge < road.edge)
+      network.overpasses.push_back({edge, road.edge, along, there});
+    else
+      network.overpasses.push_back({road.edge, edge, there, along});
+  };
+  for (const Road& road : roads) {
+    const Edge& edge = network.edge(road.edge);
+    if (edge.from == via.junction || edge.to == via.junction) continue;
+    const Polyline& their = road.lane->centerline;
+    for (std::size_t i = 0; i + 1 < own.size(); ++i) {
+      if ((own[i].array() < road.lower.array() - kFromEnds).any() ||
+          (own[i].array() > road.upper.array() + kFromEnds).any())
+        continue;
+      const Vec2 along = own[i + 1] - own[i];
+      for (std::size_t j = 0; j + 1 < their.points().size(); ++j) {
+        const Vec2 across = their.points()[j + 1] - their.points()[j];
+        const auto share = crossing_shares(own[i], along, their.points()[j], across);
+        if (!share || share->minCoeff() < 0.0 || share->maxCoeff() > 1.0) continue;
+        const double here = via.centerline.along_of_vertex(i) + share->x() * along.norm(),
+                     there = their.along_of_vertex(j) + share->y() * across.norm();
+        if (std::abs(elevation_at(via, here) - elevation_at(*road.lane, there)) < kRise) continue;
+        add(link.from, network.lane(link.from).centerline.length() + here, road, there);
+        add(link.via, here, road, there);
+        add(link.to, here - via.centerline.length(), road, there);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void find_overpasses(RoadNetwork& network) {
@@ -96,6 +134,10 @@ void find_overpasses(RoadNetwork& network) {
       const auto& [first, second] = std::minmax(*one, *other, by_edge);
       add_crossings(first, second, network);
     }
+  for (const Connection& link : network.connections)
+    if (link.via != kNoLane && (network.lane(link.via).allowed & kMotorised) != 0 &&
+        !network.lane(link.via).elevation.empty())
+      add_crossings_of_link(link, roads, network);
   std::stable_sort(network.overpasses.begin(), network.overpasses.end(),
                    [](const Overpass& a, const Overpass& b) {
                      return std::pair(a.one, a.other) < std::pair(b.one, b.other);

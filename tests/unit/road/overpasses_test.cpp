@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "support/small_net.h"
 
 namespace sumogamma {
@@ -60,6 +63,32 @@ TEST_F(OverpassesTest, ARoadThatWindsOverItselfIsAboveItself) {
   EXPECT_EQ(self.one, self.other);
   EXPECT_NEAR(self.along_one, 30.0, 1e-9);
   EXPECT_NEAR(self.along_other, 170.0, 1e-9);
+}
+
+// a bus on its way into a tunnel of Monaco, on the junction before it, and a car on the road above
+// took each other for being on one storey: netconvert has the ramp descend on its last metres
+TEST_F(OverpassesTest, ALinkGoesUnderARoadFromElsewhereThatIsHigher) {
+  lane("bridge_0").centerline = Polyline({{100, -60}, {100, 60}});
+  lane(":C_0_0").elevation = {0, 0};
+  lane("bridge_0").elevation = {1, 1};
+  EXPECT_TRUE(found().empty()) << "no storey";
+  lane("bridge_0").elevation = {2, 2};
+  ASSERT_EQ(found().size(), 3u);
+  const EdgeId bridge = lane("bridge_0").edge;
+  for (const auto& [name, along] :
+       {std::pair("in_1", 100.0), std::pair(":C_0_0", 5.0), std::pair("out_0", -5.0)}) {
+    const EdgeId edge = lane(name).edge;
+    const auto overpass =
+        std::find_if(net_.overpasses.begin(), net_.overpasses.end(), [&](const Overpass& each) {
+          return std::minmax(each.one, each.other) == std::minmax(edge, bridge);
+        });
+    ASSERT_NE(overpass, net_.overpasses.end()) << name;
+    const bool first = overpass->one == edge;
+    EXPECT_NEAR(first ? overpass->along_one : overpass->along_other, along, 1e-9) << name;
+    EXPECT_NEAR(first ? overpass->along_other : overpass->along_one, 60.0, 1e-9) << name;
+  }
+  net_.edges[index_of(bridge)].to = lane(":C_0_0").junction;
+  EXPECT_TRUE(found().empty()) << "it comes to the junction";
 }
 
 // netconvert's lanes at the inside of a hairpin
