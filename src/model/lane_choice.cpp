@@ -180,8 +180,9 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
     if (filters(scene, around, row)) return;
     intent.merge_to = here.lane;
     if (is_beside(scene, around)) intent.gate = around.along;
-    intent.abort =
-        scene.standing_time[row] > kPatience && scene.context[row].reason == LimitReason::None;
+    const LimitReason reason = scene.context[row].reason;
+    intent.abort = scene.standing_time[row] > kPatience &&
+                   (reason == LimitReason::None || reason == LimitReason::Merge);
     return;
   }
   const double speed = around.speed;

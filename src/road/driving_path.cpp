@@ -399,6 +399,22 @@ struct Remade {
 
 }  // namespace
 
+namespace {
+
+/// Is there room on the route's edge `index` for the lane changes that the trip needs from `from`
+/// on lane `lane` on?
+bool has_room_to_change(const Trip& trip, std::size_t index, const Lane& lane, double from) {
+  constexpr double kLeast = 5.0, kMost = 24.0;  // way of a lane change [m]
+  constexpr double kCar = 4.0;                  // turning radius where none is known [m]
+  const double radius = trip.request.cornering.turning_radius;
+  const double shortest = std::clamp(3.0 * (radius > 0.0 ? radius : kCar), kLeast, kMost);
+  const LaneOption& option = trip.options[index][static_cast<std::size_t>(lane.index)];
+  const int changes = std::abs(option.exit_index - lane.index);
+  return from + shortest * changes / 0.85 <= end_of(trip, index, lane);
+}
+
+}  // namespace
+
 std::optional<Path> change_lane(const RoadNetwork& network, const Path& path, double& along,
                                 LaneId target, double distance, double back) {
   const Remade old{network, path, along, back, path.stretch_at(along).lane};
@@ -408,7 +424,7 @@ std::optional<Path> change_lane(const RoadNetwork& network, const Path& path, do
   const double scale = lane.centerline.length() / std::max(old.lane.centerline.length(), 0.1);
   const double changed = (old.on_lane + distance) * scale;
   if (old.lane.edge != lane.edge || option.cost == kUnreachable ||
-      changed > end_of(*path.trip, old.index(), lane))
+      !has_room_to_change(*path.trip, old.index(), lane, changed))
     return std::nullopt;
   Builder builder(network, path.trip->request);
   builder.enter_edge(old.index());
@@ -421,17 +437,12 @@ namespace {
 
 /// Goes on along `old`'s lane for `stay` [m] before it changes, if that leaves room for it.
 std::optional<Path> stay_on(const Remade& old, double stay, double& along) {
-  constexpr double kLeast = 5.0, kMost = 24.0;  // way of a lane change [m]
-  constexpr double kCar = 4.0;                  // turning radius where none is known [m]
   if (!old.possible()) return std::nullopt;
   const Trip& trip = *old.path.trip;
-  const double radius = trip.request.cornering.turning_radius;
-  const double shortest = std::clamp(3.0 * (radius > 0.0 ? radius : kCar), kLeast, kMost);
   const LaneOption& option = trip.options[old.index()][static_cast<std::size_t>(old.lane.index)];
-  if (option.cost == kUnreachable) return std::nullopt;
-  const int changes = std::abs(option.exit_index - old.lane.index);
   const double from = old.on_lane + stay;
-  if (from + shortest * changes / 0.85 > end_of(trip, old.index(), old.lane)) return std::nullopt;
+  if (option.cost == kUnreachable || !has_room_to_change(trip, old.index(), old.lane, from))
+    return std::nullopt;
   Builder builder(old.network, trip.request);
   builder.enter_edge(old.index());
   builder.follow(old.id, old.begin, from);

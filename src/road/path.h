@@ -146,7 +146,8 @@ void place_stop(const RoadNetwork& network, EdgeId edge, double on_lane, double 
 /// The path of the same trip that moves over into `target`, a neighbour of the lane at `along`,
 /// within `distance` from there, and goes on as the trip needs. It begins `back` [m] behind the
 /// place or at the edge's begin: `along` becomes the place on the new path. Halts that lie ahead
-/// are kept. nullopt where the edge ends before the change does, or the lane does not lead on.
+/// are kept. nullopt where the edge ends before the change does, the lane does not lead on, or too
+/// little is left of it for the changes that it takes from there.
 std::optional<Path> change_lane(const RoadNetwork& network, const Path& path, double& along,
                                 LaneId target, double distance, double back);
 

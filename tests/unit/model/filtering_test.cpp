@@ -242,6 +242,23 @@ TEST_F(ChangingLanes, WhoIsAheadOfTheOthersNoseGoesOn) {
   EXPECT_FALSE(halts());
 }
 
+// it stood for 80 s amid its change beside a queue, its own lane empty before it
+TEST_F(ChangingLanes, WhoHasToHaltAmidItGoesBackAndOn) {
+  begin("car", 1.6, 0.6);
+  EXPECT_TRUE(halts());
+  here_.update();
+  ASSERT_EQ(here_.context(own_).reason, LimitReason::Merge);
+  const auto is_amid_change = [&] {
+    return here_.path(own_).stretch_at(here_.scene.path_along[own_]).changing;
+  };
+  here_.scene.standing_time[own_] = 3;
+  let_all_look(here_);
+  EXPECT_TRUE(is_amid_change());
+  here_.scene.standing_time[own_] = 5;
+  let_all_look(here_);
+  EXPECT_FALSE(is_amid_change());
+}
+
 // motorcycles halted beside every car of a queue, for minutes in all
 TEST_F(ChangingLanes, WhoFiltersGoesOnBetweenTheLanes) {
   begin("motorcycle", 1.2, 0.3);
@@ -365,6 +382,17 @@ TEST(Swap, NobodyWaitsForWhoWaitsForItToGetOutOfTheWay) {
   here.scene.standing_time[left] = 3;
   here.update(2);
   EXPECT_GT(here.context(right).allowed_speed, 0.3);
+}
+
+// a car changed over and back within the last 15 m of its lane, into a motorcycle behind it
+TEST_F(NoGap, NobodyChangesWhoHasNoRoomLeftToChangeBackIn) {
+  const LaneId other = here_.model.road.lane_by_name.at("CE_0");
+  for (const double place : {5.0, 20.0}) {
+    const std::size_t own = here_.add("car", {"CE", "EL"}, place, 5, 0, -1, "CE_1");
+    double along = here_.scene.path_along[own];
+    const auto changed = change_lane(here_.model.road, here_.path(own), along, other, 12.0, 20.0);
+    EXPECT_EQ(changed.has_value(), place < 10.0) << place;
+  }
 }
 
 TEST_F(NoGap, NarrowVehiclesChangeLanesInLess) {
