@@ -7,7 +7,7 @@ namespace sumogamma::osm {
 namespace {
 
 constexpr double kCell = 10.0;          // [m]
-constexpr double kFootClearance = 0.6;  // [m] to either side of a sidewalk's middle
+constexpr double kFootClearance = 0.8;  // [m] to either side of a sidewalk's middle
 constexpr double kOffGround = 2.5;      // [m] over or under the street
 constexpr double kBesideTunnel = 1.5;   // [m] beyond a lane up there or down there
 constexpr double kJoint = 0.3;          // [m] by which pieces overlap, so that bends leave no gap

@@ -18,8 +18,8 @@ double cleared(double height) {
 }
 
 TEST(LaneClearing, ASidewalkNeedsItsMiddleAndATunnelMoreThanItsWidth) {
-  EXPECT_NEAR(cleared(0), 1.2, 1e-6);
-  EXPECT_NEAR(cleared(2), 1.2, 1e-6) << "a ramp between walls";
+  EXPECT_NEAR(cleared(0), 1.6, 1e-6) << "people abreast get past who comes towards them";
+  EXPECT_NEAR(cleared(2), 1.6, 1e-6) << "a ramp between walls";
   EXPECT_NEAR(cleared(-5), 6.0, 1e-6) << "the house over the tunnel isn't in it";
   EXPECT_NEAR(cleared(5), 6.0, 1e-6);
 }

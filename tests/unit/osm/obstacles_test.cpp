@@ -47,7 +47,8 @@ TEST(LaneClearing, TellsWhereASegmentLiesOnALane) {
 TEST(LaneClearing, SidewalksNeedLessThanTheirWidth) {
   const LaneClearing clearing(one_lane(vehicle_class::kPedestrian));
   EXPECT_TRUE(clearing.stretches_on_lanes(Vec2(-50, 1), Vec2(50, 1)).empty());
-  EXPECT_FALSE(clearing.stretches_on_lanes(Vec2(-50, 0.5), Vec2(50, 0.5)).empty());
+  // two abreast and somebody who comes towards them get past each other
+  EXPECT_FALSE(clearing.stretches_on_lanes(Vec2(-50, 0.75), Vec2(50, 0.75)).empty());
 }
 
 //   sidewalk ------+   +------ crossing    the outlines of the lanes and of the walking area need
