@@ -7,6 +7,7 @@
 #include "model/occupation.h"
 #include "model/rule_breaking.h"
 #include "model/stopping_guard.h"
+#include "model/turning_room.h"
 
 namespace sumogamma {
 
@@ -219,7 +220,7 @@ struct Judge : RoadView {
                                0.7 * foe_type.max_deceleration;
       return blocks_if(vulnerable && unstoppable && foe_type.kinematics != Kinematics::Holonomic);
     }
-    if (steps_out(zone, foe, theirs)) return Verdict::Free;
+    if (steps_out(zone, foe)) return Verdict::Free;
     return Verdict::Blocks;
   }
 
@@ -257,17 +258,13 @@ struct Judge : RoadView {
                          type_of(model.types, scene.type[foe.row]));
   }
   /// Does the traveller, on foot and for long at a crossing where vehicles go first, step out
-  /// before one that comes later, or in the end before one that stands or creeps before its line,
-  /// and need not brake hard for it?
-  bool steps_out(const ConflictZone& zone, const Approach& foe, const Occupation& theirs) const {
-    constexpr double kLong = 30.0, kVeryLong = 45.0, kLater = 3.0;  // [s]
-    constexpr double kAsks = 2.0;                                   // [m/s^2]
-    const double waited = scene.waiting_time[traveller.row];
-    // in a queue that moves by fits and starts somebody always comes
-    const bool comes_later =
-        theirs.begin > kLater || (waited > kVeryLong && foe.speed < kCrawl && foe.front < 0.0);
-    return on_foot(traveller.row) && !on_foot(foe.row) && !at_red && waited > kLong &&
-           comes_later && deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) < kAsks;
+  /// before one that need not brake hard for it? Where they come without end nobody else lets it.
+  bool steps_out(const ConflictZone& zone, const Approach& foe) const {
+    constexpr double kLong = 30.0;  // [s]
+    constexpr double kAsks = 2.0;   // [m/s^2]
+    return on_foot(traveller.row) && !on_foot(foe.row) && !at_red &&
+           scene.waiting_time[traveller.row] > kLong &&
+           deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) < kAsks;
   }
   bool past_line(const ConflictZone& zone) const {
     // who goes at red waits before the junction, not on it; who rolls out beyond its place there
@@ -418,9 +415,9 @@ struct Aspect {
 };
 
 /// Red stops always, amber where braking at ease still does it, for a front that would come to rest
-/// at `halt` [m]. Once past the line, clear the junction.
+/// at `halt`, where the line is drawn at `drawn` [m]. Once past the line, clear the junction.
 SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& traveller,
-                       const PathLink& link, const Aspect& aspect, double halt) {
+                       const PathLink& link, const Aspect& aspect, double halt, double drawn) {
   const char signal = aspect.letter;
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const bool on_foot = type.kinematics == Kinematics::Holonomic;
@@ -435,6 +432,9 @@ SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& 
     const bool late = to_line > std::max(left, 0.0) * traveller.speed;
     const double most = late ? 0.65 * type.max_deceleration : type.comfortable_deceleration;
     const bool stands = late && traveller.speed < kCrawl;
+    // who gets over in time doesn't halt where others need the room
+    if (!late && !on_foot && !stops_at_ease(traveller.speed, drawn - traveller.front, type))
+      return SignalDuty::None;
     return needed < most || stands ? SignalDuty::Stop : SignalDuty::None;
   }
   if (!is_red(signal)) return SignalDuty::None;
@@ -503,7 +503,8 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
   const double stop_at = halt - kStopMargin;
   LinkDecision decision;
   const SignalDuty duty = signal_duty(model, scene, traveller, link,
-                                      {signal, signal_since(road, connection, scene.time)}, halt);
+                                      {signal, signal_since(road, connection, scene.time)}, halt,
+                                      is_amber(signal) ? drawn_line(view, traveller, link) : halt);
   if (duty == SignalDuty::Stop) return {true, stop_at, LimitReason::Signal, -1};
   const bool at_red = duty == SignalDuty::GoAtRed;
   const bool stop_sign = (connection.state == 's' || connection.state == 'w') && signal == 'O';

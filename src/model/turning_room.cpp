@@ -4,6 +4,7 @@
 
 #include "model/following.h"
 #include "model/occupation.h"
+#include "model/rule_breaking.h"
 #include "scene/storey.h"
 
 namespace sumogamma {
@@ -11,6 +12,9 @@ namespace sumogamma {
 namespace {
 
 constexpr double kNear = 25.0;  ///< before its line from which a long body is reckoned with [m]
+/// Before a lane's end at a signal where the line is drawn behind what long bodies sweep [m]: who
+/// is there first at red stands in the way of one that comes at its green.
+constexpr double kDrawn = 12.0;
 
 /// Is it about who has the width of a row that a way tells?
 bool is_for(const SweptWay& way, const Scene& scene, std::size_t row) {
@@ -27,20 +31,35 @@ bool comes_first(const Occupation& theirs, const Occupation& ours, bool there, b
 
 }  // namespace
 
+double drawn_line(const RoadView& view, const Traveller& traveller, const PathLink& link) {
+  double line = link.halt;
+  if (view.model.road.connection(link.connection).signal == kNoSignal) return line;
+  for (const SweptWay& way : view.model.swept_ways[index_of(link.connection)])
+    if (way.foe_sweeps && way.begin > -kDrawn && is_for(way, view.scene, traveller.row))
+      line = std::min(line, link.stop_line + way.begin);
+  return line;
+}
+
 double halt_for_long_bodies(const RoadView& view, const Traveller& traveller,
                             const PathLink& link) {
   const auto& [model, road, scene, grid, approaches] = view;
+  // who means to go at red goes up to the end of its lane
+  const bool drawn = model.road.connection(link.connection).signal != kNoSignal &&
+                     !goes_at_red(model, scene, traveller.row, link.connection);
   double halt = link.halt;
   for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
     const double place = link.stop_line + way.begin;
     if (!way.foe_sweeps || way.begin >= 0.0 || traveller.front > place || place >= halt ||
         !is_for(way, scene, traveller.row))
       continue;
-    for (const Approach& foe : approaches.of(way.foe))
-      if (turning_body(foe.length) == way.body && foe.front > -kNear &&
-          foe.front - foe.length < way.foe_end && foe.row != traveller.row &&
-          !on_other_storey(model.road, scene, traveller.row, foe.row))
-        halt = std::min(halt, place);
+    const auto comes = [&](const Approach& foe) {
+      return turning_body(foe.length) == way.body && foe.front > -kNear &&
+             foe.front - foe.length < way.foe_end && foe.row != traveller.row &&
+             !on_other_storey(model.road, scene, traveller.row, foe.row);
+    };
+    const auto foes = approaches.of(way.foe);
+    if ((drawn && way.begin > -kDrawn) || std::any_of(foes.begin(), foes.end(), comes))
+      halt = place;
   }
   return halt;
 }

@@ -4,8 +4,12 @@
 
 namespace sumogamma {
 
-/// Where a front that waits before a link comes to rest [m along the path]: further back than the
-/// link's own place where a long body comes that will sweep the lane's end.
+/// Where the line of a link is drawn [m along the path]: at a signal behind what long bodies sweep
+/// of the lane's end, if that isn't far.
+double drawn_line(const RoadView& view, const Traveller& traveller, const PathLink& link);
+
+/// Where a front that waits before a link comes to rest [m along the path]: at its drawn line, or
+/// further back where a long body comes that will sweep the lane's end.
 double halt_for_long_bodies(const RoadView& view, const Traveller& traveller, const PathLink& link);
 
 /// Does an agent halt for the room that long bodies need where they turn? A long one lets those

@@ -1273,11 +1273,13 @@ TEST_F(CrossingTest, WhoHasWaitedForLongStepsOutBeforeWhoHaltsForItAtEase) {
   EXPECT_TRUE(waits(20, 48));
   EXPECT_FALSE(waits(40, 48)) << "four seconds away, it halts with 1.5 m/s^2";
   EXPECT_TRUE(waits(40, 28)) << "it would have to brake harder";
-  // where queues move by fits and starts somebody always comes within three seconds
+  // where they come one after the other somebody always comes within three seconds
+  here_.set_speed(driver, 5.0);
+  EXPECT_TRUE(waits(20, 10));
+  EXPECT_FALSE(waits(40, 10));
   here_.set_speed(driver, 0.8);
-  EXPECT_TRUE(waits(40, 1.5));
-  EXPECT_FALSE(waits(50, 1.5));
-  EXPECT_TRUE(waits(50, -0.4)) << "it is on the crossing already";
+  EXPECT_FALSE(waits(40, 1.5));
+  EXPECT_TRUE(waits(40, -0.4)) << "it is on the crossing already";
 }
 
 TEST_F(CrossingTest, WalkersDoNotStepInFrontOfWhoCanNotStop) {

@@ -112,6 +112,49 @@ TEST_F(TurningRoomTest, ABusThatHasLetOthersPastForLongGoesOnForAWhile) {
   EXPECT_GT(waited, 40.0);
 }
 
+// a bus found a car at the line whenever it had green, as the car had red, and stood for minutes
+class DrawnLine : public ::testing::Test {
+ protected:
+  DrawnLine() { show('G'); }
+  void show(char state) {
+    for (std::string& states : here_.road.signal_states) states = std::string(100, state);
+  }
+  /// Its front so far before the end of its lane [m].
+  void place(double before, double speed) {
+    here_.move(car_, link().stop_line - before - 2.25);
+    here_.set_speed(car_, speed);
+    here_.update();
+  }
+  const PathLink& link() { return here_.path(car_).links.front(); }
+  /// How far before the end of its lane it halts [m].
+  double halt() {
+    const Traveller traveller{car_, here_.scene.path_along[car_] + 2.25, 4.5, 5.0};
+    return link().stop_line - halt_for_long_bodies(here_.view(), traveller, link());
+  }
+  RoadScene here_{read_plain_net(crossroads("traffic_light", {"--default.junctions.radius", "3"}))};
+  std::size_t car_ = here_.add("car", {"SC", "CN"}, 0, 0);
+};
+
+TEST_F(DrawnLine, LiesAtASignalBehindWhatABusWouldSweep) {
+  place(30.0, 5.0);
+  EXPECT_GT(halt(), 4.0);
+  EXPECT_LT(halt(), 12.0);
+}
+
+// it halted at amber where the bus turns, since it could no longer halt before that
+TEST_F(DrawnLine, WhoCannotHaltThereAndGetsOverInTimeDoesAtAmber) {
+  show('y');
+  here_.scene.time = 100;
+  const auto halts_at = [&](double before, double since) {
+    here_.road.signal_since.assign(here_.road.signal_states.size(), 100 - since);
+    place(before, 9.0);
+    return here_.context(car_).reason == LimitReason::Signal;
+  };
+  EXPECT_TRUE(halts_at(30.0, 0.0)) << "before the line";
+  EXPECT_FALSE(halts_at(18.0, 0.0)) << "2.3 m/s^2 would do at the end of its lane";
+  EXPECT_TRUE(halts_at(18.0, 2.4)) << "it would not be over in time";
+}
+
 // it gave up after 40 s and wedged itself before the queue, which had got green by then
 TEST_F(TurningRoomTest, AtASignalABusLetsSomeCyclesPass) {
   const RoadNetwork network =
