@@ -43,9 +43,7 @@ double drawn_line(const RoadView& view, const Traveller& traveller, const PathLi
 double halt_for_long_bodies(const RoadView& view, const Traveller& traveller,
                             const PathLink& link) {
   const auto& [model, road, scene, grid, approaches] = view;
-  // who means to go at red goes up to the end of its lane
-  const bool drawn = model.road.connection(link.connection).signal != kNoSignal &&
-                     !goes_at_red(model, scene, traveller.row, link.connection);
+  const bool signalled = model.road.connection(link.connection).signal != kNoSignal;
   double halt = link.halt;
   for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
     const double place = link.stop_line + way.begin;
@@ -57,9 +55,11 @@ double halt_for_long_bodies(const RoadView& view, const Traveller& traveller,
              foe.front - foe.length < way.foe_end && foe.row != traveller.row &&
              !on_other_storey(model.road, scene, traveller.row, foe.row);
     };
+    // who means to go at red goes up to the end of its lane
+    const bool drawn = signalled && way.begin > -kDrawn &&
+                       !goes_at_red(model, scene, traveller.row, link.connection);
     const auto foes = approaches.of(way.foe);
-    if ((drawn && way.begin > -kDrawn) || std::any_of(foes.begin(), foes.end(), comes))
-      halt = place;
+    if (drawn || std::any_of(foes.begin(), foes.end(), comes)) halt = place;
   }
   return halt;
 }
