@@ -99,8 +99,8 @@ void add_crossings_of_link(const Connection& link, const std::vector<Road>& road
     if (edge.from == via.junction || edge.to == via.junction) continue;
     const Polyline& their = road.lane->centerline;
     for (std::size_t i = 0; i + 1 < own.size(); ++i) {
-      if ((own[i].array() < road.lower.array() - kFromEnds).any() ||
-          (own[i].array() > road.upper.array() + kFromEnds).any())
+      if ((own[i].cwiseMax(own[i + 1]).array() < road.lower.array()).any() ||
+          (own[i].cwiseMin(own[i + 1]).array() > road.upper.array()).any())
         continue;
       const Vec2 along = own[i + 1] - own[i];
       for (std::size_t j = 0; j + 1 < their.points().size(); ++j) {

@@ -69,6 +69,7 @@ TEST_F(OverpassesTest, ARoadThatWindsOverItselfIsAboveItself) {
 // took each other for being on one storey: netconvert has the ramp descend on its last metres
 TEST_F(OverpassesTest, ALinkGoesUnderARoadFromElsewhereThatIsHigher) {
   lane("bridge_0").centerline = Polyline({{100, -60}, {100, 60}});
+  lane(":C_0_0").centerline = Polyline({{70, 0}, {130, 0}});
   lane(":C_0_0").elevation = {0, 0};
   lane("bridge_0").elevation = {1, 1};
   EXPECT_TRUE(found().empty()) << "no storey";
@@ -76,7 +77,7 @@ TEST_F(OverpassesTest, ALinkGoesUnderARoadFromElsewhereThatIsHigher) {
   ASSERT_EQ(found().size(), 3u);
   const EdgeId bridge = lane("bridge_0").edge;
   for (const auto& [name, along] :
-       {std::pair("in_1", 100.0), std::pair(":C_0_0", 5.0), std::pair("out_0", -5.0)}) {
+       {std::pair("in_1", 125.0), std::pair(":C_0_0", 30.0), std::pair("out_0", -30.0)}) {
     const EdgeId edge = lane(name).edge;
     const auto overpass =
         std::find_if(net_.overpasses.begin(), net_.overpasses.end(), [&](const Overpass& each) {
