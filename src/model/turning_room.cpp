@@ -53,7 +53,7 @@ double halt_for_long_bodies(const RoadView& view, const Traveller& traveller,
     const auto comes = [&](const Approach& foe) {
       return turning_body(foe.length) == way.body && foe.front > -kNear &&
              foe.front - foe.length < way.foe_end && foe.row != traveller.row &&
-             !on_other_storey(model.road, scene, traveller.row, foe.row);
+             !on_other_storey(view.model.road, view.scene, traveller.row, foe.row);
     };
     // who means to go at red goes up to the end of its lane
     const bool drawn = signalled && way.begin > -kDrawn &&
