@@ -22,6 +22,11 @@ bool is_for(const SweptWay& way, const Scene& scene, std::size_t row) {
   return way.for_wide == (2.0 * half_extent(scene, row, across) > kWideBody);
 }
 
+/// Is the line of a link drawn before what is swept there?
+bool moves_line(const Model& model, const PathLink& link, const SweptWay& way) {
+  return way.begin > -kDrawn && model.road.connection(link.connection).signal != kNoSignal;
+}
+
 /// Does somebody get there first where the two would be in each other's way?
 bool comes_first(const Occupation& theirs, const Occupation& ours, bool there, bool smaller_id) {
   constexpr double kMargin = 0.5;  // [s]
@@ -33,9 +38,9 @@ bool comes_first(const Occupation& theirs, const Occupation& ours, bool there, b
 
 double drawn_line(const RoadView& view, const Traveller& traveller, const PathLink& link) {
   double line = link.halt;
-  if (view.model.road.connection(link.connection).signal == kNoSignal) return line;
   for (const SweptWay& way : view.model.swept_ways[index_of(link.connection)])
-    if (way.foe_sweeps && way.begin > -kDrawn && is_for(way, view.scene, traveller.row))
+    if (way.foe_sweeps && moves_line(view.model, link, way) &&
+        is_for(way, view.scene, traveller.row))
       line = std::min(line, link.stop_line + way.begin);
   return line;
 }
@@ -43,7 +48,6 @@ double drawn_line(const RoadView& view, const Traveller& traveller, const PathLi
 double halt_for_long_bodies(const RoadView& view, const Traveller& traveller,
                             const PathLink& link) {
   const auto& [model, road, scene, grid, approaches] = view;
-  const bool signalled = model.road.connection(link.connection).signal != kNoSignal;
   double halt = link.halt;
   for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
     const double place = link.stop_line + way.begin;
@@ -56,8 +60,8 @@ double halt_for_long_bodies(const RoadView& view, const Traveller& traveller,
              !on_other_storey(view.model.road, view.scene, traveller.row, foe.row);
     };
     // who means to go at red goes up to the end of its lane
-    const bool drawn = signalled && way.begin > -kDrawn &&
-                       !goes_at_red(model, scene, traveller.row, link.connection);
+    const bool drawn =
+        moves_line(model, link, way) && !goes_at_red(model, scene, traveller.row, link.connection);
     const auto foes = approaches.of(way.foe);
     if (drawn || std::any_of(foes.begin(), foes.end(), comes)) halt = place;
   }

@@ -22,6 +22,21 @@ struct Road {
   Vec2 lower, upper;  ///< corners of its box [m]
 };
 
+Road road_on(EdgeId edge, const Lane& lane) {
+  const std::vector<Vec2>& points = lane.centerline.points();
+  Road road{edge, &lane, points.front(), points.front()};
+  for (const Vec2& point : points) {
+    road.lower = road.lower.cwiseMin(point);
+    road.upper = road.upper.cwiseMax(point);
+  }
+  return road;
+}
+
+/// Do the boxes of two roads touch?
+bool are_near(const Road& a, const Road& b) {
+  return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
+}
+
 /// With their first lanes for motor vehicles.
 std::vector<Road> roads_of(const RoadNetwork& network) {
   std::vector<Road> roads;
@@ -32,15 +47,8 @@ std::vector<Road> roads_of(const RoadNetwork& network) {
       return (network.lane(id).allowed & kMotorised) != 0;
     });
     if (lane == edge.lanes.end()) continue;
-    Road road{EdgeId(static_cast<int>(i)), &network.lane(*lane), Vec2::Zero(), Vec2::Zero()};
-    const std::vector<Vec2>& points = road.lane->centerline.points();
-    if (points.size() < 2) continue;
-    road.lower = road.upper = points.front();
-    for (const Vec2& point : points) {
-      road.lower = road.lower.cwiseMin(point);
-      road.upper = road.upper.cwiseMax(point);
-    }
-    roads.push_back(road);
+    if (network.lane(*lane).centerline.points().size() < 2) continue;
+    roads.push_back(road_on(EdgeId(static_cast<int>(i)), network.lane(*lane)));
   }
   return roads;
 }
@@ -57,28 +65,37 @@ bool are_apart(const RoadNetwork& network, const Road& one, const Road& other) {
          a.to != b.from && a.to != b.to;
 }
 
-/// Adds where two centerlines (or one and itself) cross.
-void add_crossings(const Road& one, const Road& other, RoadNetwork& network) {
-  const Polyline &own = one.lane->centerline, &their = other.lane->centerline;
+/// Calls visit(here, there, along, across) where two lines (or one and itself) cross: the places on
+/// both [m] and the pieces that cross.
+template <class Visit>
+void for_each_crossing(const Polyline& own, const Polyline& their, const Visit& visit) {
   const std::vector<Vec2>&a = own.points(), &b = their.points();
-  const bool same = one.edge == other.edge,
-             opposite = are_opposite(network.edge(one.edge), network.edge(other.edge)),
-             apart = are_apart(network, one, other);
   for (std::size_t i = 0; i + 1 < a.size(); ++i) {
     const Vec2 along = a[i + 1] - a[i];
-    for (std::size_t j = same ? i + 2 : 0; j + 1 < b.size(); ++j) {
+    for (std::size_t j = &own == &their ? i + 2 : 0; j + 1 < b.size(); ++j) {
       const Vec2 across = b[j + 1] - b[j];
       const auto share = crossing_shares(a[i], along, b[j], across);
       if (!share || share->minCoeff() < 0.0 || share->maxCoeff() > 1.0) continue;
-      if (std::abs(cross(along, across)) < kLeastSine * along.norm() * across.norm()) continue;
-      const double here = own.along_of_vertex(i) + share->x() * along.norm(),
-                   there = their.along_of_vertex(j) + share->y() * across.norm();
-      if (same && there - here < kShortestLoop) continue;
-      if (opposite && std::abs(here - (their.length() - there)) < kShortestLoop) continue;
-      if (apart || (is_far_from_ends(own, here) && is_far_from_ends(their, there)))
-        network.overpasses.push_back({one.edge, other.edge, here, there});
+      visit(own.along_of_vertex(i) + share->x() * along.norm(),
+            their.along_of_vertex(j) + share->y() * across.norm(), along, across);
     }
   }
+}
+
+/// Adds where two centerlines (or one and itself) cross.
+void add_crossings(const Road& one, const Road& other, RoadNetwork& network) {
+  const Polyline &own = one.lane->centerline, &their = other.lane->centerline;
+  const bool same = one.edge == other.edge,
+             opposite = are_opposite(network.edge(one.edge), network.edge(other.edge)),
+             apart = are_apart(network, one, other);
+  for_each_crossing(
+      own, their, [&](double here, double there, const Vec2& along, const Vec2& across) {
+        if (std::abs(cross(along, across)) < kLeastSine * along.norm() * across.norm()) return;
+        if (same && there - here < kShortestLoop) return;
+        if (opposite && std::abs(here - (their.length() - there)) < kShortestLoop) return;
+        if (apart || (is_far_from_ends(own, here) && is_far_from_ends(their, there)))
+          network.overpasses.push_back({one.edge, other.edge, here, there});
+      });
 }
 
 /// Adds where a link crosses a road that doesn't come to its junction, a storey higher or lower:
@@ -86,35 +103,24 @@ void add_crossings(const Road& one, const Road& other, RoadNetwork& network) {
 void add_crossings_of_link(const Connection& link, const std::vector<Road>& roads,
                            RoadNetwork& network) {
   const Lane& via = network.lane(link.via);
-  const std::vector<Vec2>& own = via.centerline.points();
-  const auto add = [&](LaneId lane, double along, const Road& road, double there) {
-    const EdgeId edge = network.lane(lane).edge;
-    if (edge < road.edge)
-      network.overpasses.push_back({edge, road.edge, along, there});
-    else
-      network.overpasses.push_back({road.edge, edge, there, along});
-  };
+  const Road own = road_on(via.edge, via);
   for (const Road& road : roads) {
     const Edge& edge = network.edge(road.edge);
-    if (edge.from == via.junction || edge.to == via.junction) continue;
-    const Polyline& their = road.lane->centerline;
-    for (std::size_t i = 0; i + 1 < own.size(); ++i) {
-      if ((own[i].cwiseMax(own[i + 1]).array() < road.lower.array()).any() ||
-          (own[i].cwiseMin(own[i + 1]).array() > road.upper.array()).any())
-        continue;
-      const Vec2 along = own[i + 1] - own[i];
-      for (std::size_t j = 0; j + 1 < their.points().size(); ++j) {
-        const Vec2 across = their.points()[j + 1] - their.points()[j];
-        const auto share = crossing_shares(own[i], along, their.points()[j], across);
-        if (!share || share->minCoeff() < 0.0 || share->maxCoeff() > 1.0) continue;
-        const double here = via.centerline.along_of_vertex(i) + share->x() * along.norm(),
-                     there = their.along_of_vertex(j) + share->y() * across.norm();
-        if (std::abs(elevation_at(via, here) - elevation_at(*road.lane, there)) < kRise) continue;
-        add(link.from, network.lane(link.from).centerline.length() + here, road, there);
-        add(link.via, here, road, there);
-        add(link.to, here - via.centerline.length(), road, there);
-      }
-    }
+    if (edge.from == via.junction || edge.to == via.junction || !are_near(own, road)) continue;
+    const auto add = [&](LaneId lane, double along, double there) {
+      const EdgeId its = network.lane(lane).edge;
+      network.overpasses.push_back(its < road.edge ? Overpass{its, road.edge, along, there}
+                                                   : Overpass{road.edge, its, there, along});
+    };
+    for_each_crossing(
+        via.centerline, road.lane->centerline,
+        [&](double here, double there, const Vec2& /*along*/, const Vec2& /*across*/) {
+          const double rise = elevation_at(via, here) - elevation_at(*road.lane, there);
+          if (std::abs(rise) < kRise) return;
+          add(link.from, network.lane(link.from).centerline.length() + here, there);
+          add(link.via, here, there);
+          add(link.to, here - via.centerline.length(), there);
+        });
   }
 }
 
@@ -130,7 +136,7 @@ void find_overpasses(RoadNetwork& network) {
   auto by_edge = [](const Road& a, const Road& b) { return a.edge < b.edge; };
   for (auto one = roads.begin(); one != roads.end(); ++one)
     for (auto other = one; other != roads.end() && other->lower.x() <= one->upper.x(); ++other) {
-      if (other->lower.y() > one->upper.y() || other->upper.y() < one->lower.y()) continue;
+      if (!are_near(*one, *other)) continue;
       const auto& [first, second] = std::minmax(*one, *other, by_edge);
       add_crossings(first, second, network);
     }

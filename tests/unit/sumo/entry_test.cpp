@@ -65,6 +65,12 @@ class EntryTest : public ::testing::Test {
     agent.preferred_speed = preferred;
     return entry_speed(here_.model, path, agent, Ground{}, here_.road, here_.scene);
   }
+  /// Puts a row so far from where newcomers start.
+  void put(std::size_t row, const Vec2& away, double heading, double speed) {
+    here_.scene.position[row] = here_.path(first_).line.point_at(0.0) + away;
+    here_.scene.heading[row] = heading;
+    here_.set_speed(row, speed);
+  }
   testing::RoadScene here_{testing::small_net()};
   std::size_t first_ = here_.add("car", {"in", "out"}, 120, 10);
 };
@@ -89,27 +95,19 @@ TEST_F(EntryTest, NobodyStartsInFrontOfWhoComesAcross) {
 // who turns into the lane from a junction comes at an angle: a motorcycle began beside its nose
 TEST_F(EntryTest, NorInFrontOfWhoTurnsIn) {
   const std::size_t other = here_.add("car", {"in", "out"}, 0, 0);
-  const Vec2 start = here_.path(first_).line.point_at(0.0);
-  here_.scene.position[other] = start + Vec2(-6.0, 3.5);
-  here_.scene.heading[other] = -0.5;
-  here_.set_speed(other, 5.0);
+  put(other, Vec2(-6.0, 3.5), -0.5, 5.0);
   EXPECT_FALSE(speed_of_newcomer());
-  here_.scene.heading[other] = 0.5;
-  here_.set_speed(other, 5.0);
+  put(other, Vec2(-6.0, 3.5), 0.5, 5.0);
   EXPECT_TRUE(speed_of_newcomer()) << "it turns away";
 }
 
 // a bicycle began right before the nose of a car that came out of a bend
 TEST_F(EntryTest, NorInFrontOfWhoComesOutOfABend) {
   const std::size_t other = here_.add("car", {"in", "out"}, 0, 0);
-  const Vec2 start = here_.path(first_).line.point_at(0.0);
   here_.scene.path[other] = kNoPath;
-  here_.scene.position[other] = start + Vec2(-9.0, 2.4);
-  here_.scene.heading[other] = -0.25;
-  here_.set_speed(other, 9.0);
+  put(other, Vec2(-9.0, 2.4), -0.25, 9.0);
   EXPECT_FALSE(speed_of_newcomer());
-  here_.scene.heading[other] = 0.0;
-  here_.set_speed(other, 9.0);
+  put(other, Vec2(-9.0, 2.4), 0.0, 9.0);
   EXPECT_TRUE(speed_of_newcomer()) << "it passes beside";
 }
 
