@@ -140,7 +140,7 @@ LaneId better_lane(const Model& model, const Path& path, const Scene& scene,
     if (option.cost == std::numeric_limits<double>::infinity()) continue;
     // it must lead on for long enough to be worth it, or as far as this one
     const double left_there = option.drivable - on_lane;
-    if (left_there < left_here - 1.0 && left_there < std::max(80.0, 12.0 * around.speed)) continue;
+    if (left_there < left_here - 1.0 && left_there < std::max(150.0, 12.0 * around.speed)) continue;
     const double shift = shift_to(model, lane, other);
     const double there =
         hoped_speed(around, shift, std::min(free_speed, other.speed_limit * 1.2), 0.3);

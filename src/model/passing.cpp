@@ -144,6 +144,18 @@ void keep_to_light(const RoadNetwork& network, const Path& path, const Surroundi
   most_right = std::max(most_right, -within);
 }
 
+/// Nobody passes on a junction where there is no room behind it: who is beside a bus as it turns into
+/// a road with fewer lanes comes out over the middle of that or on its sidewalk.
+void keep_to_exit(const RoadNetwork& network, const Path& path, const Surroundings& around,
+                  double& most_left, double& most_right) {
+  const auto link = path.link_from(around.along);
+  if (link == path.links.end() || link->stop_line - around.along > kBeforeJunction) return;
+  const PathStretch& exit = path.stretch_at(link->end + 0.1);
+  if (network.lane(exit.lane).kind != LaneKind::Normal) return;
+  most_left = std::min(most_left, std::max(exit.room_left - around.half_width - 0.15, 0.0));
+  most_right = std::max(most_right, std::min(around.half_width + 0.15 - exit.room_right, 0.0));
+}
+
 }  // namespace
 
 double passing_offset(const Model& model, const Path& path, const Scene& scene,
@@ -156,6 +168,7 @@ double passing_offset(const Model& model, const Path& path, const Scene& scene,
   double most_left = std::max(here.room_left + over_left - half - 0.15, 0.0);
   double most_right = std::min(half + 0.15 - here.room_right - over_right, 0.0);
   keep_to_turning_side(model.road, path, around, most_left, most_right);
+  keep_to_exit(model.road, path, around, most_left, most_right);
   if (over == 0.0) keep_to_light(model.road, path, around, most_left, most_right);
   // what a junction has beside its lanes is for who has to get past, and for bodies that swing
   const Lane& lane = model.road.lane(here.lane);

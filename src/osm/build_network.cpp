@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 #include <optional>
+#include <set>
 #include <sstream>
 
 #include "base/error.h"
@@ -18,6 +19,7 @@
 #include "osm/osm_reader.h"
 #include "osm/osm_writer.h"
 #include "osm/prepare.h"
+#include "osm/right_of_way_tags.h"
 #include "osm/signal_offsets.h"
 #include "osm/swallowed_roads.h"
 #include "road/sumo_net_reader.h"
@@ -27,7 +29,7 @@ namespace {
 
 constexpr double kReadMargin =
     200.0;  // [m] read beyond the box, so that stop lines and squares at its edge are seen
-constexpr double kStopReach = 30.0;  // [m] from a stop sign to the junction it guards
+constexpr double kSignReach = 30.0;  // [m] from a sign to the junction it guards
 constexpr double kWorthAnotherPass =
     0.005;  // share of the lanes for wheels that still overlap: another pass takes its time
 constexpr double kLargest = 100e3;  // [m] side of a map that one plane and one netconvert can bear
@@ -201,14 +203,26 @@ std::optional<RoadNetwork> patch(const OsmMap& map, const NetconvertRequest& net
   note_overlap_before(converted, result);
   NetworkPatch patch;
   patch.roundabouts = unmarked_roundabouts(netconvert.folder / netconvert.network, map);
-  patch.stop_types = stop_types(converted, find_stop_signs(map, kStopReach));
-  for (const auto& ring : patch.roundabouts)
-    result.log.add(Severity::Note, "roundabout_marked",
-                   "roundabouts by tag that netconvert had not seen", ring[0]);
-  for (const auto& [junction, type] : patch.stop_types)
+  patch.junction_types = stop_types(converted, find_signs(map, "stop", kSignReach));
+  for (const auto& [junction, type] : patch.junction_types)
     result.log.add(Severity::Note, "stop_signs",
                    "junctions with stop signs, which netconvert does not read",
                    junction + " " + type);
+  for (const std::string& junction : mini_roundabouts(converted, map)) {
+    patch.junction_types[junction] = "left_before_right";
+    result.log.add(Severity::Note, "mini_roundabout_marked",
+                   "mini-roundabouts, where who comes round the middle goes first", junction);
+  }
+  for (const auto& ring : patch.roundabouts)
+    result.log.add(Severity::Note, "roundabout_marked",
+                   "roundabouts by tag that netconvert had not seen", ring[0]);
+  patch.prohibitions = give_way_rules(netconvert.folder / netconvert.network, converted,
+                                      find_signs(map, "give_way", kSignReach));
+  std::set<std::string> yielding;
+  for (const Prohibition& rule : patch.prohibitions) yielding.insert(rule.waits_from);
+  for (const std::string& edge : yielding)
+    result.log.add(Severity::Note, "give_way_signs",
+                   "roads with give-way signs, which netconvert does not read", edge);
   std::optional<RoadNetwork> road = patch_apart(netconvert, converted, patch, result);
   if (!road) return std::nullopt;
   // edges that lay on each other were partly swallowed by their junctions: only now all of them is

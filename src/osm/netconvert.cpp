@@ -199,9 +199,10 @@ void append_carriageways(const pugi::xml_node& network, const CarriagewayPlan& p
 }
 
 void write_patch(const std::filesystem::path& network_file, const NetworkPatch& patch,
-                 const std::filesystem::path& edge_file, const std::filesystem::path& node_file) {
+                 const std::filesystem::path& edge_file, const std::filesystem::path& node_file,
+                 const std::filesystem::path& connection_file) {
   const pugi::xml_document network = load_network(network_file);
-  pugi::xml_document edge_document, node_document;
+  pugi::xml_document edge_document, node_document, connection_document;
   std::map<std::string, std::string> start;
   for (const pugi::xml_node edge : network.child("net").children("edge"))
     start[edge.attribute("id").value()] = edge.attribute("from").value();
@@ -219,13 +220,25 @@ void write_patch(const std::filesystem::path& network_file, const NetworkPatch& 
     roundabout.append_attribute("edges") = edge_names.c_str();
   }
   append_carriageways(network.child("net"), patch.carriageways, edges);
-  for (const auto& [junction, type] : patch.stop_types) {
+  for (const auto& [junction, type] : patch.junction_types) {
     pugi::xml_node node = nodes.append_child("node");
     node.append_attribute("id") = junction.c_str();
     node.append_attribute("type") = type.c_str();
   }
+  pugi::xml_node connections = connection_document.append_child("connections");
+  for (const Prohibition& rule : patch.prohibitions) {
+    if (patch.carriageways.dropped.contains(rule.from) ||
+        patch.carriageways.dropped.contains(rule.to) ||
+        patch.carriageways.dropped.contains(rule.waits_from) ||
+        patch.carriageways.dropped.contains(rule.waits_to))
+      continue;
+    pugi::xml_node prohibition = connections.append_child("prohibition");
+    prohibition.append_attribute("prohibitor") = (rule.from + "->" + rule.to).c_str();
+    prohibition.append_attribute("prohibited") = (rule.waits_from + "->" + rule.waits_to).c_str();
+  }
   save_xml(edge_document, edge_file);
   save_xml(node_document, node_file);
+  save_xml(connection_document, connection_file);
 }
 
 }  // namespace
@@ -233,9 +246,9 @@ void write_patch(const std::filesystem::path& network_file, const NetworkPatch& 
 std::vector<std::string> patch_network(const NetconvertRequest& request,
                                        const NetworkPatch& patch) {
   const std::string edges = "work/patch.edg.xml", nodes = "work/patch.nod.xml",
-                    unpatched = "work/unpatched.net.xml";
+                    connections = "work/patch.con.xml", unpatched = "work/unpatched.net.xml";
   write_patch(request.folder / request.network, patch, request.folder / edges,
-              request.folder / nodes);
+              request.folder / nodes, request.folder / connections);
   std::filesystem::rename(request.folder / request.network, request.folder / unpatched);
   std::vector<std::string> arguments = {"--xml-validation",
                                         "never",
@@ -245,6 +258,8 @@ std::vector<std::string> patch_network(const NetconvertRequest& request,
                                         nodes,
                                         "-e",
                                         edges,
+                                        "-x",
+                                        connections,
                                         "-o",
                                         request.network,
                                         "--offset.disable-normalization",

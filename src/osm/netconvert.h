@@ -43,19 +43,30 @@ std::vector<std::string> run_netconvert(const NetconvertRequest& request);
 /// where it is none.
 std::vector<NodeGroup> read_joins(const std::filesystem::path& file);
 
+/// Who goes from one edge to another at a junction, and who waits for it there.
+struct Prohibition {
+  std::string from, to;              ///< of who goes first
+  std::string waits_from, waits_to;  ///< of who waits
+  auto operator<=>(const Prohibition&) const = default;
+};
+
 /// What netconvert 1.15 does not take from OSM, for a second pass over the finished network.
 struct NetworkPatch {
   /// Roundabouts by tag that it did not recognise (it guesses them from geometry): edges in driving
   /// order.
   std::vector<std::vector<std::string>> roundabouts;
-  /// Junctions where traffic must stop: SUMO's type "priority_stop" or "allway_stop" by junction
-  /// id.
-  std::map<std::string, std::string> stop_types;
+  /// Junctions with another right of way, by id: SUMO's type "priority_stop" or "allway_stop" where
+  /// traffic must stop, "left_before_right" at mini-roundabouts.
+  std::map<std::string, std::string> junction_types;
+  std::vector<Prohibition> prohibitions;
 
   /// Lanes of different edges moved off each other.
   CarriagewayPlan carriageways;
 
-  bool empty() const { return roundabouts.empty() && stop_types.empty() && carriageways.empty(); }
+  bool empty() const {
+    return roundabouts.empty() && junction_types.empty() && prohibitions.empty() &&
+           carriageways.empty();
+  }
 };
 
 /// Applies the patch to request.network. Same returns and errors as run_netconvert().

@@ -75,10 +75,11 @@ std::map<std::string, double> network_facts(const RoadNetwork& road) {
 
 std::vector<std::vector<std::string>> unmarked_roundabouts(const std::filesystem::path& network,
                                                            const OsmMap& map) {
-  std::set<std::string> ways;
+  std::set<std::int64_t> ways;
   for (const MapWay& way : map.ways)
-    if (tag_is(way.tags, "junction", {"roundabout"})) ways.insert(std::to_string(way.id));
+    if (tag_is(way.tags, "junction", {"roundabout"})) ways.insert(way.id);
   const pugi::xml_document document = load_network(network);
+  const auto origins = ways_of_edges(document);
 
   std::set<std::string> marked;
   for (const pugi::xml_node ring : document.child("net").children("roundabout")) {
@@ -91,13 +92,9 @@ std::vector<std::vector<std::string>> unmarked_roundabouts(const std::filesystem
   std::map<std::string, RingEdge> by_start;
   for (const pugi::xml_node edge : document.child("net").children("edge")) {
     if (edge.attribute("function")) continue;
-    bool on_ring = false;
-    for (const pugi::xml_node lane : edge.children("lane"))
-      for (const pugi::xml_node param : lane.children("param")) {
-        if (std::string_view(param.attribute("key").value()) != "origId") continue;
-        std::istringstream origins(param.attribute("value").value());
-        for (std::string origin; origins >> origin;) on_ring = on_ring || ways.contains(origin);
-      }
+    const auto& made_of = origins.at(edge.attribute("id").value());
+    const bool on_ring = std::any_of(made_of.begin(), made_of.end(),
+                                     [&](std::int64_t way) { return ways.contains(way); });
     if (on_ring)
       by_start[edge.attribute("from").value()] = {edge.attribute("id").value(),
                                                   edge.attribute("to").value()};
@@ -117,25 +114,6 @@ std::vector<std::vector<std::string>> unmarked_roundabouts(const std::filesystem
     if (at == start && ring.size() >= 2 && !known) rings.push_back(ring);
   }
   return rings;
-}
-
-std::map<std::string, std::string> stop_types(const RoadNetwork& road,
-                                              const std::map<std::int64_t, int>& stop_signs) {
-  std::map<std::string, std::string> types;
-  if (stop_signs.empty()) return types;
-  std::map<JunctionId, int> approaches;
-  for (const Edge& edge : road.edges)
-    if (edge.kind == LaneKind::Normal && allows(road, edge, vehicle_class::kPassenger))
-      ++approaches[edge.to];
-  for (const auto& [node, signs] : stop_signs) {
-    const auto junction = road.junction_by_name.find(std::to_string(node));
-    if (junction == road.junction_by_name.end()) continue;
-    const std::string& type = road.junction(junction->second).type;
-    const bool everywhere = signs >= approaches[junction->second];
-    if (type == "priority" || (type == "right_before_left" && everywhere))
-      types[std::to_string(node)] = everywhere ? "allway_stop" : "priority_stop";
-  }
-  return types;
 }
 
 }  // namespace sumogamma::osm

@@ -23,10 +23,4 @@ std::map<std::string, double> network_facts(const RoadNetwork& road);
 std::vector<std::vector<std::string>> unmarked_roundabouts(const std::filesystem::path& network,
                                                            const OsmMap& map);
 
-/// SUMO's junction types for nodes with so many stop signs: "allway_stop" where every road for cars
-/// has one, else "priority_stop". Only junctions that kept their node's id and are ruled by
-/// priority: joined or signalled ones are left.
-std::map<std::string, std::string> stop_types(const RoadNetwork& road,
-                                              const std::map<std::int64_t, int>& stop_signs);
-
 }  // namespace sumogamma::osm

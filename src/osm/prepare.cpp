@@ -449,7 +449,9 @@ class TrafficGraph {
     return result;
   }
   /// First junction along the traffic, and how far it is; 0 where there is none within reach.
-  std::int64_t junction_ahead(Step step, double reach, double& distance) const {
+  /// `last` is the step onto it.
+  std::int64_t junction_ahead(Step step, double reach, double& distance,
+                              Step* last = nullptr) const {
     distance = 0;
     std::set<std::int64_t> seen;
     while (distance <= reach) {
@@ -458,6 +460,7 @@ class TrafficGraph {
       const GeoPoint a = map_.nodes.at(here).place, b = map_.nodes.at(there).place;
       distance += LocalMetric(a).distance(a, b);
       if (distance > reach || !seen.insert(there).second) return 0;
+      if (last != nullptr) *last = step;
       if (is_junction(there)) return there;
       const std::optional<Step> on = straightest_exit(there, here);
       if (!on) return 0;
@@ -519,9 +522,10 @@ class TrafficGraph {
   std::map<std::int64_t, int> inputs_;
 };
 
-/// False where the signal is known to be for the other direction of its way.
-bool signal_faces(const Tags& tags, int direction) {
-  for (const char* key : {"traffic_signals:direction", "direction"}) {
+/// False where the signal or sign is known to be for the other direction of its way.
+bool faces(const Tags& tags, int direction) {
+  for (const char* key :
+       {"traffic_signals:direction", "give_way:direction", "stop:direction", "direction"}) {
     if (tag_is(tags, key, {"forward"})) return direction > 0;
     if (tag_is(tags, key, {"backward"})) return direction < 0;
   }
@@ -548,7 +552,7 @@ void snap_signals(OsmMap& map, double reach, IssueLog& log) {
     double nearest = reach;
     for (const Step& exit : exits) {
       double distance = 0;
-      if (!signal_faces(node.tags, exit.direction)) continue;
+      if (!faces(node.tags, exit.direction)) continue;
       const std::int64_t junction = graph.junction_ahead(exit, reach, distance);
       if (junction != 0 && distance <= nearest) {
         target = junction;
@@ -609,24 +613,27 @@ void add_footways_at_crossings(OsmMap& map, IssueLog& log) {
   map.ways.insert(map.ways.end(), added.begin(), added.end());
 }
 
-std::map<std::int64_t, int> find_stop_signs(const OsmMap& map, double reach) {
+SignsByJunction find_signs(const OsmMap& map, const char* kind, double reach) {
   const TrafficGraph graph(map);
-  std::map<std::int64_t, int> junctions;
+  SignsByJunction signs;
   for (const auto& [id, node] : map.nodes) {
-    if (!tag_is(node.tags, "highway", {"stop"}) || !graph.known(id)) continue;
+    if (!tag_is(node.tags, "highway", {kind}) || !graph.known(id)) continue;
     std::int64_t target = 0;
     double nearest = reach;
+    WayApproach approach;
     for (const Step& exit : graph.exits(id)) {
       double distance = 0;
-      if (!signal_faces(node.tags, exit.direction)) continue;
-      const std::int64_t junction = graph.junction_ahead(exit, reach, distance);
+      if (!faces(node.tags, exit.direction)) continue;
+      Step last;
+      const std::int64_t junction = graph.junction_ahead(exit, reach, distance, &last);
       if (junction == 0 || distance > nearest) continue;
       target = junction;
       nearest = distance;
+      approach = {last.way->id, last.direction};
     }
-    if (target != 0) ++junctions[target];
+    if (target != 0) signs[target].push_back(approach);
   }
-  return junctions;
+  return signs;
 }
 
 void filter_restrictions(OsmMap& map, IssueLog& log) {

@@ -46,9 +46,19 @@ void snap_signals(OsmMap& map, double reach, IssueLog& log);
 /// Nodes within 15 m of a junction are left to the crossings that it gets anyway.
 void add_footways_at_crossings(OsmMap& map, IssueLog& log);
 
-/// Junctions (by node) with a stop sign on an approach at most `reach` before them, and how many
-/// approaches have one. netconvert 1.15 does not read highway=stop; see NetworkPatch.
-std::map<std::int64_t, int> find_stop_signs(const OsmMap& map, double reach);
+/// Traffic that comes to a junction along a way, in its direction (1) or against it (-1).
+struct WayApproach {
+  std::int64_t way = 0;
+  int direction = 1;
+  bool operator==(const WayApproach&) const = default;
+};
+
+/// By the junction's node: approaches that have a sign.
+using SignsByJunction = std::map<std::int64_t, std::vector<WayApproach>>;
+
+/// The signs, nodes with highway=`kind` ("stop", "give_way"), on approaches at most `reach` before
+/// their junctions [m]. netconvert 1.15 reads neither; see NetworkPatch.
+SignsByJunction find_signs(const OsmMap& map, const char* kind, double reach);
 
 /// Drops turn restrictions that lost a member or no longer join at their via node.
 void filter_restrictions(OsmMap& map, IssueLog& log);

@@ -265,12 +265,14 @@ TEST(SnapSignals, HeedsTheDirectionOfASignal) {
   }
 }
 
-TEST(FindStopSigns, CountsThemByJunction) {
+TEST(FindSigns, TellsWhomTheyFaceByJunction) {
   MapBuilder b = crossroads();
   b.map.nodes.at(11).tags = {{"highway", "stop"}};
   b.map.nodes.at(12).tags = {{"highway", "stop"}};
-  EXPECT_THAT(find_stop_signs(b.map, 60), ElementsAre(Pair(1, 2)));
-  EXPECT_THAT(find_stop_signs(b.map, 20), SizeIs(0));
+  EXPECT_THAT(find_signs(b.map, "stop", 60),
+              ElementsAre(Pair(1, ElementsAre(WayApproach{101, 1}, WayApproach{102, -1}))));
+  EXPECT_THAT(find_signs(b.map, "stop", 20), SizeIs(0));
+  EXPECT_THAT(find_signs(b.map, "give_way", 60), SizeIs(0));
 }
 
 TEST(AddFootwaysAtCrossings, OnlyHalfWayAlongARoad) {
