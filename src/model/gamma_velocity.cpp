@@ -63,7 +63,7 @@ void ease_violation(double fastest, Workspace& work) {
 /// what lies beside its lane to get out, some metres of it.
 std::span<const HalfPlane> planes_for_creeping(const Scene& scene, std::size_t row,
                                                Workspace& work) {
-  constexpr double kFarthest = 2.0;  // beyond the boundary [m]
+  constexpr double kFarthest = 0.8;  // beyond the boundary [m]
   const ConstraintSet& constraints = work.constraints;
   const std::span hard(constraints.planes.data(), constraints.hard_count);
   if (!is_wedged(scene, row)) return hard;

@@ -144,8 +144,8 @@ void keep_to_light(const RoadNetwork& network, const Path& path, const Surroundi
   most_right = std::max(most_right, -within);
 }
 
-/// Nobody passes on a junction where there is no room behind it: who is beside a bus as it turns into
-/// a road with fewer lanes comes out over the middle of that or on its sidewalk.
+/// Nobody passes on a junction where there is no room behind it: who is beside a bus as it turns
+/// into a road with fewer lanes comes out over the middle of that or on its sidewalk.
 void keep_to_exit(const RoadNetwork& network, const Path& path, const Surroundings& around,
                   double& most_left, double& most_right) {
   const auto link = path.link_from(around.along);
@@ -168,13 +168,14 @@ double passing_offset(const Model& model, const Path& path, const Scene& scene,
   double most_left = std::max(here.room_left + over_left - half - 0.15, 0.0);
   double most_right = std::min(half + 0.15 - here.room_right - over_right, 0.0);
   keep_to_turning_side(model.road, path, around, most_left, most_right);
-  keep_to_exit(model.road, path, around, most_left, most_right);
   if (over == 0.0) keep_to_light(model.road, path, around, most_left, most_right);
   // what a junction has beside its lanes is for who has to get past, and for bodies that swing
   const Lane& lane = model.road.lane(here.lane);
-  const double liked =
+  const double on_lane =
       std::clamp(scene.path_offset[row], std::min(most_right + lane.beside_right, 0.0),
                  std::max(most_left - lane.beside_left, 0.0));
+  keep_to_exit(model.road, path, around, most_left, most_right);
+  const double liked = std::clamp(on_lane, most_right, most_left);
   const bool narrow = is_narrow(2.0 * half);
   const auto hope = [&](double offset, double margin) {
     return narrow ? filtering_hope(scene, around, offset, free_speed, margin)

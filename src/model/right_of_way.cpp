@@ -141,6 +141,7 @@ struct Judge : RoadView {
     if (!foe_inside && ignores(zone, foe)) return Verdict::Free;
     if (is_ignored_by(foe)) zone.yields = true;
     if (!foe_inside && halts_at_line(foe)) return Verdict::Held;
+    if (!foe_inside && !zone.yields && lets_step_out(zone, foe)) return Verdict::Blocks;
 
     Occupation theirs = occupation(*this, foe, zone.foe_begin, zone.foe_end);
     if (theirs.begin == Occupation::kNever) return Verdict::Free;
@@ -257,14 +258,32 @@ struct Judge : RoadView {
            stops_at_ease(foe.speed, std::max(kAtLine - foe.front, 0.1),
                          type_of(model.types, scene.type[foe.row]));
   }
-  /// Does the traveller, on foot and for long at a crossing where vehicles go first, step out
-  /// before one that need not brake hard for it? Where they come without end nobody else lets it.
+  static constexpr double kAsks = 2.0;  ///< of who has to halt for somebody on foot [m/s^2]
+  /// Has somebody on foot waited for so long at a crossing where vehicles go first that it steps
+  /// out, or begun to do so?
+  bool has_had_enough(std::size_t row) const {
+    constexpr double kLong = 30.0, kSetOut = 10.0;  // of waiting, which walking counts down [s]
+    return on_foot(row) && scene.waiting_time[row] > (scene.speed[row] > kCreeps ? kSetOut : kLong);
+  }
+  /// Does the traveller, on foot, step out before one that need not brake hard for it? Where they
+  /// come without end nobody else lets it.
   bool steps_out(const ConflictZone& zone, const Approach& foe) const {
-    constexpr double kLong = 30.0;  // [s]
-    constexpr double kAsks = 2.0;   // [m/s^2]
-    return on_foot(traveller.row) && !on_foot(foe.row) && !at_red &&
-           scene.waiting_time[traveller.row] > kLong &&
+    return has_had_enough(traveller.row) && !on_foot(foe.row) && !at_red &&
            deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) < kAsks;
+  }
+  /// Does a driver halt for such a one? In a queue that creeps over the crossing nobody's foot
+  /// finds a place before one does.
+  bool lets_step_out(const ConflictZone& zone, const Approach& foe) const {
+    constexpr double kOwnWait = 10.0;  // [s]
+    constexpr double kAtKerb = 2.0;    // [m]
+    const LimitReason why = approaches.waiting(foe.row).reason;
+    return has_had_enough(foe.row) && !on_foot(traveller.row) && foe.front > -kAtKerb &&
+           (why == LimitReason::Yield || why == LimitReason::None) &&
+           road.signal(model.road.connection(zone.foe)) == 'O' &&
+           scene.waiting_time[traveller.row] < kOwnWait &&
+           lets_people_go(model, scene, traveller.row, zone.foe) &&
+           deceleration_to_stop(traveller.speed, link.stop_line + zone.begin - traveller.front) <
+               kAsks;
   }
   bool past_line(const ConflictZone& zone) const {
     // who goes at red waits before the junction, not on it; who rolls out beyond its place there

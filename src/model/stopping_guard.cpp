@@ -295,9 +295,12 @@ std::optional<Vec2> creep_round(StoppingGuard& guard, const Model& model, const 
   const auto creeps = own.on_wheels ? wheeled_creeps(own, type_of(model.types, own.type), passing)
                                     : walking_creeps(scene, row, passing);
   // on a road whoever is ahead is waited for: a vehicle that creeps out of its lane gets wedged
-  const bool in_lane = own.on_wheels && scene.context[row].active && !is_wedged(scene, row);
+  const RoadContext& context = scene.context[row];
+  const bool on_road = own.on_wheels && context.active;
+  const bool in_lane = on_road && !is_wedged(scene, row);
   for (const Creep& creep : creeps) {
     if (in_lane && creep.turn != 0.0) continue;
+    if (on_road && turns_back(own.forward, context.tangent, creep.turn)) continue;
     const double speed = std::min(creep.speed, preferred.norm());
     const Vec2 velocity = speed * from_body(rotation(creep.turn), ahead);
     if (keeps(hard, velocity) && guard.admits(velocity)) return velocity;

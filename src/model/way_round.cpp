@@ -50,6 +50,11 @@ std::vector<Standing> standing_around(const Model& model, const Scene& scene,
 
 }  // namespace
 
+bool turns_back(const Vec2& forward, const Vec2& way, double turn) {
+  constexpr double kAcross = 0.2;  // cosine
+  return from_body(rotation(turn), forward).dot(way) < kAcross && turn * cross(forward, way) <= 0.0;
+}
+
 std::optional<double> way_round(const Model& model, const Scene& scene,
                                 const TickGeometry& geometry, std::size_t row,
                                 const Vec2& preferred) {
@@ -66,6 +71,7 @@ std::optional<double> way_round(const Model& model, const Scene& scene,
 
   const std::vector<Standing> standing = standing_around(model, scene, geometry, row);
   const auto is_free = [&](double share) {
+    if (turns_back(own.forward, context.tangent, share * widest)) return false;
     for (double way = kStep; way <= kWay; way += kStep) {
       const OrientedBox box = rolled(own, type.rear_axle_to_center, share * sharpest, way);
       const double aside = cross(context.tangent, box.center - own.box().center);

@@ -15,4 +15,9 @@ std::optional<double> way_round(const Model& model, const Scene& scene,
                                 const TickGeometry& geometry, std::size_t row,
                                 const Vec2& preferred);
 
+/// Does a body on wheels that points along `forward` (unit) and creeps by such a turn [rad] head
+/// more than across its way (unit), and turn further from it? A bicycle that found no way past a
+/// car at red went round in a circle, against all others.
+bool turns_back(const Vec2& forward, const Vec2& way, double turn);
+
 }  // namespace sumogamma

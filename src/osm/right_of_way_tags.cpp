@@ -96,8 +96,8 @@ std::vector<Prohibition> give_way_rules(const std::filesystem::path& network,
           continue;
         const Connection& first = road.connection(junction.links[other]);
         const Connection& waits = road.connection(junction.links[own]);
-        rules.insert({edge_at(first.from), edge_at(first.to), edge_at(waits.from),
-                      edge_at(waits.to)});
+        rules.insert(
+            {edge_at(first.from), edge_at(first.to), edge_at(waits.from), edge_at(waits.to)});
       }
     }
   }

@@ -16,8 +16,9 @@ namespace {
 /// Two who meet on a path too narrow for them step on the verge: each has so much room at least
 /// [m].
 constexpr double kLeastRoom = 0.75;
-/// Beside crossings, and beside lanes that vehicles use, too [m].
-constexpr double kVerge = 0.5;
+/// Beside crossings, and beside lanes that vehicles use, too: who meets a van on a parking aisle of
+/// 3.2 m steps off it [m].
+constexpr double kBesideCrossing = 0.5, kVerge = 1.0;
 
 /// Lanes reached from one lane on foot: connections count in both directions.
 void for_each_walking_neighbour(const RoadNetwork& network, LaneId id, auto&& visit) {
@@ -139,7 +140,7 @@ class Walk {
     stretch.reversed = to < from;
     stretch.speed_limit = std::max(lane.speed_limit, 1.0);
     const bool shared = (lane.allowed & ~kOnFootOrBicycle) != 0;
-    const double verge = lane.kind == LaneKind::Crossing || shared ? kVerge : 0.0;
+    const double verge = lane.kind == LaneKind::Crossing ? kBesideCrossing : shared ? kVerge : 0.0;
     stretch.room_left = stretch.room_right = std::max(0.5 * lane.width + verge, kLeastRoom);
     PathLink link{kNoConnection, stretch.from, 0.0, stretch.from};
     path_.stretches.push_back(stretch);

@@ -173,6 +173,32 @@ TEST(FilteringBeforeAJunction, IsOnTheSideOfTheTurn) {
   EXPECT_LT(place("CS"), 1.3) << "to the right: within its lane";
 }
 
+// who passed a bus as both turned into a road with one lane less came out over its middle
+TEST(FilteringBeforeAJunction, IsWhereThereIsRoomBehindIt) {
+  auto place = [&](int lanes_behind, double before) {
+    PlainNet net;
+    net.nodes =
+        "<node id='W' x='0' y='0'/><node id='M' x='200' y='0'/><node id='E' x='400' y='0'/>";
+    net.edges =
+        "<edge id='WM' from='W' to='M' numLanes='2' speed='13.89' width='3.5'/>"
+        "<edge id='ME' from='M' to='E' speed='13.89' width='3.5' numLanes='" +
+        std::to_string(lanes_behind) + "'/>";
+    RoadScene here{testing::read_plain_net(net)};
+    for (const char* lane : {"WM_0", "WM_1"})
+      for (const double gap : {6.0, 12.5})
+        here.add("car", {"WM"}, 200.0 - before + gap, 0, 0, -1, lane);
+    const std::size_t rider =
+        here.add("motorcycle", {"WM", "ME"}, 200.0 - before, 5, 0, -1, "WM_0");
+    here.update();
+    Surroundings around;
+    look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
+    return std::abs(passing_offset(here.model, here.path(rider), here.scene, around, rider));
+  };
+  EXPECT_NEAR(place(2, 25.0), 1.75, 0.1) << "between the queues";
+  EXPECT_LE(place(1, 25.0), 1.75 - 0.45 - 0.15 + 1e-9) << "within its lane";
+  EXPECT_NEAR(place(1, 80.0), 1.75, 0.1) << "the junction is far away yet";
+}
+
 // one that filtered in the middle of the lane beside passed that lane's red light at its own green
 TEST(FilteringBeforeAJunction, StaysOverTheEdgeOfItsLaneBeforeASignal) {
   auto place = [&](const char* junction) {
@@ -286,6 +312,28 @@ TEST(BetterLane, NobodyChangesForALaneThatRunsIntoItsOwn) {
     const LaneId before = here.path(own).stretch_at(70).lane;
     let_all_look(here);
     EXPECT_EQ(here.path(own).stretch_at(70).lane == before, one_lane_after);
+  }
+}
+
+// it stood over two lanes through a green when it wanted back into the queue on its own
+TEST(BetterLane, TheOneThatATurnNeedsIsKeptFrom150MetresOn) {
+  PlainNet net;
+  net.nodes = "<node id='W' x='0' y='0'/><node id='M' x='400' y='0'/><node id='E' x='500' y='0'/>";
+  net.edges =
+      "<edge id='WM' from='W' to='M' numLanes='2' speed='13.89'/>"
+      "<edge id='ME' from='M' to='E' numLanes='1' speed='13.89'/>";
+  net.connections = "<connection from='WM' to='ME' fromLane='1' toLane='0'/>";
+  const RoadNetwork network = testing::read_plain_net(net);
+  for (const double before : {200.0, 120.0}) {
+    RoadScene here{network};
+    const std::size_t own = here.add("car", {"WM", "ME"}, 400.0 - before, 6, 0, -1, "WM_1");
+    here.add("bus", {"WM", "ME"}, 422.0 - before, 2, 0, -1, "WM_1");
+    here.update();
+    let_all_look(here);
+    bool leaves = false;
+    for (const PathStretch& stretch : here.path(own).stretches)
+      leaves = leaves || here.model.road.lane(stretch.lane).name == "WM_0";
+    EXPECT_EQ(leaves, before > 150.0) << before;
   }
 }
 

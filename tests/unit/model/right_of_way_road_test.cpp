@@ -1282,6 +1282,34 @@ TEST_F(CrossingTest, WhoHasWaitedForLongStepsOutBeforeWhoHaltsForItAtEase) {
   EXPECT_TRUE(waits(40, -0.4)) << "it is on the crossing already";
 }
 
+// it forgot that it had waited with its first step, and turned round; a queue that crept over the
+// crossing left no place to step onto
+TEST_F(CrossingTest, WhoHasSetOutGoesOnAndDriversHaltForIt) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0, 195, 5);
+  here_.move(walker, here_.path(walker).links.at(0).stop_line - 0.3);
+  const std::size_t driver = here_.add("car", {"WC", "CE"}, 0, 1.5, 0, -1, "WC_1");
+  const double line = here_.path(driver).links.at(0).stop_line;
+  here_.move(driver, line - 2.25 - 3.0);
+  const auto waited = [&](double time, double speed) {
+    here_.scene.waiting_time[walker] = time;
+    here_.set_speed(walker, speed);
+    here_.scene.context[walker].reason = LimitReason::Yield;
+    here_.update();
+    const bool walker_waits = here_.context(walker).foe == here_.scene.id[driver].value;
+    const bool driver_halts = here_.context(driver).foe == here_.scene.id[walker].value;
+    EXPECT_NE(walker_waits, driver_halts) << time << " s, " << speed << " m/s";
+    return walker_waits;
+  };
+  EXPECT_TRUE(waited(20, 0));
+  EXPECT_FALSE(waited(35, 0));
+  EXPECT_FALSE(waited(20, 0.8));
+  EXPECT_TRUE(waited(5, 0.8));
+  here_.scene.waiting_time[driver] = 15;
+  here_.scene.waiting_time[walker] = 35;
+  here_.update();
+  EXPECT_NE(here_.context(driver).foe, here_.scene.id[walker].value) << "it has waited long enough";
+}
+
 TEST_F(CrossingTest, WalkersDoNotStepInFrontOfWhoCanNotStop) {
   const std::size_t walker = here_.add("pedestrian", {"CW", "WC"}, 0, 1.3, 5, 195);
   here_.move(walker, here_.path(walker).links.at(0).stop_line - 1.2);

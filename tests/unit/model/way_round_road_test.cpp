@@ -40,13 +40,14 @@ class WayRoundTest : public ::testing::Test {
     prepare_tick(here_.model, here_.scene, workers, here_.geometry);
     RoadContext& context = here_.scene.context[own_];
     context.active = true;
-    context.tangent = direction_of(here_.scene.heading[own_]);
+    context.tangent = direction_of(here_.scene.heading[own_] + turned_);
     return way_round(here_.model, here_.scene, here_.geometry, own_,
                      5.0 * direction_of(here_.scene.heading[own_] + wish));
   }
 
   RoadScene here_{net()};
   std::size_t own_ = 0;
+  double turned_ = 0;  ///< its way against its heading [rad]
 };
 
 constexpr double kRight = -0.6;  // [rad]
@@ -63,6 +64,26 @@ TEST_F(WayRoundTest, WhoTurnsRightBehindATailGoesStraightOnUntilItIsPast) {
   ASSERT_TRUE(turn);
   EXPECT_GE(*turn, 0.0);
   EXPECT_FALSE(way(0.0)) << "straight on is free";
+}
+
+// a bicycle that found no way past a car at red rode back, against its own traffic
+TEST(TurnsBack, WhoPointsAcrossItsWayAndTurnsFurtherFromIt) {
+  const Vec2 way(1, 0);
+  for (const double side : {1.0, -1.0}) {
+    const Vec2 across(0, side);
+    EXPECT_TRUE(turns_back(across, way, side * 0.3));
+    EXPECT_TRUE(turns_back(across, way, 0.0));
+    EXPECT_FALSE(turns_back(across, way, -side * 0.3)) << "it turns to its way";
+    EXPECT_FALSE(turns_back(-across, way, side * 0.3)) << "likewise";
+    EXPECT_FALSE(turns_back(Vec2(1, side), way, side * 0.3)) << "it gets on as it turns";
+  }
+}
+
+TEST_F(WayRoundTest, NobodyRidesBackForIt) {
+  stands("bus", -2.0, -2.35, 0.0);
+  ASSERT_TRUE(way(kRight));
+  turned_ = -1.5;
+  EXPECT_FALSE(way(kRight)) << "straight on and to the left would be back";
 }
 
 TEST_F(WayRoundTest, ThereIsNoneThroughAWall) {

@@ -80,7 +80,7 @@ TEST(WalkingRoom, TwoWhoMeetOnANarrowPathHaveTheVerge) {
 }
 
 TEST(WalkingRoom, WhoMeetsAVehicleOnASharedLaneStepsAside) {
-  EXPECT_GT(room_on("allow='pedestrian delivery' width='3.0'"), 1.5 + 0.4);
+  EXPECT_GT(room_on("allow='pedestrian delivery' width='3.0'"), 1.5 + 0.9);
 }
 
 TEST_P(WalkingPath, WalksBackwardsToAnArrivalBehindTheStart) {
