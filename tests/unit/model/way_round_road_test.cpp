@@ -108,6 +108,27 @@ TEST_F(WayRoundTest, WhoMovesIsLeftToAvoidance) {
   EXPECT_FALSE(way(kRight));
 }
 
+// wedged beside a queue, a van crept past it over the sidewalk for 33 s
+TEST_F(WayRoundTest, WhoIsWedgedLeavesItsLaneByLessThanAMetre) {
+  stands("bus", 2.25 + 1.25 + 0.3, 0.0, 0.5 * kPi);
+  const auto creeps_right = [&](double beyond) {
+    here_.update();
+    RoadContext& context = here_.scene.context[own_];
+    context.allowed_speed = 1.0;
+    context.sub_goal = here_.scene.position[own_] + Vec2(0.0, 8.0);
+    context.room_left = 5.0;
+    context.room_right = -beyond;
+    here_.scene.wedge_left[own_] = 5.0;
+    Workspace work;
+    const Vec2 chosen = gamma_velocity(here_.model, here_.scene, here_.geometry, own_,
+                                       here_.scene.behavior[own_], work);
+    return cross(direction_of(here_.scene.heading[own_]), chosen) < -0.01;
+  };
+  EXPECT_TRUE(creeps_right(0.0));
+  EXPECT_TRUE(creeps_right(0.6));
+  EXPECT_FALSE(creeps_right(1.0));
+}
+
 // its wheels pointed to the right, so that its tail would have swung into the van beside it: it
 // stood for 6 s of the green and held a whole queue
 TEST_F(WayRoundTest, WhoseTailWouldSwingTurnsItsWheelsStraightBeforeItRollsOff) {
