@@ -60,7 +60,7 @@ void ease_violation(double fastest, Workspace& work) {
 }
 
 /// Hard planes that a body which creeps out of the way must keep. A vehicle that is wedged may use
-/// what lies beside its lane to get out, some metres of it.
+/// what lies beside its lane to get out, not far.
 std::span<const HalfPlane> planes_for_creeping(const Scene& scene, std::size_t row,
                                                Workspace& work) {
   constexpr double kFarthest = 0.8;  // beyond the boundary [m]
