@@ -56,7 +56,7 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
   boundary(context.room_left, left);
   boundary(context.room_right, -left);
   for (const Vec2& way : context.to_red) {
-    if (way.isZero()) break;
+    if (way.isZero()) continue;
     constraints.append({way / kToRed, -way.normalized()}, {ConstraintKind::RoadLimit, -1});
   }
 

@@ -10,6 +10,8 @@ namespace sumogamma {
 
 namespace {
 
+constexpr double kLeastWay = 1e-4;  ///< that has a direction: nobody creeps on over it [m]
+
 /// People who walk the same way one behind the other keep a distance that grows with their speed,
 /// as on any sidewalk (Seyfried et al. 2005: 0.36 m + 1.06 s v from middle to middle); whoever
 /// comes towards them is left to avoidance.
@@ -67,8 +69,7 @@ bool is_red_for_walkers(const RoadView& view, const Lane& crossing) {
 /// Who makes way for others beside a crossing doesn't step onto it while it is red, its own only
 /// where it waits for it.
 void keep_off_red_crossings(const RoadView& view, const Course& course, RoadContext& context) {
-  constexpr double kNear = 2.0;    // [m]
-  constexpr double kLeast = 1e-4;  // of a way that has a direction: nobody creeps on over it [m]
+  constexpr double kNear = 2.0;  // [m]
   const RoadNetwork& network = view.model.road;
   const Vec2& position = view.scene.position[course.row];
   const auto& own = course.path.stretches;
@@ -83,9 +84,9 @@ void keep_off_red_crossings(const RoadView& view, const Course& course, RoadCont
         own.begin(), own.end(), [&](const PathStretch& stretch) { return stretch.lane == beside; });
     if (crosses && !waits) return;
     const double extent = half_extent(view.scene, course.row, way / distance);
-    way *= std::max(distance - extent, kLeast) / distance;
+    way *= std::max(distance - extent, kLeastWay) / distance;
     for (Vec2& kept : context.to_red) {
-      if (way == kept) return;
+      if (way == kept || way.isZero()) return;
       if (kept.isZero() || way.squaredNorm() < kept.squaredNorm()) std::swap(way, kept);
     }
   };
@@ -166,6 +167,9 @@ void set_walker_limit(const RoadView& view, const Course& course, RoadContext& c
     context.allowed_speed = std::min(beyond / 0.7, 1.0);
     context.reason = decision.reason;
     context.foe = decision.foe;
+    // and no further on, whoever comes back behind: at the kerb one who turned round was pressed on
+    if (decision.reason == LimitReason::Signal)
+      context.to_red.back() = kLeastWay * course.path.line.direction_at(link.stop_line);
     return;
   }
 }

@@ -43,9 +43,9 @@ struct RoadContext {
   double room_left = std::numeric_limits<double>::infinity();   ///< footprint's side to the left
                                                                 ///< boundary [m], < 0 beyond it
   double room_right = std::numeric_limits<double>::infinity();  ///< likewise to the right [m]
-  /// On foot: the ways from the outline to the nearest red crossings that it isn't on [m]; zero
-  /// where there is none.
-  std::array<Vec2, 2> to_red = {Vec2::Zero(), Vec2::Zero()};
+  /// On foot: the ways from the outline to the nearest red crossings that it isn't on [m], and the
+  /// last one on over its own while it steps back from that; zero where there is none.
+  std::array<Vec2, 3> to_red = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
   double allowed_speed =
       std::numeric_limits<double>::infinity();  ///< most speed along `tangent` that leader, signals
                                                 ///< and rules leave [m/s]

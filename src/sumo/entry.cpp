@@ -53,10 +53,13 @@ bool comes_over(const Model& model, const RoadState& road, const Scene& scene, s
   const double begin = scene.path_along[row];
   const bool follows =
       path && path->line.direction_at(begin).dot(direction_of(body.heading)) > kAligned;
-  if (!follows)
-    return overlap(place, {body.center + 0.5 * way * direction_of(body.heading), body.heading,
-                           body.half_length + 0.5 * way, body.half_width});
-  if (overlap(place, body)) return true;
+  const auto goes_straight_on_over_it = [&](double by) {
+    return overlap(place, {body.center + 0.5 * by * direction_of(body.heading), body.heading,
+                           body.half_length + 0.5 * by, body.half_width});
+  };
+  if (!follows) return goes_straight_on_over_it(way);
+  // in a bend bodies turn later than their ways
+  if (goes_straight_on_over_it(kReaction * speed)) return true;
   const Vec2 aside = body.center - path->line.point_at(begin);
   const double offset = aside.dot(left_of(path->line.direction_at(begin)));
   for (double along = begin + kStep; along < begin + way; along += kStep) {

@@ -1123,6 +1123,25 @@ TEST_F(WalkersAtRed, WhoWaitsForTheLightAndIsPressedOnStepsBack) {
   EXPECT_TRUE(steps_back(walker, 2.0)) << "it waited";
 }
 
+// it turned round half a metre after the light had changed, and others who came back behind it
+// pressed it on over the crossing
+TEST_F(WalkersAtRed, WhoStepsBackGoesNoFurtherOn) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.1, 195, 5);
+  const double kerb = here_.path(walker).links.at(0).stop_line;
+  const Vec2 across = here_.path(walker).line.direction_at(kerb);
+  steps_back(walker, -0.1);
+  ASSERT_TRUE(steps_back(walker, 1.5));
+  const auto admits = [&](const Vec2& velocity) {
+    ConstraintSet set;
+    append_contextual_constraints(here_.model, here_.scene, walker, set);
+    return std::all_of(set.planes.begin(), set.planes.end(),
+                       [&](const HalfPlane& plane) { return slack(plane, velocity) > -1e-9; });
+  };
+  EXPECT_FALSE(admits(0.1 * across));
+  EXPECT_TRUE(admits(-0.3 * across));
+  EXPECT_TRUE(admits(Vec2::Zero()));
+}
+
 // at green a queue stood over the crossing: it shuffled about there until the light was red, and
 // then on to and fro
 TEST_F(WalkersAtRed, WhoSetOutAndGotNoFurtherStepsBack) {

@@ -129,6 +129,27 @@ TEST_F(EntryTest, NorBesideWhoTurnsAcrossItsWay) {
   EXPECT_TRUE(speed_of_newcomer());
 }
 
+// a car began to drive beside a lorry whose nose still swung over its lane in the bend behind a
+// junction
+TEST_F(EntryTest, NorBesideWhoIsStillTurningIntoTheNextLane) {
+  const std::size_t other = here_.add("truck", {"in", "out"}, 0, 0);
+  const Vec2 start = here_.path(first_).line.point_at(0.0) + Vec2(-4.0, 3.2);
+  Path beside = here_.path(other);
+  beside.line = Polyline({start, start + Vec2(100.0, 0.0)});
+  here_.road.paths[static_cast<std::size_t>(here_.scene.path[other])] =
+      std::make_shared<const Path>(beside);
+  here_.scene.lane[other] = {};
+  here_.scene.path_along[other] = 0.0;
+  here_.scene.position[other] = start;
+  const auto may_start = [&](double turned) {
+    here_.scene.heading[other] = turned;
+    here_.set_speed(other, 6.0);
+    return speed_of_newcomer().has_value();
+  };
+  EXPECT_FALSE(may_start(-0.36));
+  EXPECT_TRUE(may_start(0.0)) << "it drives beside";
+}
+
 TEST_F(EntryTest, NobodyOnFootStartsBeforeWhoDrives) {
   const std::size_t walker = here_.add("pedestrian", {"in"}, 10, 0);
   const Polyline& way = here_.path(walker).line;
