@@ -133,7 +133,7 @@ TEST_F(EntryTest, NorBesideWhoTurnsAcrossItsWay) {
 // junction
 TEST_F(EntryTest, NorBesideWhoIsStillTurningIntoTheNextLane) {
   const std::size_t other = here_.add("truck", {"in", "out"}, 0, 0);
-  const Vec2 start = here_.path(first_).line.point_at(0.0) + Vec2(-4.0, 3.2);
+  const Vec2 start = here_.path(first_).line.point_at(0.0) + Vec2(-4.0, 3.7);
   Path beside = here_.path(other);
   beside.line = Polyline({start, start + Vec2(100.0, 0.0)});
   here_.road.paths[static_cast<std::size_t>(here_.scene.path[other])] =
@@ -143,7 +143,7 @@ TEST_F(EntryTest, NorBesideWhoIsStillTurningIntoTheNextLane) {
   here_.scene.position[other] = start;
   const auto may_start = [&](double turned) {
     here_.scene.heading[other] = turned;
-    here_.set_speed(other, 6.0);
+    here_.set_speed(other, 7.0);
     return speed_of_newcomer().has_value();
   };
   EXPECT_FALSE(may_start(-0.36));
