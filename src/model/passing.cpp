@@ -14,6 +14,7 @@ constexpr double kFarthest = 2.3;   ///< aside of the path [m]
 constexpr double kGain = 1.0;       ///< worth passing for [m/s]
 constexpr double kSmallGain = 0.3;  ///< likewise for narrow vehicles [m/s]
 constexpr double kQueue = 3.0;      ///< slower than this is a queue [m/s]
+constexpr double kOffEdge = 0.15;   ///< kept to the edge of its room [m]
 constexpr double kLeast = 0.2;      ///< to the side of whoever a narrow vehicle passes [m]
 
 /// What is left between two bodies side by side [m].
@@ -144,6 +145,15 @@ void keep_to_light(const RoadNetwork& network, const Path& path, const Surroundi
   most_right = std::max(most_right, -within);
 }
 
+/// How far to the left and to the right of the path a body aims at the most where there is so much
+/// room [m].
+double farthest_left(double room, double half_width) {
+  return std::max(room - half_width - kOffEdge, 0.0);
+}
+double farthest_right(double room, double half_width) {
+  return std::min(half_width + kOffEdge - room, 0.0);
+}
+
 /// Nobody passes on a junction where there is no room behind it: who is beside a bus as it turns
 /// into a road with fewer lanes comes out over the middle of that or on its sidewalk.
 void keep_to_exit(const RoadNetwork& network, const Path& path, const Surroundings& around,
@@ -152,8 +162,8 @@ void keep_to_exit(const RoadNetwork& network, const Path& path, const Surroundin
   if (link == path.links.end() || link->stop_line - around.along > kBeforeJunction) return;
   const PathStretch& exit = path.stretch_at(link->end + 0.1);
   if (network.lane(exit.lane).kind != LaneKind::Normal) return;
-  most_left = std::min(most_left, std::max(exit.room_left - around.half_width - 0.15, 0.0));
-  most_right = std::max(most_right, std::min(around.half_width + 0.15 - exit.room_right, 0.0));
+  most_left = std::min(most_left, farthest_left(exit.room_left, around.half_width));
+  most_right = std::max(most_right, farthest_right(exit.room_right, around.half_width));
 }
 
 }  // namespace
@@ -165,8 +175,8 @@ double passing_offset(const Model& model, const Path& path, const Scene& scene,
   const double half = around.half_width;
   const double over = scene.overtaking_room[row];
   const double over_left = model.road.left_hand ? 0.0 : over, over_right = over - over_left;
-  double most_left = std::max(here.room_left + over_left - half - 0.15, 0.0);
-  double most_right = std::min(half + 0.15 - here.room_right - over_right, 0.0);
+  double most_left = farthest_left(here.room_left + over_left, half);
+  double most_right = farthest_right(here.room_right + over_right, half);
   keep_to_turning_side(model.road, path, around, most_left, most_right);
   if (over == 0.0) keep_to_light(model.road, path, around, most_left, most_right);
   // what a junction has beside its lanes is for who has to get past, and for bodies that swing

@@ -198,6 +198,20 @@ void append_carriageways(const pugi::xml_node& network, const CarriagewayPlan& p
   }
 }
 
+/// Who waits for whom, but for edges that are left out.
+void append_prohibitions(const NetworkPatch& patch, pugi::xml_node connections) {
+  const auto& dropped = patch.carriageways.dropped;
+  for (const Prohibition& rule : patch.prohibitions) {
+    const auto edges = {&rule.from, &rule.to, &rule.waits_from, &rule.waits_to};
+    if (std::any_of(edges.begin(), edges.end(),
+                    [&](const std::string* edge) { return dropped.contains(*edge); }))
+      continue;
+    pugi::xml_node prohibition = connections.append_child("prohibition");
+    prohibition.append_attribute("prohibitor") = (rule.from + "->" + rule.to).c_str();
+    prohibition.append_attribute("prohibited") = (rule.waits_from + "->" + rule.waits_to).c_str();
+  }
+}
+
 void write_patch(const std::filesystem::path& network_file, const NetworkPatch& patch,
                  const std::filesystem::path& edge_file, const std::filesystem::path& node_file,
                  const std::filesystem::path& connection_file) {
@@ -225,17 +239,7 @@ void write_patch(const std::filesystem::path& network_file, const NetworkPatch& 
     node.append_attribute("id") = junction.c_str();
     node.append_attribute("type") = type.c_str();
   }
-  pugi::xml_node connections = connection_document.append_child("connections");
-  for (const Prohibition& rule : patch.prohibitions) {
-    if (patch.carriageways.dropped.contains(rule.from) ||
-        patch.carriageways.dropped.contains(rule.to) ||
-        patch.carriageways.dropped.contains(rule.waits_from) ||
-        patch.carriageways.dropped.contains(rule.waits_to))
-      continue;
-    pugi::xml_node prohibition = connections.append_child("prohibition");
-    prohibition.append_attribute("prohibitor") = (rule.from + "->" + rule.to).c_str();
-    prohibition.append_attribute("prohibited") = (rule.waits_from + "->" + rule.waits_to).c_str();
-  }
+  append_prohibitions(patch, connection_document.append_child("connections"));
   save_xml(edge_document, edge_file);
   save_xml(node_document, node_file);
   save_xml(connection_document, connection_file);

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "road/sumo_net_reader.h"
+#include "support/converted_map.h"
 
 namespace sumogamma::osm {
 namespace {
@@ -57,18 +57,11 @@ constexpr const char* kStaggered = R"xml(<?xml version="1.0"?>
 // netconvert 1.15 loses the place of what it is told to join in a network with left-hand traffic
 TEST(RunNetconvert, JoinsNodesWhereTheyAre) {
   for (const bool left_hand : {false, true}) {
-    NetconvertRequest request;
-    request.folder = std::filesystem::temp_directory_path() /
-                     ("sumogamma_netconvert_" + std::to_string(getpid()));
-    std::filesystem::create_directories(request.folder / "work");
-    std::ofstream(request.folder / request.prepared) << kStaggered;
-    request.projection = "+proj=tmerc +lat_0=51 +lon_0=-1 +ellps=WGS84 +units=m +no_defs";
-    request.left_hand = left_hand;
-    run_netconvert(request);
-    request.joins = {{"2", "3"}};
-    run_netconvert(request);
-    const RoadNetwork road = read_sumo_net(request.folder / request.network);
-    std::filesystem::remove_all(request.folder);
+    ConvertedMap map(kStaggered, left_hand);
+    run_netconvert(map.request);
+    map.request.joins = {{"2", "3"}};
+    run_netconvert(map.request);
+    const RoadNetwork road = map.read();
     ASSERT_TRUE(road.junction_by_name.contains("cluster_2_3"));
     const Vec2 joined = road.junction(road.junction_by_name.at("cluster_2_3")).position;
     EXPECT_NEAR(joined.x(), 3.5, 1.0);

@@ -2,11 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
-
-#include "road/sumo_net_reader.h"
+#include "support/converted_map.h"
 
 namespace sumogamma::osm {
 namespace {
@@ -36,23 +33,15 @@ constexpr const char* kCrossroads = R"xml(<?xml version="1.0"?>
 
 /// The crossroads as netconvert makes them and, once patched, makes them again.
 struct Crossroads : testing::TestWithParam<bool> {
-  NetconvertRequest request;
+  ConvertedMap map{kCrossroads, GetParam()};
   RoadNetwork road;
   Crossroads() {
-    request.folder = std::filesystem::temp_directory_path() /
-                     ("sumogamma_crossroads_" + std::to_string(getpid()));
-    std::filesystem::create_directories(request.folder / "work");
-    std::ofstream(request.folder / request.prepared) << kCrossroads;
-    request.projection = "+proj=tmerc +lat_0=51 +lon_0=-1 +ellps=WGS84 +units=m +no_defs";
-    request.left_hand = GetParam();
-    run_netconvert(request);
-    road = read_sumo_net(network());
+    run_netconvert(map.request);
+    road = map.read();
   }
-  ~Crossroads() override { std::filesystem::remove_all(request.folder); }
-  std::filesystem::path network() const { return request.folder / request.network; }
   void apply(const NetworkPatch& patch) {
-    patch_network(request, patch);
-    road = read_sumo_net(network());
+    patch_network(map.request, patch);
+    road = map.read();
   }
   /// Edges for whose traffic that from `from` to `to` waits.
   std::set<std::string> waits_for(const std::string& from, const std::string& to) const {
@@ -76,7 +65,7 @@ TEST_P(Crossroads, WhoHasASignWaitsForThoseWithout) {
               Contains(GetParam() ? "12" : "-13"));
   // from the west and from the north, of which the second is against its way
   NetworkPatch patch;
-  patch.prohibitions = give_way_rules(network(), road, {{1, {{12, 1}, {13, -1}}}});
+  patch.prohibitions = give_way_rules(map.network(), road, {{1, {{12, 1}, {13, -1}}}});
   for (const Prohibition& rule : patch.prohibitions)
     EXPECT_TRUE((rule.waits_from == "12" || rule.waits_from == "-13") &&
                 (rule.from == "-14" || rule.from == "15"))
@@ -91,19 +80,19 @@ TEST_P(Crossroads, WhoHasASignWaitsForThoseWithout) {
 }
 
 TEST_P(Crossroads, SignsOnAllRoadsOrOnNoneChangeNothing) {
-  EXPECT_THAT(give_way_rules(network(), road, {}), IsEmpty());
-  EXPECT_THAT(give_way_rules(network(), road, {{7, {{12, 1}}}}), IsEmpty()) << "elsewhere";
-  EXPECT_THAT(give_way_rules(network(), road, {{1, {{12, -1}}}}), IsEmpty()) << "turned away";
-  EXPECT_THAT(give_way_rules(network(), road, {{1, {{12, 1}, {13, -1}, {14, -1}, {15, 1}}}}),
+  EXPECT_THAT(give_way_rules(map.network(), road, {}), IsEmpty());
+  EXPECT_THAT(give_way_rules(map.network(), road, {{7, {{12, 1}}}}), IsEmpty()) << "elsewhere";
+  EXPECT_THAT(give_way_rules(map.network(), road, {{1, {{12, -1}}}}), IsEmpty()) << "turned away";
+  EXPECT_THAT(give_way_rules(map.network(), road, {{1, {{12, 1}, {13, -1}, {14, -1}, {15, 1}}}}),
               IsEmpty());
 }
 
 // who comes round the middle of a mini-roundabout comes from the right where traffic keeps left
 TEST_P(Crossroads, AtAMiniRoundaboutWhoComesRoundTheMiddleGoesFirst) {
-  OsmMap map;
-  EXPECT_THAT(mini_roundabouts(road, map), IsEmpty());
-  map.nodes[1].tags = {{"highway", "mini_roundabout"}};
-  EXPECT_THAT(mini_roundabouts(road, map), ElementsAre("1"));
+  OsmMap tagged;
+  EXPECT_THAT(mini_roundabouts(road, tagged), IsEmpty());
+  tagged.nodes[1].tags = {{"highway", "mini_roundabout"}};
+  EXPECT_THAT(mini_roundabouts(road, tagged), ElementsAre("1"));
   NetworkPatch patch;
   patch.junction_types["1"] = "left_before_right";
   apply(patch);
