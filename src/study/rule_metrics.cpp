@@ -177,8 +177,8 @@ void RuleMonitor::judge_ground(const Row& agent, State& state) {
       else
         explained = true;
     }
-    if ((lane.allowed & vehicle_class::kPedestrian) && !(lane.allowed & kMotor) &&
-        lane.kind != LaneKind::Crossing)
+    const bool beside_road = lane.kind == LaneKind::Normal || lane.kind == LaneKind::WalkingArea;
+    if ((lane.allowed & vehicle_class::kPedestrian) && !(lane.allowed & kMotor) && beside_road)
       on_walkway = true;
   }
   if (against && !explained && !junction && speed > kMoving &&
@@ -324,11 +324,22 @@ void RuleMonitor::judge_turn(const Row& agent, State& state) {
   }
 }
 
+bool RuleMonitor::is_on_its_walkway(const Row& agent) const {
+  const LanePosition& own = agent.scene.lane[agent.row];
+  if (own.lane == kNoLane) return false;
+  const Lane& lane = network_.lane(own.lane);
+  if (lane.kind == LaneKind::Normal) return std::abs(own.offset) <= 0.5 * lane.width + kEntered;
+  return lane.kind == LaneKind::WalkingArea &&
+         std::any_of(hits_.begin(), hits_.end(),
+                     [&](const LaneHit& hit) { return hit.lane == own.lane; });
+}
+
 void RuleMonitor::judge_crossing(const Row& agent, State& state, const RoadState& road) {
   if (network_.signals.empty()) return;
   const Vec2& center = agent.scene.position[agent.row];
   find_lanes(agent, center, hits_);
   const bool stands = agent.scene.velocity[agent.row].norm() < kStands;
+  const bool on_walkway = is_on_its_walkway(agent);
   constexpr double kNearEnd = 1.0;  // [m]
   LaneId on = kNoLane, at_end_of = kNoLane;
   bool amid = false;
@@ -336,8 +347,10 @@ void RuleMonitor::judge_crossing(const Row& agent, State& state, const RoadState
     const Lane& lane = network_.lane(hit.lane);
     if (lane.kind != LaneKind::Crossing) continue;
     // once on it, one is on it to its very ends
-    const double margin = hit.lane == state.on_crossing ? 0.0 : kEntered;
-    if (hit.along < margin || hit.along > lane.centerline.length() - margin) {
+    const bool enters = hit.lane != state.on_crossing;
+    const double margin = enters ? kEntered : 0.0;
+    if ((enters && on_walkway) || hit.along < margin ||
+        hit.along > lane.centerline.length() - margin) {
       // who waits there steps on when it starts
       if (state.at_end_of != hit.lane || stands) state.stepped_on_red = shows_red(lane, road);
       at_end_of = hit.lane;

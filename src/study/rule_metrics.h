@@ -64,12 +64,13 @@ struct RedLightEvent {
 /// nobody's fault). Where the lane's links don't show the same, judgement waits until the vehicle
 /// is on an edge that one of them leads to. Red light, pedestrians: the centre gets kEntered deep
 /// into a signalled crossing that showed red already when it was stepped on; who is pressed off it
-/// sideways and comes back within kAside is still on it. Wrong way: forward and faster than
-/// kMoving, on a normal lane, off junctions, more than 120 degrees from every lane of the place
-/// that vehicles may use. Lanes on another storey than one's own don't count (bridges). Overtaking:
-/// the same, on a lane that the network calls the opposite one of a lane on which somebody narrow
-/// goes the same way, no further off than kBeside, or ahead and reached within kSoon, and no more
-/// than kFaster faster.
+/// sideways and comes back within kAside is still on it, and who keeps to a sidewalk or walking
+/// area that lies over a crossing's end isn't on it. Wrong way: forward and faster than kMoving, on
+/// a normal lane, off junctions, more than 120 degrees from every lane of the place that vehicles
+/// may use. Lanes on another storey than one's own don't count (bridges). Overtaking: the same, on
+/// a lane that the network calls the opposite one of a lane on which somebody narrow goes the same
+/// way, no further off than kBeside, or ahead and reached within kSoon, and no more than kFaster
+/// faster.
 ///
 /// Roads crossed between junctions: the pieces of a walk over a road (Path::over_road) that were
 /// walked to their end. Only a path says what somebody means: plain SUMO's people have none.
@@ -138,6 +139,8 @@ class RuleMonitor {
   void extend(Offence kind, const Row& agent, State& state);
   void judge_stop_line(const Row& agent, State& state, const Vec2& front, const RoadState& road);
   void judge_turn(const Row& agent, State& state);
+  /// Is somebody on foot on the sidewalk or walking area that it uses (hits_ are its lanes)?
+  bool is_on_its_walkway(const Row& agent) const;
   void judge_crossing(const Row& agent, State& state, const RoadState& road);
   void judge_mid_block(const Row& agent, State& state, const RoadState& road);
   void find_lanes(const Row& agent, const Vec2& point, std::vector<LaneHit>& hits) const;

@@ -281,6 +281,17 @@ TEST_F(Rules, PedestrianGrazingTheCornerOfACrossing) {
   EXPECT_EQ(counts().signal_crossings, 0u);
 }
 
+TEST_F(Rules, WhoKeepsToASidewalkThatLiesOverTheEndOfACrossingIsNotOnIt) {
+  add("pedestrian", {98, 1.2}, {1.3, 0});
+  scene_.lane[0] = {net_.lane_by_name.at("in_0"), 95, -1.4};
+  run(4);
+  EXPECT_EQ(counts().signal_crossings, 0u);
+  scene_.position[0] = Vec2(98, 1.2);
+  scene_.lane[0].offset = -2.0;  // no longer on it
+  run(4);
+  EXPECT_EQ(counts().red_light_crossings, 1u);
+}
+
 TEST_F(Rules, WrongWayNeedsALaneAgainstAndNoneWith) {
   add("car", {80, 0}, {-5, 0});
   run(2);
@@ -358,6 +369,14 @@ TEST_F(Rules, ACarOnACrossingIsOnTheRoad) {
   run(1);
   EXPECT_EQ(counts().sidewalk_by_vehicle_s, 0);
   EXPECT_EQ(counts().off_road_s, 0);
+}
+
+TEST_F(Rules, ThePathOfAFootwayOverAJunctionIsNoSidewalk) {
+  Lane& over_junction = net_.lanes[static_cast<std::size_t>(net_.lane_by_name.at(":C_0_0"))];
+  over_junction.allowed = vehicle_class::kPedestrian | vehicle_class::kBicycle;
+  add("car", {97, 0}, {0, 0});
+  run(1);
+  EXPECT_EQ(counts().sidewalk_by_vehicle_s, 0);
 }
 
 TEST_F(Rules, ATeleportPassesNothing) {
