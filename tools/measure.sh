@@ -15,13 +15,14 @@ mkdir -p "$out/maps"
 for map in "$@"; do
   name=$(basename "$map")
   name=${name%%.*}
-  "$program" import "$map" -o "$out/maps/$name" --agents 100 --force --quiet > "$out/maps/$name.txt"
   for agents in ${AGENTS:-100 300}; do
+    scenario=$out/maps/$name-$agents
+    "$program" import "$map" -o "$scenario" --agents "$agents" --force --quiet > "$scenario.txt"
     for seed in ${SEEDS:-1 2 3 4 5}; do
       for control in all none; do
         run=$name-$agents-$seed-$control
         echo "$run" >&2
-        "$program" run "$out/maps/$name" -o "$out/$run" --agents "$agents" --duration "${DURATION:-600}" --step 0.05 \
+        "$program" run "$scenario" -o "$out/$run" --agents "$agents" --duration "${DURATION:-600}" --step 0.05 \
           --seed "$seed" --threads "${THREADS:-1}" --control "$control" --quiet --log error > "$out/$run.txt" 2>&1 ||
           echo "$run: $(tail -1 "$out/$run.txt")" >&2
       done

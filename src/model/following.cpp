@@ -11,6 +11,13 @@ double kept_headway(const AgentType& type, double speed) {
   return type.headway * std::min(kLeast + (1.0 - kLeast) * std::max(speed, 0.0) / kFull, 1.0);
 }
 
+double headway_memory(double since_standing) {
+  constexpr double kFlowing = 0.75;                   // of the headway
+  constexpr double kKnows = 30.0, kForgotten = 90.0;  // [s]
+  const double forgotten = (since_standing - kKnows) / (kForgotten - kKnows);
+  return 1.0 - (1.0 - kFlowing) * std::clamp(forgotten, 0.0, 1.0);
+}
+
 double following_acceleration(const AgentType& type, double speed, double free_speed, double gap,
                               double leader_speed, double headway_factor) {
   const double a = type.max_acceleration, b = type.comfortable_deceleration;

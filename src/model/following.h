@@ -9,6 +9,12 @@ namespace sumogamma {
 /// over the line (HCM 2010, ch. 31: the saturation headway holds from the fourth vehicle on).
 double kept_headway(const AgentType& type, double speed);
 
+/// Share of that which a driver keeps `since_standing` seconds after it last stood: all of it out
+/// of a queue, less in traffic that flows. Drivers in dense free traffic follow at about a second,
+/// those who come out of a jam at more, and it takes them a while to forget it (Treiber, Helbing
+/// 2003, "Memory effects in microscopic traffic models"): capacity drops where a road breaks down.
+double headway_memory(double since_standing);
+
 /// Acceleration of the Intelligent Driver Model [m/s^2] (Treiber, Hennecke, Helbing 2000), within
 /// the type's limits: towards `free_speed` behind something `gap` metres ahead that moves at
 /// `leader_speed`. gap may be infinite (free road) or <= 0 (brakes fully). This shapes the

@@ -222,7 +222,9 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
       if (path == nullptr || scene.control[row] != Control::Gamma) continue;
       LaneIntent& intent = work.intents[row];
       Surroundings& around = work.around[worker];
-      const bool looks = (scene.tick + scene.id[row].value) % period == 0;
+      // who has just come looks before it does what its path begins with
+      const bool looks =
+          (scene.tick + scene.id[row].value) % period == 0 || !scene.context[row].active;
       intent.fresh = looks && !path->walking;
       if (looks && path->walking) {
         look_around(model, road, scene, grid, row, kSidewalk, kAside, around);

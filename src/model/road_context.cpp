@@ -226,7 +226,8 @@ void update_road_contexts(const Model& model, const RoadState& road, const Spati
             cross(tangent, scene.position[row] - path->line.point_at(along)),
             half_extent(scene, row, tangent),
             path->walking ? std::max(0.0, scene.velocity[row].dot(tangent)) : scene.speed[row],
-            scene.manners[row].headway_factor};
+            scene.manners[row].headway_factor *
+                (path->walking ? 1.0 : headway_memory(scene.time - scene.stood_at[row]))};
         context.active = true;
         context.speed_limit =
             std::min(path->walking ? path->profile_at(along)

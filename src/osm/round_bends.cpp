@@ -18,6 +18,7 @@ namespace {
 constexpr double kRadius = 15.0;     // [m] least of a road's middle
 constexpr double kTighter = 0.9;     // of the radius, where a bend would move too far
 constexpr double kFarthest = 4.0;    // [m] that a point moves; maps are off by as much
+constexpr double kHairpin = 7.0;     // [m] least radius where the inside has no room for more
 constexpr double kFromEnds = 15.0;   // [m] along the road from a junction, which netconvert shapes
 constexpr double kLeast = 0.5;       // [m] a move that is not worth new points
 constexpr double kSpacing = 1.5;     // [m] of the points that move
@@ -131,29 +132,49 @@ std::vector<Vec2> ease(std::vector<Vec2> points, const std::vector<double>& radi
   return points;
 }
 
-/// Radii for the points of a line: those near its ends stay.
-std::vector<double> first_radii(const std::vector<Vec2>& points) {
+/// Eases a line by moving each point towards the inside and those beside it as much towards the
+/// outside, so that a hairpin becomes a bulb instead of shorter.
+std::vector<Vec2> widen(std::vector<Vec2> points, const std::vector<double>& radii) {
+  for (int round = 0; round < kRounds; ++round) {
+    double farthest = 0;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+      if (radii[i] <= 0) continue;
+      const Vec2 inwards =
+          0.25 * (eased(points[i - 1], points[i], points[i + 1], radii[i]) - points[i]);
+      farthest = std::max(farthest, inwards.norm());
+      points[i] += 2.0 * inwards;
+      for (const std::size_t beside : {i - 1, i + 1})
+        if (radii[beside] > 0) points[beside] -= inwards;
+    }
+    if (farthest <= kStill) break;
+  }
+  return points;
+}
+
+/// A radius for the points of a line, none for those near its ends, which stay.
+std::vector<double> radii_along(const std::vector<Vec2>& points, double radius) {
   std::vector<double> along{0};
   for (std::size_t i = 1; i < points.size(); ++i)
     along.push_back(along.back() + (points[i] - points[i - 1]).norm());
   std::vector<double> radii(points.size(), 0.0);
   for (std::size_t i = 1; i + 1 < points.size(); ++i)
-    if (std::min(along[i], along.back() - along[i]) >= kFromEnds) radii[i] = kRadius;
+    if (std::min(along[i], along.back() - along[i]) >= kFromEnds) radii[i] = radius;
   return radii;
 }
 
-/// The line with its bends rounded: one that would move too far with a smaller radius, one that
+/// The line as `move` eases it: a bend that would move too far with a smaller radius, one that
 /// hardly moves not at all.
-std::vector<Vec2> rounded(const std::vector<Vec2>& drawn) {
-  std::vector<double> radii = first_radii(drawn);
+template <typename Move>
+std::vector<Vec2> fitted(const std::vector<Vec2>& drawn, double radius, Move move) {
+  std::vector<double> radii = radii_along(drawn, radius);
   for (;;) {
-    std::vector<Vec2> points = ease(drawn, radii);
+    std::vector<Vec2> points = move(drawn, radii);
     bool again = false;
-    const auto move = [&](std::size_t i) { return (points[i] - drawn[i]).norm(); };
+    const auto moved = [&](std::size_t i) { return (points[i] - drawn[i]).norm(); };
     for (std::size_t first = 0, last = 0; first < points.size(); first = last + 1) {
       double farthest = 0;
-      for (last = first; last < points.size() && move(last) > 0; ++last)
-        farthest = std::max(farthest, move(last));
+      for (last = first; last < points.size() && moved(last) > 0; ++last)
+        farthest = std::max(farthest, moved(last));
       if (farthest > 0 && farthest < kLeast)
         std::copy_n(&drawn[first], last - first, &points[first]);
       again = again || farthest > kFarthest;
@@ -206,7 +227,7 @@ void round_bends(OsmMap& map, IssueLog& log) {
   for (const Road& road : find_roads(map)) {
     const LocalMetric metric(map.nodes.at(road.front()).place);
     Line line = draw(map, metric, road);
-    const std::vector<Vec2> points = rounded(line.points);
+    const std::vector<Vec2> points = fitted(fitted(line.points, kRadius, ease), kHairpin, widen);
     if (points == line.points) continue;
     line.points = points;
     redraw(road, line, metric, map, added);

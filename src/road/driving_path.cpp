@@ -73,9 +73,11 @@ std::vector<std::vector<LaneOption>> plan_lanes(const RoadNetwork& network,
       const Lane& lane = network.lane(edge.lanes[static_cast<std::size_t>(entry)]);
       if (!allows(lane, request.vehicle_class)) continue;
       LaneOption& choice = plan[i][static_cast<std::size_t>(entry)];
+      // who starts at the end of an edge has little room to change on it
+      const double room = lane.centerline.length() - (i == 0 ? request.start_along : 0.0);
       for (int exit = 0; exit < count; ++exit) {
-        const double cost = exit_cost[static_cast<std::size_t>(exit)] +
-                            change_cost(std::abs(exit - entry), lane.centerline.length());
+        const double cost =
+            exit_cost[static_cast<std::size_t>(exit)] + change_cost(std::abs(exit - entry), room);
         if (cost < choice.cost)
           choice = {
               .cost = cost, .exit_index = exit, .next = exit_link[static_cast<std::size_t>(exit)]};

@@ -39,6 +39,7 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.gives_way_left);
   visit(scene.keeps_clear);
   visit(scene.standing_time);
+  visit(scene.stood_at);
   visit(scene.waiting_time);
   visit(scene.halted_for);
   visit(scene.halted_at);
@@ -74,6 +75,7 @@ void append_agent(Scene& scene, const AgentState& agent) {
   scene.merge_to[row] = kNoLane;
   scene.halted_for[row] = kNoConnection;
   scene.gate[row] = std::numeric_limits<double>::infinity();
+  scene.stood_at[row] = -std::numeric_limits<double>::infinity();
 }
 
 void remove_agents(Scene& scene, const std::vector<bool>& removed) {
@@ -134,6 +136,7 @@ void count_standing(double dt, Kinematics kinematics, Scene& scene, std::size_t 
   const RoadContext& context = scene.context[row];
   const double gets_on = context.active ? scene.velocity[row].dot(context.tangent) : speed;
   scene.standing_time[row] = speed < kStands ? scene.standing_time[row] + dt : 0.0;
+  if (speed < kStands) scene.stood_at[row] = scene.time;
   const double forgotten = kinematics == Kinematics::Holonomic ? kForgets * dt : kAll;
   scene.waiting_time[row] = gets_on < creeping ? scene.waiting_time[row] + dt
                                                : std::max(scene.waiting_time[row] - forgotten, 0.0);

@@ -63,12 +63,13 @@ struct Scene {
   std::vector<double> blocked_time;  ///< [s] for which it has stood although no rule holds it
   std::vector<double> wedge_left;  ///< [s] for which it still drives as one that was stuck between
                                    ///< bodies
-  std::vector<double> backing_left;      ///< [s] for which it still backs out
-  std::vector<double> gives_way_left;    ///< [s] for which it lets others go first after that
-  std::vector<double> keeps_clear;       ///< [s] for which it has stood because there is no room
-                                         ///< behind a junction, or for others to turn
-  std::vector<double> standing_time;     ///< [s] since it was last faster than 0.3 m/s
-  std::vector<double> waiting_time;      ///< [s] since it last got on: creeping is none
+  std::vector<double> backing_left;    ///< [s] for which it still backs out
+  std::vector<double> gives_way_left;  ///< [s] for which it lets others go first after that
+  std::vector<double> keeps_clear;     ///< [s] for which it has stood because there is no room
+                                       ///< behind a junction, or for others to turn
+  std::vector<double> standing_time;   ///< [s] since it was last faster than 0.3 m/s
+  std::vector<double> stood_at;        ///< when it was last slower than that [s]; -infinity: never
+  std::vector<double> waiting_time;    ///< [s] since it last got on: creeping is none
   std::vector<ConnectionId> halted_for;  ///< link before which it last came to a halt
   std::vector<double> halted_at;         ///< when it did [s]
   std::vector<std::int32_t> next_stop;   ///< index of the path's next planned halt

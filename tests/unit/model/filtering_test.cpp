@@ -75,6 +75,25 @@ void let_all_look(RoadScene& here) {
     choose_lanes(here.model, here.geometry.grid, 0.05, alone, here.road, here.scene, work);
 }
 
+// a bicycle whose path began with a change of lanes had begun it before it first looked
+TEST(ChooseLanes, WhoHasJustComeLooksAtOnce) {
+  PlainNet net = two_lanes();
+  net.nodes += "<node id='X' x='300' y='0'/>";
+  net.edges += "<edge id='on' from='E' to='X' numLanes='1' speed='13.89' width='3.5'/>";
+  net.connections = "<connection from='WE' to='on' fromLane='1' toLane='0'/>";
+  RoadScene here{testing::read_plain_net(net)};
+  const std::size_t own = here.add("bicycle", {"WE", "on"}, 5, 4, 0, -1, "WE_0");
+  const LaneId wanted = here.model.road.lane_by_name.at("WE_1");
+  LaneChoiceWork work;
+  Workers alone(1);
+  for (const bool known : {true, false}) {
+    here.scene.context[own].active = known;
+    here.scene.tick = 1;  // not its own
+    choose_lanes(here.model, here.geometry.grid, 0.05, alone, here.road, here.scene, work);
+    EXPECT_EQ(here.scene.merge_to[own], known ? kNoLane : wanted);
+  }
+}
+
 // two queues of cars that stand on lanes of 3.5 m; a motorcycle comes behind the right one
 class Filtering : public ::testing::Test {
  protected:

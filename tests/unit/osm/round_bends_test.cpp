@@ -72,6 +72,24 @@ TEST_F(RoundBendsTest, NoPointMovesByMoreThanFourMetres) {
   EXPECT_GT(b.east(2), 100.0) << "towards the inside";
 }
 
+/*      .-- 3 ---- 4 (200 m)
+      2
+       '-- 1 ---- 5 (200 m)     8 m apart: no car turns in its lane there */
+TEST_F(RoundBendsTest, AHairpinBecomesABulb) {
+  b.node(5, 200, 0).node(1, 20, 0).node(2, 16, 4).node(3, 20, 8).node(4, 200, 8);
+  b.way(10, {5, 1, 2, 3, 4}, kStreet);
+  round();
+  double low = 0, high = 0;
+  for (const Vec2& point : line(10)) {
+    low = std::min(low, point.y());
+    high = std::max(high, point.y());
+  }
+  EXPECT_LT(sharpest(10), 40.0);
+  EXPECT_GT(high - low, 10.5) << "wider than its legs are apart";
+  EXPECT_NEAR(b.east(2), 16, 4.0);
+  EXPECT_NEAR(b.north(2), 4, 0.1);
+}
+
 TEST_F(RoundBendsTest, WhatTurnsGentlyOrHardlyMovesStays) {
   b.node(1, 0, 0).node(2, 100, 0).node(3, 190, 30).node(4, 250, 90);  // 18 and 27 degrees
   b.way(10, {1, 2, 3, 4}, kStreet);

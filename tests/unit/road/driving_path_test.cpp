@@ -654,6 +654,25 @@ TEST(DrivingPath, ManyChangesOnAShortEdgeStillEndOnTheRightLane) {
             (std::vector<std::string>{"wide_0", "wide_1", "wide_2", "wide_3", "on_0"}));
 }
 
+// it cut across the lanes in front of faster ones
+TEST(DrivingPath, WhoStartsAtTheEndOfAnEdgeChangesLanesOnTheNext) {
+  PlainNet plain;
+  plain.nodes = R"(<node id="A" x="0" y="0"/><node id="B" x="200" y="0"/>
+                   <node id="C" x="260" y="0"/><node id="D" x="360" y="0"/>)";
+  plain.edges = R"(<edge id="first" from="A" to="B" numLanes="2" speed="13.9"/>
+                   <edge id="next" from="B" to="C" numLanes="2" speed="13.9"/>
+                   <edge id="on" from="C" to="D" numLanes="1" speed="13.9"/>)";
+  plain.connections = R"(<connection from="first" to="next" fromLane="0" toLane="0"/>
+                         <connection from="first" to="next" fromLane="1" toLane="1"/>
+                         <connection from="next" to="on" fromLane="1" toLane="0"/>)";
+  const RoadNetwork network = read_plain_net(plain);
+  const std::vector<std::string> route = {"first", "next", "on"};
+  EXPECT_EQ(lanes_of(network, path_along(network, route, "first_0", 20)),
+            (std::vector<std::string>{"first_0", "first_1", "next_1", "on_0"}));
+  EXPECT_EQ(lanes_of(network, path_along(network, route, "first_0", 185)),
+            (std::vector<std::string>{"first_0", "next_0", "next_1", "on_0"}));
+}
+
 TEST(DrivingPath, FollowsInternalLanesOfSmallNet) {
   const RoadNetwork network = testing::small_net();
   const Path path = path_along(network, {"in", "out"});

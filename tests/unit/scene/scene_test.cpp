@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "base/error.h"
@@ -130,8 +131,12 @@ TEST(CountStanding, CreepingIsStillWaiting) {
       count_standing(0.5, row == 0 ? Kinematics::SingleTrack : Kinematics::Holonomic, scene, row);
     }
   };
+  EXPECT_EQ(scene.stood_at[0], -std::numeric_limits<double>::infinity()) << "never";
+  scene.time = 7.0;
   tick(0.0);
+  scene.time = 7.5;
   tick(0.5);
+  EXPECT_EQ(scene.stood_at[0], 7.0);
   EXPECT_EQ(scene.standing_time[0], 0.0);
   EXPECT_EQ(scene.waiting_time[0], 1.0);
   EXPECT_EQ(scene.waiting_time[1], 0.0) << "on foot this is walking";
