@@ -18,8 +18,18 @@ struct Box {
   Vec2 center;
   double heading = 0, half_length = 0, half_width = 0;
 };
+
+/// Are two boxes whose centres come no nearer than this too far apart to touch, however they lie?
+/// Most are: it spares their sines and cosines.
+bool out_of_reach(double between, const Box& a, const Box& b) {
+  constexpr double kRounding = 1e-6;  // [m]
+  return between > std::hypot(a.half_length, a.half_width) +
+                       std::hypot(b.half_length, b.half_width) + kRounding;
+}
+
 bool overlap(const Box& a, const Box& b) {
   const Vec2 between = b.center - a.center;
+  if (out_of_reach(between.norm(), a, b)) return false;
   for (const double heading :
        {a.heading, a.heading + 0.5 * kPi, b.heading, b.heading + 0.5 * kPi}) {
     const Vec2 axis = direction_of(heading);
@@ -51,6 +61,9 @@ bool comes_over(const Model& model, const RoadState& road, const Scene& scene, s
   const double way = speed * (kReaction + 0.5 * speed / type.comfortable_deceleration);
   const Path* path = road.path(scene.path[row]);
   const double begin = scene.path_along[row];
+  const Vec2 aside = path ? Vec2(body.center - path->line.point_at(begin)) : Vec2(0, 0);
+  const double nearest = (place.center - body.center).norm() - way - 2.0 * aside.norm();
+  if (out_of_reach(nearest, place, body)) return false;
   const bool follows =
       path && path->line.direction_at(begin).dot(direction_of(body.heading)) > kAligned;
   const auto goes_straight_on_over_it = [&](double by) {
@@ -60,12 +73,12 @@ bool comes_over(const Model& model, const RoadState& road, const Scene& scene, s
   if (!follows) return goes_straight_on_over_it(way);
   // in a bend bodies turn later than their ways
   if (goes_straight_on_over_it(kReaction * speed)) return true;
-  const Vec2 aside = body.center - path->line.point_at(begin);
   const double offset = aside.dot(left_of(path->line.direction_at(begin)));
   for (double along = begin + kStep; along < begin + way; along += kStep) {
     const Vec2 forward = path->line.direction_at(along);
     const Vec2 center = path->line.point_at(along) + offset * left_of(forward);
-    if (overlap(place, {center, heading_of(forward), body.half_length, body.half_width}))
+    if (!out_of_reach((center - place.center).norm(), place, body) &&
+        overlap(place, {center, heading_of(forward), body.half_length, body.half_width}))
       return true;
   }
   return false;
