@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "geometry/oriented_box.h"
 #include "geometry/rotation.h"
 #include "model/approaches.h"
 #include "model/following.h"
@@ -13,46 +14,18 @@ namespace sumogamma {
 
 namespace {
 
-/// Separating-axis test of two rectangles given by centre, heading and half sizes.
-struct Box {
-  Vec2 center;
-  double heading = 0, half_length = 0, half_width = 0;
-};
+bool overlap(const OrientedBox& a, const OrientedBox& b) { return separation(a, b) <= 0.0; }
 
-/// Are two boxes whose centres come no nearer than this too far apart to touch, however they lie?
-/// Most are: it spares their sines and cosines.
-bool out_of_reach(double between, const Box& a, const Box& b) {
-  constexpr double kRounding = 1e-6;  // [m]
-  return between > std::hypot(a.half_length, a.half_width) +
-                       std::hypot(b.half_length, b.half_width) + kRounding;
-}
-
-bool overlap(const Box& a, const Box& b) {
-  const Vec2 between = b.center - a.center;
-  if (out_of_reach(between.norm(), a, b)) return false;
-  for (const double heading :
-       {a.heading, a.heading + 0.5 * kPi, b.heading, b.heading + 0.5 * kPi}) {
-    const Vec2 axis = direction_of(heading);
-    auto extent = [&](const Box& box) {
-      const Vec2 forward = direction_of(box.heading);
-      return box.half_length * std::abs(forward.dot(axis)) +
-             box.half_width * std::abs(cross(forward, axis));
-    };
-    if (std::abs(between.dot(axis)) > extent(a) + extent(b)) return false;
-  }
-  return true;
-}
-
-Box box_of(const Scene& scene, std::size_t row) {
+OrientedBox box_of(const Scene& scene, std::size_t row) {
   const Vec2 forward = direction_of(scene.heading[row]);
-  return {scene.position[row], scene.heading[row], half_extent(scene, row, forward),
-          half_extent(scene, row, left_of(forward))};
+  return {scene.position[row], forward,
+          Vec2(half_extent(scene, row, forward), half_extent(scene, row, left_of(forward)))};
 }
 
 /// Does somebody drive over `place` until it stands, if it brakes at ease after half a second? On
 /// its path, straight on where it has none or points elsewhere. `body`: its own, now.
 bool comes_over(const Model& model, const RoadState& road, const Scene& scene, std::size_t row,
-                const Box& body, const Box& place) {
+                const OrientedBox& body, const OrientedBox& place) {
   constexpr double kReaction = 0.5;  // [s]
   constexpr double kStep = 1.0;      // [m]
   constexpr double kAligned = 0.9;   // cosine to its path
@@ -62,13 +35,14 @@ bool comes_over(const Model& model, const RoadState& road, const Scene& scene, s
   const Path* path = road.path(scene.path[row]);
   const double begin = scene.path_along[row];
   const Vec2 aside = path ? Vec2(body.center - path->line.point_at(begin)) : Vec2(0, 0);
-  const double nearest = (place.center - body.center).norm() - way - 2.0 * aside.norm();
-  if (out_of_reach(nearest, place, body)) return false;
-  const bool follows =
-      path && path->line.direction_at(begin).dot(direction_of(body.heading)) > kAligned;
+  // most are too far away to get there, however their path bends
+  constexpr double kRounding = 1e-6;  // [m]
+  const double reach = way + 2.0 * aside.norm() + place.half.norm() + body.half.norm() + kRounding;
+  if ((place.center - body.center).norm() > reach) return false;
+  const bool follows = path && path->line.direction_at(begin).dot(body.forward) > kAligned;
   const auto goes_straight_on_over_it = [&](double by) {
-    return overlap(place, {body.center + 0.5 * by * direction_of(body.heading), body.heading,
-                           body.half_length + 0.5 * by, body.half_width});
+    return overlap(place, {body.center + 0.5 * by * body.forward, body.forward,
+                           body.half + Vec2(0.5 * by, 0)});
   };
   if (!follows) return goes_straight_on_over_it(way);
   // in a bend bodies turn later than their ways
@@ -77,9 +51,7 @@ bool comes_over(const Model& model, const RoadState& road, const Scene& scene, s
   for (double along = begin + kStep; along < begin + way; along += kStep) {
     const Vec2 forward = path->line.direction_at(along);
     const Vec2 center = path->line.point_at(along) + offset * left_of(forward);
-    if (!out_of_reach((center - place.center).norm(), place, body) &&
-        overlap(place, {center, heading_of(forward), body.half_length, body.half_width}))
-      return true;
+    if (overlap(place, {center, forward, body.half})) return true;
   }
   return false;
 }
@@ -110,8 +82,9 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
   // room for the body now, and for what comes from behind and goes ahead
   const double gap = on_foot ? kCrowd : type.min_gap;
   const double ease = 2.0 * 0.7 * type.comfortable_deceleration;
-  const Box wanted{agent.position, agent.heading, half_length + gap,
-                   half_width + (on_foot ? 0.1 : 0.2)};
+  const Vec2 heading = direction_of(agent.heading);
+  const OrientedBox wanted{agent.position, heading,
+                           Vec2(half_length + gap, half_width + (on_foot ? 0.1 : 0.2))};
   double speed = on_foot ? 0.0 : std::min(path.profile_at(0.0), agent.preferred_speed);
   for (const PathLink& link : path.links) {
     if (ease * link.stop_line > speed * speed + ease * (half_length + 1.0)) break;
@@ -122,8 +95,8 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
   // whoever drives on for so long, beside who comes from aside, has nowhere to go [s]
   constexpr double kAlone = 1.0;
   const double way = on_foot ? 0.0 : kAlone * wish;
-  const Box alone{agent.position + 0.5 * way * direction, agent.heading,
-                  wanted.half_length + 0.5 * way, wanted.half_width};
+  const OrientedBox alone{agent.position + 0.5 * way * direction, heading,
+                          wanted.half + Vec2(0.5 * way, 0)};
   struct Follower {
     std::size_t row;
     double gap, speed;
@@ -133,7 +106,7 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
     const Vec2 relative = to_body(scene.position[row] - agent.position, direction);
     if (std::abs(relative.x()) > 80.0 || std::abs(relative.y()) > 30.0) continue;
     if (on_other_storey(model.road, ground, ground_of(scene, row))) continue;
-    const Box other = box_of(scene, row);
+    const OrientedBox other = box_of(scene, row);
     if (overlap(wanted, other)) return std::nullopt;
     // nor does anybody start before somebody who comes from aside or towards it, or on foot before
     // who drives
@@ -150,7 +123,7 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
     const bool comes_in = scene.lane[row].lane == lane || scene.merge_to[row] == lane;
     const double aside = relative.x() <= 0.0 ? 0.3 : comes_in ? 3.5 : 0.7;
     if (on_foot) continue;
-    if (std::abs(relative.y()) > half_width + other.half_width + aside) {
+    if (std::abs(relative.y()) > half_width + other.half.y() + aside) {
       // who comes from behind out of a bend is beside the line straight back
       if (relative.x() < 0.0 && comes_over(model, road, scene, row, other, wanted))
         return std::nullopt;
