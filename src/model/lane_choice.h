@@ -13,6 +13,7 @@ struct LaneIntent {
   bool postpone = false;      ///< a planned change is due and finds no gap yet
   bool abort = false;         ///< a change that was begun does not get on
   LaneId wanted = kNoLane;    ///< lane where it would be better off
+  LaneId entered = kNoLane;   ///< free lane beside the one that its link leads to
   LaneId merge_to = kNoLane;  ///< see Scene
   double gate = std::numeric_limits<double>::infinity();  ///< see Scene
 };
@@ -22,6 +23,7 @@ struct LaneChoiceWork {
   std::vector<Surroundings> around;  ///< by worker
   std::vector<Surroundings> far;     ///< by worker, far ahead
   std::vector<LaneIntent> intents;   ///< by row
+  std::vector<double> queued;        ///< by LaneId, length of the queue on a lane [m]
 };
 
 /// Lanes and places within them, before anybody's road context is put together: who drives on a

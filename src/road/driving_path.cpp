@@ -134,10 +134,11 @@ class Builder {
     return scale;
   }
 
-  /// Crosses a junction by a connection; nullopt-like false where its internal lanes don't lead to
-  /// the target.
-  bool cross(ConnectionId id) {
+  /// Crosses a junction by a connection, to `beside` where that is a lane, the one next to the
+  /// connection's; nullopt-like false where its internal lanes don't lead to the target.
+  bool cross(ConnectionId id, LaneId beside = kNoLane) {
     const Connection& connection = network_.connection(id);
+    const LaneId to = beside == kNoLane ? connection.to : beside;
     PathLink link{id, length(), 0.0, std::max(length() - connection.setback, 0.0), length()};
     const bool may_wait = may_stop_inside(network_, connection);
     LaneId lane = connection.via;
@@ -151,7 +152,7 @@ class Builder {
         arrived = true;
         break;
       }
-      follow_link(lane, next == kNoLane ? connection.to : kNoLane);
+      follow_link(lane, next == kNoLane ? to : kNoLane, beside == kNoLane ? kAskew : kLaneWidth);
       if (!arrived && !network_.lane(lane).outgoing.empty()) return false;
       if (hops == 0 && next != kNoLane && may_wait) link.inside = length();
       lane = next;
@@ -161,17 +162,19 @@ class Builder {
     return true;
   }
 
+  static constexpr double kAskew = 2.0, kLaneWidth = 4.5;  ///< led over to a lane, the most [m]
+
   /// Runs along an internal lane. netconvert begins and ends links of narrow lanes up to a metre
   /// beside the lanes that they join: they are led over to them.
-  void follow_link(LaneId id, LaneId to) {
-    constexpr double kStep = 0.3, kMost = 2.0;    // sideways [m]
-    constexpr double kReach = 12.0, kEach = 1.0;  // along the link [m]
+  void follow_link(LaneId id, LaneId to, double most) {
+    constexpr double kStep = 0.3;                        // sideways [m]
+    constexpr double kReach = kEntryReach, kEach = 1.0;  // along the link [m]
     const Polyline& line = network_.lane(id).centerline;
     const double whole = line.length(), reach = std::min(0.5 * whole, kReach);
     const auto step = [&](const Vec2& there, double along) -> Vec2 {
       const Vec2 way = there - line.point_at(along);
       const double aside = std::abs(sumogamma::cross(line.direction_at(along), way));
-      if (aside <= kStep || way.norm() >= kMost) return Vec2::Zero();
+      if (aside <= kStep || way.norm() >= most) return Vec2::Zero();
       return way;
     };
     const Vec2 before = step(points_.empty() ? line.point_at(0.0) : points_.back(), 0.0);
@@ -489,6 +492,30 @@ std::optional<Path> keep_lane(const RoadNetwork& network, const Path& path, doub
   if (!builder.cross(option.leave)) return std::nullopt;
   const int entry = network.lane(network.connection(option.leave).to).index;
   return old.finish(builder, path.trip, old.index() + 1, entry, 0.0, along);
+}
+
+std::optional<Path> enter_beside(const RoadNetwork& network, const Path& path, double& along,
+                                 LaneId target, double back) {
+  const auto link = path.link_from(along);
+  if (link == path.links.end() || !path.trip) return std::nullopt;
+  const Connection& connection = network.connection(link->connection);
+  const Lane &lane = network.lane(target), &from = network.lane(connection.from);
+  const Remade old{network, path, along, back, connection.from};
+  const std::size_t next = old.index() + 1;
+  if (lane.edge != network.lane(connection.to).edge || !old.possible() ||
+      next >= path.trip->options.size() ||
+      path.trip->options[next][static_cast<std::size_t>(lane.index)].cost == kUnreachable)
+    return std::nullopt;
+  const double length = from.centerline.length();
+  const double begin = std::max(0.0, length - std::max(link->stop_line - along, 0.0) - back);
+  Builder builder(network, path.trip->request);
+  builder.enter_edge(old.index());
+  builder.follow(connection.from, begin, length);
+  if (!builder.cross(link->connection, target)) return std::nullopt;
+  double place = 0.0;
+  auto remade = old.finish(builder, path.trip, next, lane.index, 0.0, place);
+  if (remade) along += remade->links.front().stop_line - link->stop_line;
+  return remade;
 }
 
 std::optional<Path> take_route(const RoadNetwork& network, const Path& path, double& along,

@@ -168,6 +168,15 @@ std::optional<Path> back_to_lane(const RoadNetwork& network, const Path& path, d
 std::optional<Path> keep_lane(const RoadNetwork& network, const Path& path, double& along,
                               double worse, double back);
 
+/// The last of a link on which a path is led over to the lane behind it [m].
+inline constexpr double kEntryReach = 12.0;
+
+/// The path of the same trip that comes out of the junction ahead, or the one that `along` is on,
+/// on `target`, a lane beside the one that its link leads to: it moves over on the last 12 m of
+/// the link. Otherwise like change_lane. nullopt where the trip doesn't go on from there.
+std::optional<Path> enter_beside(const RoadNetwork& network, const Path& path, double& along,
+                                 LaneId target, double back);
+
 /// The path of somebody who goes on from `along` by another route to the same destination. `route`
 /// begins with the edge at `along`. Otherwise like change_lane, except that nobody who has halts
 /// ahead gets another route: nullopt then, too.
