@@ -134,11 +134,13 @@ void keep_to_turning_side(const RoadNetwork& network, const Path& path, const Su
 void keep_to_light(const RoadNetwork& network, const Path& path, const Surroundings& around,
                    double& most_left, double& most_right) {
   constexpr double kReaches = 0.5;  // of half the body, into the own lane
-  auto link = path.link_from(around.along);
-  if (link != path.links.end() && link->stop_line < around.along) ++link;
+  const auto link =
+      std::find_if(path.link_from(around.along), path.links.end(), [&](const PathLink& ahead) {
+        return ahead.stop_line >= around.along &&
+               network.connection(ahead.connection).signal != kNoSignal;
+      });
   if (link == path.links.end() || link->stop_line - around.along > kBeforeJunction) return;
   const Connection& connection = network.connection(link->connection);
-  if (connection.signal == kNoSignal) return;
   const double within =
       0.5 * network.lane(connection.from).width + (1.0 - kReaches) * around.half_width;
   most_left = std::min(most_left, within);

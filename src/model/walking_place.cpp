@@ -53,7 +53,7 @@ double hoped_pace(const Surroundings& around, double place, double free_speed) {
 /// Who gets to where it may have to wait for a crossing keeps to the side where it is off the ways
 /// of those who drive.
 void keep_to_waiting_room(const Path& path, double along, double& most_left, double& most_right) {
-  constexpr double kBefore = 6.0;  // [m]
+  constexpr double kBefore = 15.0;  // [m]
   for (const PathLink& link : path.links) {
     if (along > link.halt) continue;
     if (along < link.halt - kBefore) return;

@@ -61,17 +61,15 @@ std::vector<Polyline> driven_ways(const RoadNetwork& network, const Junction& ju
   return ways;
 }
 
-/// Is a place nobody's who drives one of the ways?
-bool is_off(const std::vector<Polyline>& ways, const Vec2& place) {
-  constexpr double kWalkerRoom = 1.55;  // between the middles of a vehicle and a walker [m]
-  return std::none_of(ways.begin(), ways.end(), [&](const Polyline& way) {
-    return way.project(place).distance < kWalkerRoom;
-  });
+/// Is a place `room` [m] or more from the middles of all who drive one of the ways?
+bool is_off(const std::vector<Polyline>& ways, const Vec2& place, double room) {
+  return std::none_of(ways.begin(), ways.end(),
+                      [&](const Polyline& way) { return way.project(place).distance < room; });
 }
 
 /// Has who waits on a walk, with the front at `halt`, room off the ways? Sets the sides of that
 /// room, the part nearest to the path where there are several.
-bool has_waiting_room(const Path& path, double halt, const std::vector<Polyline>& ways,
+bool has_waiting_room(const Path& path, double halt, const std::vector<Polyline>& ways, double room,
                       PathLink& link) {
   constexpr double kStands = 0.8;     // before the halt: the middle of who waits [m]
   constexpr double kFarAside = 1.2;   // of the path [m]
@@ -79,7 +77,7 @@ bool has_waiting_room(const Path& path, double halt, const std::vector<Polyline>
   const Vec2 front = path.line.point_at(halt), middle = path.line.point_at(halt - kStands);
   const Vec2 left = left_of(path.line.direction_at(halt));
   auto is_free = [&](double side) {
-    return is_off(ways, front + side * left) && is_off(ways, middle + side * left);
+    return is_off(ways, front + side * left, room) && is_off(ways, middle + side * left, room);
   };
   // how far the room goes on from `side` to the left (1) or right (-1): infinite where nothing
   // bounds it
@@ -98,15 +96,26 @@ bool has_waiting_room(const Path& path, double halt, const std::vector<Polyline>
 }
 
 /// Where on a walk, at a link's stop line or so far before it as it takes, there is room off the
-/// ways; no further back than `least` [m].
+/// ways; no further back than `least` [m]. A step back where that leaves drivers more room: they
+/// creep past whom they nearly touch, and lorries reach further than cars.
 void halt_off(const Path& path, double least, const std::vector<Polyline>& ways, PathLink& link) {
-  constexpr double kMost = 10.0;       // [m]
-  constexpr double kWalkerStep = 0.4;  // [m]
-  for (double back = 0.0; back <= std::min(kMost, link.stop_line - least); back += kWalkerStep) {
-    link.halt = link.stop_line - back;
-    if (has_waiting_room(path, link.halt, ways, link)) return;
-  }
+  constexpr double kMost = 10.0, kStepBack = 0.8;   // [m]
+  constexpr double kWalkerStep = 0.4;               // [m]
+  constexpr double kJustOff = 1.55, kAtEase = 2.1;  // between the middles [m]
+  const double most = std::min(kMost, link.stop_line - least);
   link.halt = link.stop_line;
+  double back = 0.0;
+  auto find = [&](double room, double to) {
+    for (double at = back; at <= std::min(to, most); at += kWalkerStep)
+      if (has_waiting_room(path, link.stop_line - at, ways, room, link)) {
+        back = at;
+        return true;
+      }
+    return false;
+  };
+  if (!find(kJustOff, most)) return;
+  find(kAtEase, back + kStepBack);
+  link.halt = link.stop_line - back;
 }
 
 }  // namespace

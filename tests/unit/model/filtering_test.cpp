@@ -9,12 +9,14 @@
 #include "model/leader.h"
 #include "model/locate.h"
 #include "model/passing.h"
+#include "support/lane_looks.h"
 #include "support/road_scene.h"
 #include "support/small_net.h"
 
 namespace sumogamma {
 namespace {
 
+using testing::let_all_look;
 using testing::PlainNet;
 using testing::RoadScene;
 
@@ -68,13 +70,6 @@ PlainNet two_lanes() {
 }
 
 /// Everybody looks once at the lanes beside: within 0.4 s, each in its own tick.
-void let_all_look(RoadScene& here) {
-  LaneChoiceWork work;
-  Workers alone(1);
-  for (here.scene.tick = 0; here.scene.tick < 8; ++here.scene.tick)
-    choose_lanes(here.model, here.geometry.grid, 0.05, alone, here.road, here.scene, work);
-}
-
 // a bicycle whose path began with a change of lanes had begun it before it first looked
 TEST(ChooseLanes, WhoHasJustComeLooksAtOnce) {
   PlainNet net = two_lanes();
@@ -237,6 +232,32 @@ TEST(FilteringBeforeAJunction, StaysOverTheEdgeOfItsLaneBeforeASignal) {
   EXPECT_LE(place("traffic_light"), lane_and_quarter);
 }
 
+// one that came by a short road before the signal stood there before it could move over
+TEST(FilteringBeforeAJunction, SeesTheSignalBehindTheNextJunction) {
+  for (const char* type : {"priority", "traffic_light"}) {
+    PlainNet net;
+    net.nodes =
+        "<node id='W' x='0' y='0'/><node id='M' x='200' y='0'/>"
+        "<node id='N' x='225' y='100'/><node id='E' x='400' y='0'/><node id='C' x='225' y='0' "
+        "type='" +
+        std::string(type) + "'/>";
+    net.edges =
+        "<edge id='WM' from='W' to='M' numLanes='2' speed='13.89'/>"
+        "<edge id='MC' from='M' to='C' numLanes='2' speed='13.89'/>"
+        "<edge id='CE' from='C' to='E' numLanes='2' speed='13.89'/>"
+        "<edge id='NC' from='N' to='C' numLanes='1' speed='13.89'/>";
+    RoadScene here{testing::read_plain_net(net)};
+    here.add("car", {"WM", "MC", "CE"}, 197, 0, 0, -1, "WM_1");
+    const std::size_t rider = here.add("motorcycle", {"WM", "MC", "CE"}, 187, 5, 0, -1, "WM_1");
+    here.update();
+    Surroundings around;
+    look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
+    const double place =
+        std::abs(passing_offset(here.model, here.path(rider), here.scene, around, rider));
+    EXPECT_EQ(place > 1.6 + 0.25 * 0.9 + 1e-9, std::string(type) == "priority") << type;
+  }
+}
+
 // Somebody changes to the left lane, beside a car there that is a metre ahead.
 class ChangingLanes : public ::testing::Test {
  protected:
@@ -353,6 +374,30 @@ TEST(BetterLane, TheOneThatATurnNeedsIsKeptFrom150MetresOn) {
     for (const PathStretch& stretch : here.path(own).stretches)
       leaves = leaves || here.model.road.lane(stretch.lane).name == "WM_0";
     EXPECT_EQ(leaves, before > 150.0) << before;
+  }
+}
+
+// they passed the queue to its head, stood there for their gap, and the other lane behind them
+TEST(BetterLane, WhoPassesAQueueHasToGetBackIntoIt) {
+  PlainNet net;
+  net.nodes = "<node id='W' x='0' y='0'/><node id='M' x='400' y='0'/><node id='E' x='500' y='0'/>";
+  net.edges =
+      "<edge id='WM' from='W' to='M' numLanes='2' speed='13.89'/>"
+      "<edge id='ME' from='M' to='E' numLanes='1' speed='13.89'/>";
+  net.connections = "<connection from='WM' to='ME' fromLane='1' toLane='0'/>";
+  const RoadNetwork network = testing::read_plain_net(net);
+  for (const double their_speed : {0.0, 8.0}) {
+    RoadScene here{network};
+    const std::size_t own = here.add("car", {"WM", "ME"}, 150, 6, 0, -1, "WM_1");
+    here.add("bus", {"WM", "ME"}, 172, 3, 0, -1, "WM_1");
+    for (double place = 260; place < 390; place += 8.0)
+      here.add("car", {"WM", "ME"}, place, their_speed, 0, -1, "WM_1");
+    here.update();
+    let_all_look(here);
+    bool leaves = false;
+    for (const PathStretch& stretch : here.path(own).stretches)
+      leaves = leaves || here.model.road.lane(stretch.lane).name == "WM_0";
+    EXPECT_EQ(leaves, their_speed > 5.0);
   }
 }
 
