@@ -148,6 +148,10 @@ TEST_F(WalkingPlaceTest, WhoMayHaveToWaitKeepsToTheSideWhereNobodyDrives) {
   link.halt_right = -0.2;
   path.links = {link};
   EXPECT_NEAR(walking_place(path, here_.scene, around_, own), -0.2, 1e-9);
+  path.links[0].halt = 23;
+  EXPECT_NEAR(walking_place(path, here_.scene, around_, own), -0.2, 1e-9) << "on its way there";
+  path.links[0].halt = 27;
+  EXPECT_NEAR(walking_place(path, here_.scene, around_, own), -0.6, 1e-9) << "not yet";
   path.links[0].halt = 9.5;
   EXPECT_NEAR(walking_place(path, here_.scene, around_, own), -0.6, 1e-9) << "past it";
 }

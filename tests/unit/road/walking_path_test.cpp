@@ -213,6 +213,26 @@ TEST_P(WalkingPath, WaitsWhereNobodyDrives) {
   }
 }
 
+// lorries crept past people who stood 1.55 m from the middle of their way
+TEST_P(WalkingPath, WaitsAStepFurtherBackWhereThatLeavesDriversRoom) {
+  std::string why;
+  for (const auto& names : {std::vector<std::string>{"SC", "CN"}, {"WC", "CE"}, {"NC", "CW"}}) {
+    const auto path = walk(names, why);
+    ASSERT_TRUE(path) << why;
+    for (const PathLink& link : path->links) {
+      const double side = std::clamp(0.0, link.halt_right, link.halt_left);
+      const Vec2 place =
+          path->line.point_at(link.halt) + side * left_of(path->line.direction_at(link.halt));
+      EXPECT_LE(link.stop_line - link.halt, 0.8 + 1e-9);
+      for (const Lane& lane : network().lanes) {
+        if (lane.kind != LaneKind::Internal || (lane.allowed & vehicle_class::kPassenger) == 0)
+          continue;
+        EXPECT_GT(lane.centerline.project(place).distance, 2.1) << lane.name;
+      }
+    }
+  }
+}
+
 // who had crossed one half of a road went back over it to wait for the other half
 TEST_P(WalkingPath, NobodyGoesBackOverACrossingToWaitForTheNext) {
   std::string why;
