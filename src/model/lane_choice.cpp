@@ -5,6 +5,7 @@
 
 #include "model/approaches.h"
 #include "model/following.h"
+#include "model/free_entry.h"
 #include "model/leader.h"
 #include "model/locate.h"
 #include "model/overtaking.h"
@@ -115,22 +116,8 @@ bool run_together_soon(const Model& model, const Path& path, double along, LaneI
                      [&](ConnectionId id) { return runs_together(model, link->connection, id); });
 }
 
-/// Length of the queues on the lanes that a path leads along within `reach` from `along` on [m].
-double queue_ahead(const std::vector<double>& queued, const Path& path, double along,
-                   double reach) {
-  double length = 0.0;
-  LaneId last = kNoLane;
-  for (const PathStretch& stretch : path.stretches) {
-    if (stretch.from > along + reach) break;
-    if (stretch.to < along || stretch.lane == last) continue;
-    last = stretch.lane;
-    length += queued[index_of(stretch.lane)];
-  }
-  return length;
-}
-
 /// The neighbouring lane on which this agent would rather be, kNoLane where it stays.
-LaneId better_lane(const Model& model, const std::vector<double>& queued, const Path& path,
+LaneId better_lane(const Model& model, const LaneQueues& queues, const Path& path,
                    const Scene& scene, const Surroundings& around, std::size_t row) {
   const PathStretch& here = path.stretch_at(around.along);
   const double distance = std::max(kChangeTime * around.speed, kShortest);
@@ -156,7 +143,7 @@ LaneId better_lane(const Model& model, const std::vector<double>& queued, const 
     const double left_there = option.drivable - on_lane;
     // who passes a queue has to get back into it
     if (left_there < left_here - 1.0 &&
-        left_there - queue_ahead(queued, path, around.along, left_there) <
+        left_there - queue_ahead(queues, path, around.along, left_there) <
             std::max(150.0, 12.0 * around.speed))
       continue;
     const double shift = shift_to(model, lane, other);
@@ -169,49 +156,6 @@ LaneId better_lane(const Model& model, const std::vector<double>& queued, const 
     best = id;
   }
   return best;
-}
-
-/// The lane beside the one that the junction ahead leads to, on which a vehicle comes out of it:
-/// where its own is full of a queue, the other is not, and nobody else may drive into that now.
-LaneId free_entry(const Model& model, const RoadState& road, const std::vector<double>& queued,
-                  const Path& path, const Surroundings& around) {
-  constexpr double kNear = 10.0;    // before its stop line [m]
-  constexpr double kGap = 2.0;      // [m]
-  constexpr double kAsWell = 0.5;   // lane changes
-  constexpr double kLongest = 6.5;  // [m]
-  const double front = around.along + around.half_length;
-  const auto link = path.link_from(around.along);
-  if (link == path.links.end() || link->stop_line - front > kNear ||
-      link->end - kEntryReach < std::max(front, link->stop_line))
-    return kNoLane;
-  const PathStretch& here = path.stretch_at(around.along);
-  const Connection& connection = model.road.connection(link->connection);
-  const char signal = road.signal(connection);
-  if (link->stop_line > front && (is_red(signal) || is_amber(signal))) return kNoLane;
-  const auto next = static_cast<std::size_t>(here.route_index) + 1;
-  // long bodies would come to stand over both lanes
-  if (here.changing || next >= path.trip->options.size() || 2.0 * around.half_length > kLongest)
-    return kNoLane;
-  const auto& options = path.trip->options[next];
-  auto is_full = [&](const Lane& lane, LaneId id) {
-    return queued[index_of(id)] + 2.0 * around.half_length + kGap > lane.length;
-  };
-  const Lane& own = model.road.lane(connection.to);
-  if (!is_full(own, connection.to) || path.stretch_at(link->end + 0.1).lane != connection.to)
-    return kNoLane;
-  const double cost = options[static_cast<std::size_t>(own.index)].cost;
-  for (const LaneId id : {own.inner, own.outer}) {
-    if (id == kNoLane) continue;
-    const Lane& lane = model.road.lane(id);
-    const bool alone =
-        std::all_of(lane.incoming.begin(), lane.incoming.end(), [&](ConnectionId other) {
-          const Connection& into = model.road.connection(other);
-          return model.road.lane(into.from).kind == LaneKind::Internal || is_red(road.signal(into));
-        });
-    const double there = options[static_cast<std::size_t>(lane.index)].cost;
-    if (alone && !is_full(lane, id) && there <= cost + kAsWell) return id;
-  }
-  return kNoLane;
 }
 
 /// The next planned lane change of a path from `along` on; null where none begins within `reach`.
@@ -261,20 +205,6 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   intent.postpone = change->from - around.along < 2.0 + 1.2 * speed;
 }
 
-/// Length of the bodies that stand or creep on each lane, with the gaps between them [m].
-void measure_queues(const Model& model, const RoadState& road, const Scene& scene,
-                    std::vector<double>& queued) {
-  constexpr double kCreeps = 2.0, kGap = 2.0;  // [m/s], [m]
-  queued.assign(model.road.lanes.size(), 0.0);
-  for (std::size_t row = 0; row < scene.size(); ++row) {
-    const Path* path = road.path(scene.path[row]);
-    if (path == nullptr || path->walking || scene.speed[row] > kCreeps) continue;
-    const double along = scene.path_along[row];
-    queued[index_of(path->stretch_at(along).lane)] +=
-        2.0 * half_extent(scene, row, path->line.direction_at(along)) + kGap;
-  }
-}
-
 /// Moves the place aimed at within the lane, at walking pace, towards where it should be; swiftly
 /// over the middle of the road and back.
 void move_aim(double wanted, bool overtakes, double dt, double& aim) {
@@ -291,7 +221,7 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
   work.around.resize(workers.count());
   work.far.resize(workers.count());
   work.intents.assign(scene.size(), {});
-  measure_queues(model, road, scene, work.queued);
+  measure_queues(model, road, scene, work.queues);
   workers.for_each_range(scene.size(), [&](std::size_t worker, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       const Path* path = road.path(scene.path[row]);
@@ -313,11 +243,11 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
             overtaking_room(model, road, scene, grid, around, row, work.far[worker]);
         scene.passing_offset[row] = passing_offset(model, *path, scene, around, row);
         if (path->trip) {
-          intent.entered = free_entry(model, road, work.queued, *path, around);
+          intent.entered = free_entry(model, road, work.queues, *path, around);
           wait_for_gap(model, *path, scene, around, row, intent);
           if (scene.stop_left[row] <= 0.0 && !std::isfinite(intent.gate) &&
               !filters(scene, around, row))
-            intent.wanted = better_lane(model, work.queued, *path, scene, around, row);
+            intent.wanted = better_lane(model, work.queues, *path, scene, around, row);
         }
       }
       move_aim(scene.passing_offset[row], scene.overtaking_room[row] > 0.0, dt,

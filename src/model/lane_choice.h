@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "model/lane_queues.h"
 #include "model/surroundings.h"
 
 namespace sumogamma {
@@ -23,7 +24,7 @@ struct LaneChoiceWork {
   std::vector<Surroundings> around;  ///< by worker
   std::vector<Surroundings> far;     ///< by worker, far ahead
   std::vector<LaneIntent> intents;   ///< by row
-  std::vector<double> queued;        ///< by LaneId, length of the queue on a lane [m]
+  LaneQueues queues;
 };
 
 /// Lanes and places within them, before anybody's road context is put together: who drives on a

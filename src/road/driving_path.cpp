@@ -134,8 +134,8 @@ class Builder {
     return scale;
   }
 
-  /// Crosses a junction by a connection, to `beside` where that is a lane, the one next to the
-  /// connection's; nullopt-like false where its internal lanes don't lead to the target.
+  /// Crosses a junction by a connection, into `beside` instead of its own lane where that is one;
+  /// nullopt-like false where its internal lanes don't lead to the target.
   bool cross(ConnectionId id, LaneId beside = kNoLane) {
     const Connection& connection = network_.connection(id);
     const LaneId to = beside == kNoLane ? connection.to : beside;
@@ -152,7 +152,7 @@ class Builder {
         arrived = true;
         break;
       }
-      follow_link(lane, next == kNoLane ? to : kNoLane, beside == kNoLane ? kAskew : kLaneWidth);
+      follow_link(lane, next == kNoLane ? to : kNoLane, beside == kNoLane ? kAskew : kOneLane);
       if (!arrived && !network_.lane(lane).outgoing.empty()) return false;
       if (hops == 0 && next != kNoLane && may_wait) link.inside = length();
       lane = next;
@@ -162,10 +162,10 @@ class Builder {
     return true;
   }
 
-  static constexpr double kAskew = 2.0, kLaneWidth = 4.5;  ///< led over to a lane, the most [m]
+  static constexpr double kAskew = 2.0, kOneLane = 4.5;  // sideways [m]
 
   /// Runs along an internal lane. netconvert begins and ends links of narrow lanes up to a metre
-  /// beside the lanes that they join: they are led over to them.
+  /// beside the lanes that they join: they are led over to them, by less than `most` [m].
   void follow_link(LaneId id, LaneId to, double most) {
     constexpr double kStep = 0.3;                        // sideways [m]
     constexpr double kReach = kEntryReach, kEach = 1.0;  // along the link [m]
@@ -501,20 +501,23 @@ std::optional<Path> enter_beside(const RoadNetwork& network, const Path& path, d
   const Connection& connection = network.connection(link->connection);
   const Lane &lane = network.lane(target), &from = network.lane(connection.from);
   const Remade old{network, path, along, back, connection.from};
+  const bool on_its_lane =
+      old.here.lane == connection.from || network.lane(old.here.lane).kind == LaneKind::Internal;
   const std::size_t next = old.index() + 1;
-  if (lane.edge != network.lane(connection.to).edge || !old.possible() ||
-      next >= path.trip->options.size() ||
+  if (lane.edge != network.lane(connection.to).edge || !old.possible() || old.here.changing ||
+      !on_its_lane || next >= path.trip->options.size() ||
       path.trip->options[next][static_cast<std::size_t>(lane.index)].cost == kUnreachable)
     return std::nullopt;
-  const double length = from.centerline.length();
-  const double begin = std::max(0.0, length - std::max(link->stop_line - along, 0.0) - back);
+  const double end = from.centerline.length();
+  const double begin = std::max(0.0, end - std::max(link->stop_line - along, 0.0) - back);
   Builder builder(network, path.trip->request);
   builder.enter_edge(old.index());
-  builder.follow(connection.from, begin, length);
+  builder.follow(connection.from, begin, end);
   if (!builder.cross(link->connection, target)) return std::nullopt;
-  double place = 0.0;
-  auto remade = old.finish(builder, path.trip, next, lane.index, 0.0, place);
-  if (remade) along += remade->links.front().stop_line - link->stop_line;
+  // counted from the stop line, which both paths have
+  const double past_line = along - link->stop_line;
+  auto remade = old.finish(builder, path.trip, next, lane.index, 0.0, along);
+  if (remade) along = remade->links.front().stop_line + past_line;
   return remade;
 }
 
