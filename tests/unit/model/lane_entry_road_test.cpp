@@ -64,6 +64,20 @@ TEST_F(EntryBeside, IsLeftToThoseWhoHaveGreenForIt) {
   EXPECT_EQ(lane_of_exit("car", true, 'G'), "CM_1");
 }
 
+// its path began on a lane that it was still to change into
+TEST_F(EntryBeside, IsNotForThoseWhoChangeLanesBefore) {
+  PlainNet net = short_exit();
+  net.edges.replace(net.edges.find("'C' numLanes='1'"), 16, "'C' numLanes='2'");
+  net.connections.replace(net.connections.find("to='CM' fromLane='0'"), 20, "to='CM' fromLane='1'");
+  RoadScene here{testing::read_plain_net(net)};
+  const std::size_t own = here.add("car", {"NC", "CM", "ME"}, 20, 4, 0, -1, "NC_0");
+  const LaneId other = here.model.road.lane_by_name.at("CM_0");
+  for (const bool there : {false, true}) {
+    double along = there ? here.path(own).links.front().stop_line - 2.0 : 20.0;
+    EXPECT_EQ(enter_beside(here.model.road, here.path(own), along, other, 20.0).has_value(), there);
+  }
+}
+
 // a truck and a bus wedged each other over the two lanes for 50 s
 TEST_F(EntryBeside, IsNotForLongBodies) { EXPECT_EQ(lane_of_exit("bus", true, 'r'), "CM_1"); }
 
