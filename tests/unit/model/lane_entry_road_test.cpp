@@ -70,10 +70,10 @@ TEST_F(EntryBeside, IsNotForThoseWhoChangeLanesBefore) {
   net.edges.replace(net.edges.find("'C' numLanes='1'"), 16, "'C' numLanes='2'");
   net.connections.replace(net.connections.find("to='CM' fromLane='0'"), 20, "to='CM' fromLane='1'");
   RoadScene here{testing::read_plain_net(net)};
-  const std::size_t own = here.add("car", {"NC", "CM", "ME"}, 20, 4, 0, -1, "NC_0");
+  const std::size_t own = here.add("car", {"NC", "CM", "ME"}, 5, 4, 0, -1, "NC_0");
   const LaneId other = here.model.road.lane_by_name.at("CM_0");
   for (const bool there : {false, true}) {
-    double along = there ? here.path(own).links.front().stop_line - 2.0 : 20.0;
+    double along = there ? here.path(own).links.front().stop_line - 2.0 : 5.0;
     EXPECT_EQ(enter_beside(here.model.road, here.path(own), along, other, 20.0).has_value(), there);
   }
 }
