@@ -96,9 +96,11 @@ bool has_waiting_room(const Path& path, double halt, const std::vector<Polyline>
 }
 
 /// Where on a walk, at a link's stop line or so far before it as it takes, there is room off the
-/// ways; no further back than `least` [m]. A step back where that leaves drivers more room: they
-/// creep past whom they nearly touch, and lorries reach further than cars.
-void halt_off(const Path& path, double least, const std::vector<Polyline>& ways, PathLink& link) {
+/// ways; no further back than `least` [m]. At signals a step back where that leaves drivers more
+/// room: they creep past whom they nearly touch, and lorries reach further than cars. Elsewhere
+/// drivers wait for whoever is at the kerb, and from further back that takes longer.
+void halt_off(const Path& path, double least, const std::vector<Polyline>& ways, bool signalled,
+              PathLink& link) {
   constexpr double kMost = 10.0, kStepBack = 0.8;   // [m]
   constexpr double kWalkerStep = 0.4;               // [m]
   constexpr double kJustOff = 1.55, kAtEase = 2.1;  // between the middles [m]
@@ -114,7 +116,7 @@ void halt_off(const Path& path, double least, const std::vector<Polyline>& ways,
     return false;
   };
   if (!find(kJustOff, most)) return;
-  find(kAtEase, back + kStepBack);
+  if (signalled) find(kAtEase, back + kStepBack);
   link.halt = link.stop_line - back;
 }
 
@@ -130,7 +132,8 @@ void halt_off_the_road(const RoadNetwork& network, Path& path) {
     if (junction == kNoJunction) continue;
     if (junction != last) ways = driven_ways(network, network.junction(junction));
     last = junction;
-    halt_off(path, crossed, ways, link);
+    const bool signalled = network.connection(link.connection).signal != kNoSignal;
+    halt_off(path, crossed, ways, signalled, link);
     crossed = link.end;
   }
 }

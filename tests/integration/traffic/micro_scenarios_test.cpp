@@ -97,7 +97,7 @@ TEST_P(MicroScenarios, DriversYieldAtAZebraAndGetAcrossThemselves) {
   const json figures = run("zebra");
   expect_sound(figures);
   expect_all_arrive(figures, 148);
-  expect_across(figures, 100, 2.0, 15.0);
+  expect_across(figures, 100, 2.0, 8.0);
   EXPECT_EQ(figures["cars_that_cut_off"], 0) << figures;
 }
 

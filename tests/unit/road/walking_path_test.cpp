@@ -233,6 +233,23 @@ TEST_P(WalkingPath, WaitsAStepFurtherBackWhereThatLeavesDriversRoom) {
   }
 }
 
+// drivers wait at a zebra for whoever is at the kerb, and waited twice as long
+TEST(WalkingPathWithoutSignals, WaitsRightBesideTheWays) {
+  const auto way_back = [](const char* type) {
+    const RoadNetwork network =
+        read_plain_net(crossroads(type, {"--sidewalks.guess", "--crossings.guess"}));
+    const std::vector<EdgeId> route = route_of(network, {"SC", "CN"});
+    PathRequest request;
+    request.route = route;
+    request.vehicle_class = vehicle_class::kPedestrian;
+    std::string why;
+    const auto path = build_walking_path(network, request, why);
+    EXPECT_TRUE(path && !path->links.empty()) << why;
+    return path->links.front().stop_line - path->links.front().halt;
+  };
+  EXPECT_LT(way_back("priority"), way_back("traffic_light") - 0.3);
+}
+
 // who had crossed one half of a road went back over it to wait for the other half
 TEST_P(WalkingPath, NobodyGoesBackOverACrossingToWaitForTheNext) {
   std::string why;
