@@ -355,15 +355,20 @@ TEST(BetterLane, NobodyChangesForALaneThatRunsIntoItsOwn) {
   }
 }
 
-// it stood over two lanes through a green when it wanted back into the queue on its own
-TEST(BetterLane, TheOneThatATurnNeedsIsKeptFrom150MetresOn) {
+/// Two lanes over 400 m, of which the left one alone leads on.
+RoadNetwork left_lane_leads_on() {
   PlainNet net;
   net.nodes = "<node id='W' x='0' y='0'/><node id='M' x='400' y='0'/><node id='E' x='500' y='0'/>";
   net.edges =
       "<edge id='WM' from='W' to='M' numLanes='2' speed='13.89'/>"
       "<edge id='ME' from='M' to='E' numLanes='1' speed='13.89'/>";
   net.connections = "<connection from='WM' to='ME' fromLane='1' toLane='0'/>";
-  const RoadNetwork network = testing::read_plain_net(net);
+  return testing::read_plain_net(net);
+}
+
+// it stood over two lanes through a green when it wanted back into the queue on its own
+TEST(BetterLane, TheOneThatATurnNeedsIsKeptFrom150MetresOn) {
+  const RoadNetwork network = left_lane_leads_on();
   for (const double before : {200.0, 120.0}) {
     RoadScene here{network};
     const std::size_t own = here.add("car", {"WM", "ME"}, 400.0 - before, 6, 0, -1, "WM_1");
@@ -379,13 +384,7 @@ TEST(BetterLane, TheOneThatATurnNeedsIsKeptFrom150MetresOn) {
 
 // they passed the queue to its head, stood there for their gap, and the other lane behind them
 TEST(BetterLane, WhoPassesAQueueHasToGetBackIntoIt) {
-  PlainNet net;
-  net.nodes = "<node id='W' x='0' y='0'/><node id='M' x='400' y='0'/><node id='E' x='500' y='0'/>";
-  net.edges =
-      "<edge id='WM' from='W' to='M' numLanes='2' speed='13.89'/>"
-      "<edge id='ME' from='M' to='E' numLanes='1' speed='13.89'/>";
-  net.connections = "<connection from='WM' to='ME' fromLane='1' toLane='0'/>";
-  const RoadNetwork network = testing::read_plain_net(net);
+  const RoadNetwork network = left_lane_leads_on();
   for (const double their_speed : {0.0, 8.0}) {
     RoadScene here{network};
     const std::size_t own = here.add("car", {"WM", "ME"}, 150, 6, 0, -1, "WM_1");
