@@ -69,7 +69,6 @@ PlainNet two_lanes() {
   return net;
 }
 
-/// Everybody looks once at the lanes beside: within 0.4 s, each in its own tick.
 // a bicycle whose path began with a change of lanes had begun it before it first looked
 TEST(ChooseLanes, WhoHasJustComeLooksAtOnce) {
   PlainNet net = two_lanes();

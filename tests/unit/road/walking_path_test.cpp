@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/units.h"
 #include "road/lane_locator.h"
@@ -38,6 +39,26 @@ class WalkingPath : public ::testing::TestWithParam<bool> {
     request.max_speed = 3;
     request.mid_block = mid_block;
     return build_walking_path(network(), request, why);
+  }
+  /// Calls `visit` with each link of three walks and the way from where people wait before it to
+  /// the middle of the nearest way of vehicles [m].
+  template <typename Visit>
+  void visit_waiting_places(Visit visit) const {
+    std::string why;
+    for (const auto& names : {std::vector<std::string>{"SC", "CN"}, {"WC", "CE"}, {"NC", "CW"}}) {
+      const auto path = walk(names, why);
+      ASSERT_TRUE(path) << why;
+      for (const PathLink& link : path->links) {
+        const double side = std::clamp(0.0, link.halt_right, link.halt_left);
+        const Vec2 place =
+            path->line.point_at(link.halt) + side * left_of(path->line.direction_at(link.halt));
+        double room = std::numeric_limits<double>::infinity();
+        for (const Lane& lane : network().lanes)
+          if (lane.kind == LaneKind::Internal && (lane.allowed & vehicle_class::kPassenger) != 0)
+            room = std::min(room, lane.centerline.project(place).distance);
+        visit(link, room);
+      }
+    }
   }
   const Lane& lane_at(const Path& path, double along) const {
     return network().lane(path.stretch_at(along).lane);
@@ -195,42 +216,18 @@ TEST_P(WalkingPath, TakesTheNearerEndForWhereItArrives) {
 }
 
 TEST_P(WalkingPath, WaitsWhereNobodyDrives) {
-  std::string why;
-  for (const auto& names : {std::vector<std::string>{"SC", "CN"}, {"WC", "CE"}, {"NC", "CW"}}) {
-    const auto path = walk(names, why);
-    ASSERT_TRUE(path) << why;
-    for (const PathLink& link : path->links) {
-      EXPECT_LE(link.halt, link.stop_line);
-      const double side = std::clamp(0.0, link.halt_right, link.halt_left);
-      const Vec2 place =
-          path->line.point_at(link.halt) + side * left_of(path->line.direction_at(link.halt));
-      for (const Lane& lane : network().lanes) {
-        if (lane.kind != LaneKind::Internal || (lane.allowed & vehicle_class::kPassenger) == 0)
-          continue;
-        EXPECT_GT(lane.centerline.project(place).distance, 1.5) << lane.name;
-      }
-    }
-  }
+  visit_waiting_places([&](const PathLink& link, double room) {
+    EXPECT_LE(link.halt, link.stop_line);
+    EXPECT_GT(room, 1.5);
+  });
 }
 
 // lorries crept past people who stood 1.55 m from the middle of their way
 TEST_P(WalkingPath, WaitsAStepFurtherBackWhereThatLeavesDriversRoom) {
-  std::string why;
-  for (const auto& names : {std::vector<std::string>{"SC", "CN"}, {"WC", "CE"}, {"NC", "CW"}}) {
-    const auto path = walk(names, why);
-    ASSERT_TRUE(path) << why;
-    for (const PathLink& link : path->links) {
-      const double side = std::clamp(0.0, link.halt_right, link.halt_left);
-      const Vec2 place =
-          path->line.point_at(link.halt) + side * left_of(path->line.direction_at(link.halt));
-      EXPECT_LE(link.stop_line - link.halt, 0.8 + 1e-9);
-      for (const Lane& lane : network().lanes) {
-        if (lane.kind != LaneKind::Internal || (lane.allowed & vehicle_class::kPassenger) == 0)
-          continue;
-        EXPECT_GT(lane.centerline.project(place).distance, 2.1) << lane.name;
-      }
-    }
-  }
+  visit_waiting_places([&](const PathLink& link, double room) {
+    EXPECT_LE(link.stop_line - link.halt, 0.8 + 1e-9);
+    EXPECT_GT(room, 2.1);
+  });
 }
 
 // drivers wait at a zebra for whoever is at the kerb, and waited twice as long
