@@ -94,9 +94,10 @@ bool keeps_clear(const RoadNetwork& network, const Scene& scene, const TickGeome
   return clear;
 }
 
-/// Before a red light others wait, too: nobody backs out there but for a gap into another lane.
-bool waits_at_red(const RoadContext& context) {
-  return context.at_red && context.reason != LimitReason::Merge;
+/// Has the gap come into another lane that this row waits for?
+bool finds_gap(const Scene& scene, std::size_t row) {
+  const LaneId lane = scene.merge_to[row];
+  return lane != kNoLane && lane != scene.lane[row].lane && !std::isfinite(scene.gate[row]);
 }
 
 /// Is this row right behind one that means to back out, or to make room itself, and can't?
@@ -136,8 +137,7 @@ bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometr
                        std::size_t row) {
   constexpr double kLong = 25.0;  // [s]
   constexpr int kLongest = 12;
-  return scene.standing_time[row] > kLong && !is_wedged(scene, row) &&
-         !waits_at_red(scene.context[row]) &&
+  return scene.standing_time[row] > kLong && !is_wedged(scene, row) && !scene.context[row].at_red &&
          stands_before(model, scene, geometry, row, [&](std::size_t other) {
            return scene.blocked_time[other] > kHeldUp &&
                   waits_for(scene, row, other, kLongest,
@@ -161,6 +161,7 @@ void update_backing(const Model& model, const TickGeometry& geometry, double dt,
   double& left = scene.backing_left[row];
   double& gives_way = scene.gives_way_left[row];
   gives_way = std::max(0.0, gives_way - dt);
+  if (finds_gap(scene, row)) left = gives_way = 0.0;
   if (left > 0.0) {
     const bool moved_on = scene.speed[row] > kPace;
     // who finds no gap to change lanes and comes up against somebody behind gives way from there.
@@ -176,9 +177,9 @@ void update_backing(const Model& model, const TickGeometry& geometry, double dt,
       const bool for_itself = scene.context[row].reason != LimitReason::Leader;
       gives_way = rolled && for_itself && !moved_on ? courtesy(scene, row) : 0.0;
     }
-  } else if (gives_way <= 0.0 && !waits_at_red(scene.context[row]) && is_wedged(scene, row) &&
+  } else if (gives_way <= 0.0 && !scene.context[row].at_red && is_wedged(scene, row) &&
              scene.blocked_time[row] > patience(scene, row)) {
-    left = kTries;
+    left = kTries;  // not before a red light: others wait there, too
   } else if (gives_way <= 0.0 && makes_room(scene, row)) {
     left = kMakesRoom;
   } else if (gives_way > 0.0 ? is_still_in_the_way(model, scene, geometry, row)
@@ -201,15 +202,20 @@ std::optional<BodyState> back_out(const Model& model, const RoadState& road, con
   // as fast as it can still stop before the time is over and before whoever is behind
   const double speed = std::min({kPace, now + kThrottle * dt, kBrake * scene.backing_left[row]});
   const double to_stop = speed * dt + 0.5 * speed * speed / kBrake;
-  const double way = now <= kStill ? kRoomToBegin : to_stop;
   // back along its path, or else straight or to a side: who stands beside may leave just that. Who
   // makes room stays on its road
   const double along_path = lock_along_path(*path, scene, type, row);
   const double most = std::tan(type.max_steering);
   const std::array locks{along_path, 0.0, most, -most};
-  for (const double lock : std::span(locks).first(is_wedged(scene, row) ? 4 : 2))
-    if (keeps_clear(model.road, scene, geometry, row, roll_back(type, body, lock, way / dt, dt)))
+  for (const double lock : std::span(locks).first(is_wedged(scene, row) ? 4 : 2)) {
+    const auto is_free = [&](double way) {
+      return keeps_clear(model.road, scene, geometry, row,
+                         roll_back(type, body, lock, way / dt, dt));
+    };
+    // a nose that swings may press into somebody on the way to a place that is free
+    if (is_free(to_stop) && (now > kStill || is_free(kRoomToBegin)))
       return roll_back(type, body, lock, speed, dt);
+  }
   if (now <= kStill) return std::nullopt;
   return roll_back(type, body, along_path, std::max(0.0, now - kBrake * dt), dt);
 }

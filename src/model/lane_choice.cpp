@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "model/approaches.h"
 #include "model/following.h"
@@ -33,17 +34,38 @@ double look_ahead(const Scene& scene, std::size_t row) {
   return std::min(30.0 + 3.0 * scene.speed[row], 100.0);
 }
 
-/// Would moving over by `shift` force nobody to brake harder than `braking` [m/s^2], oneself
+double smooth_step(double t) { return t * t * (3.0 - 2.0 * t); }
+
+/// The lane beside, in the coordinates of a path that may move over to it.
+struct LaneBeside {
+  double shift = 0;  ///< of its middle beside the lane that the path leaves [m, positive left]
+  double from =
+      std::numeric_limits<double>::infinity();  ///< where the path moves over [m along it]
+  double to = std::numeric_limits<double>::infinity();
+
+  /// Its middle beside the path there [m].
+  double offset_at(double along) const {
+    return along <= from ? shift
+                         : shift * (1.0 - smooth_step(std::min((along - from) / (to - from), 1.0)));
+  }
+};
+
+/// Would moving over to `lane` force nobody to brake harder than `braking` [m/s^2], oneself
 /// included, and leave everybody a third of a second?
-bool is_safe(const Scene& scene, const Surroundings& around, std::size_t row, double shift,
-             double braking) {
+bool is_safe(const Scene& scene, const Surroundings& around, std::size_t row,
+             const LaneBeside& lane, double braking) {
   constexpr double kLeast = 0.5, kLeastTime = 0.35;  // [m], [s]
   constexpr double kClose = 0.3, kCloseTime = 0.15;  // [m], [s]
   constexpr double kCourtesy = 2.0, kLeft = 0.4;     // [m/s^2], [m]
-  constexpr double kHolds = 0.3;                     // [m/s]
+  constexpr double kHolds = 0.3, kTooFar = 0.3;      // [m/s], [m]
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
   for (const RoadUser& user : around.users) {
-    if (std::abs(user.offset - shift) > user.half_width + around.half_width + 0.3) continue;
+    const double middle = 0.5 * (user.rear + user.front);
+    const double aside = user.offset - lane.offset_at(middle);
+    // whom the path comes up to only in that lane is followed anyway; on the way over it is askew
+    const double half_width =
+        std::min(user.half_width, half_extent(scene, user.row, left_of(around.tangent)));
+    if (middle > lane.to || std::abs(aside) > half_width + around.half_width + 0.3) continue;
     // who lets us in keeps no headway for it, but brakes no harder than is courteous
     const bool lets_us_in =
         user.front < front &&
@@ -53,7 +75,7 @@ bool is_safe(const Scene& scene, const Surroundings& around, std::size_t row, do
       // the way for our nose
       const bool holds = lets_us_in || scene.gives_way_left[user.row] > 0.0;
       const double room = nose_room(2.0 * around.half_length);
-      if (holds && user.front < front - room && user.speed < kHolds) continue;
+      if (holds && user.front < front - room + kTooFar && user.speed < kHolds) continue;
       return false;
     }
     const bool ahead = user.rear >= front;
@@ -72,13 +94,18 @@ bool is_safe(const Scene& scene, const Surroundings& around, std::size_t row, do
 }
 
 /// Is somebody beside about to change into the same lane, from its other side, before this agent?
+/// Not who lets it go first, or has halted amid that.
 bool is_contested(const Scene& scene, const Surroundings& around, std::size_t row, LaneId target,
-                  double shift) {
+                  const LaneBeside& lane) {
+  constexpr double kHalts = 2.0;  // [s]
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
-    const bool other_side = (user.offset - shift) * shift > 0.0;
-    return other_side && scene.merge_to[user.row] == target && user.rear < front + 2.0 &&
-           user.front > rear - 2.0 && !std::isfinite(scene.gate[user.row]) &&
+    const double aside = user.offset - lane.offset_at(0.5 * (user.rear + user.front));
+    const bool waits =
+        std::isfinite(scene.gate[user.row]) || scene.standing_time[user.row] > kHalts ||
+        scene.context[user.row].foe == static_cast<std::int64_t>(scene.id[row].value);
+    return aside * lane.shift > 0.0 && scene.merge_to[user.row] == target && !waits &&
+           user.rear < front + 2.0 && user.front > rear - 2.0 &&
            (scene.merge_to[row] != target || scene.id[user.row] < scene.id[row]);
   });
 }
@@ -149,13 +176,25 @@ LaneId better_lane(const Model& model, const LaneQueues& queues, const Path& pat
     const double shift = shift_to(model, lane, other);
     const double there =
         hoped_speed(around, shift, std::min(free_speed, other.speed_limit * 1.2), 0.3);
-    if (there <= most || there < kSlowest || !is_safe(scene, around, row, shift, kSafeBraking) ||
+    if (there <= most || there < kSlowest || !is_safe(scene, around, row, {shift}, kSafeBraking) ||
         run_together_soon(model, path, around.along, id))
       continue;
     most = there;
     best = id;
   }
   return best;
+}
+
+/// Does somebody in the lane beside hold for this agent, its nose behind?
+bool is_let_in(const Scene& scene, const Surroundings& around, std::size_t row,
+               const LaneBeside& lane) {
+  const double nose = around.along + around.half_length - nose_room(2.0 * around.half_length);
+  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+    const double middle = 0.5 * (user.rear + user.front);
+    return user.front < nose + 0.3 &&
+           scene.context[user.row].foe == static_cast<std::int64_t>(scene.id[row].value) &&
+           std::abs(user.offset - lane.offset_at(middle)) < user.half_width + around.half_width;
+  });
 }
 
 /// The next planned lane change of a path from `along` on; null where none begins within `reach`.
@@ -196,11 +235,16 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   const Lane &from = model.road.lane(here.lane), &to = model.road.lane(change->lane);
   if (from.edge != to.edge) return;
   intent.merge_to = change->lane;
-  const double shift = shift_to(model, from, to);
+  const LaneBeside beside{shift_to(model, from, to), change->from, change->to};
   const double braking = speed < 2.0 ? kPressed : kSafeBraking;
-  if (!is_contested(scene, around, row, change->lane, shift) &&
-      is_safe(scene, around, row, shift, braking))
+  if (!is_contested(scene, around, row, change->lane, beside) &&
+      is_safe(scene, around, row, beside, braking))
     return;
+  // who is let in doesn't drive on past the gap
+  if (speed < 3.0 && is_let_in(scene, around, row, beside)) {
+    intent.gate = around.along;
+    return;
+  }
   intent.gate = change->from;
   intent.postpone = change->from - around.along < 2.0 + 1.2 * speed;
 }

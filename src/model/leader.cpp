@@ -55,6 +55,13 @@ bool waits_long(const Scene& scene, std::size_t row) {
   return std::isfinite(scene.gate[row]) && scene.standing_time[row] > kLong;
 }
 
+/// Has it been at that in a queue that creeps on?
+bool creeps_long(const Scene& scene, std::size_t row) {
+  constexpr double kLong = 10.0, kCreeps = 3.0;  // [s], [m/s]
+  return std::isfinite(scene.gate[row]) && scene.waiting_time[row] > kLong &&
+         scene.speed[row] < kCreeps;
+}
+
 /// Has somebody on foot held up a vehicle for long who doesn't get on either?
 bool shuffles_before(const Scene& scene, std::size_t vehicle, std::size_t walker) {
   constexpr double kShuffles = 0.5;  // [m/s]
@@ -83,7 +90,8 @@ bool changes_into_way(const Path& path, const Scene& scene, std::size_t row, std
 /// the own nose to the way that the other's needs [m].
 bool lets_nose_in(const Scene& scene, std::size_t row, std::size_t other, double to_nose) {
   constexpr double kHolds = 20.0;  // [s]
-  return to_nose > 0.0 && waits_long(scene, other) && scene.standing_time[row] < kHolds;
+  return to_nose > 0.0 && (waits_long(scene, other) || creeps_long(scene, other)) &&
+         scene.standing_time[row] < kHolds;
 }
 
 /// Remembers the nearest of those ahead who wait for a gap in this lane or are on their way into

@@ -107,11 +107,14 @@ void update_wedge(double dt, Scene& scene, std::size_t row) {
   // two who want to change into each other's lane at its end wait for each other
   const bool no_gap =
       context.reason == LimitReason::Merge && scene.standing_time[row] > kNoGapPatience;
-  const bool blocked = context.active && scene.standing_time[row] > 0.0 &&
-                       (context.allowed_speed > kLeastWish || no_gap);
-  scene.blocked_time[row] = blocked ? scene.blocked_time[row] + dt : 0.0;
+  const bool held = context.allowed_speed > kLeastWish;
+  const bool blocked = context.active && scene.standing_time[row] > 0.0 && (held || no_gap);
+  // at a red light nobody beside can leave a gap: that is no time lost
+  const double more = held || !context.at_red ? dt : 0.0;
+  scene.blocked_time[row] = blocked ? scene.blocked_time[row] + more : 0.0;
+  const double patience = no_gap ? kNoGapPatience : kPatience;
   scene.wedge_left[row] =
-      scene.blocked_time[row] > kPatience ? kLasts : std::max(0.0, scene.wedge_left[row] - dt);
+      scene.blocked_time[row] > patience ? kLasts : std::max(0.0, scene.wedge_left[row] - dt);
 }
 
 bool StoppingGuard::on_road() const { return scene_->context[row_].active; }

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
+#include "base/random.h"
 #include "geometry/rotation.h"
 #include "model/backing.h"
 #include "model/stopping_guard.h"
@@ -24,14 +26,14 @@ class BackingTest : public ::testing::Test {
   }
 
   /// Lets one row stand where bodies hold it, and back out, for a time [s]. Way rolled back [m].
-  double stand_wedged(std::size_t row, double time) {
+  double stand_wedged(std::size_t row, double time, double allowed_speed = 1.0) {
     const Vec2 from = here_.scene.position[row];
     const Vec2 forward = direction_of(here_.scene.heading[row]);
     double farthest = 0;
     for (double t = 0; t < time; t += kDt) {
       prepare_tick(here_.model, here_.scene, workers_, here_.geometry);
       here_.scene.context[row].active = true;
-      here_.scene.context[row].allowed_speed = 1.0;
+      here_.scene.context[row].allowed_speed = allowed_speed;
       const auto body = back_out(here_.model, here_.road, here_.scene, here_.geometry, row, kDt);
       if (body) {
         here_.scene.position[row] = body->position;
@@ -80,12 +82,40 @@ TEST_F(BackingTest, NobodyBacksOutOfAQueueAtARedLight) {
   EXPECT_TRUE(is_wedged(here_.scene, own));
 }
 
-// two who wanted each other's lane stood side by side through three cycles
-TEST_F(BackingTest, WhoFindsNoGapBacksOutAtARedLightToo) {
+// who backed out at red had its gap beside it when the queue set off, and missed it; two who wanted
+// each other's lane stood side by side through three cycles of short greens
+TEST_F(BackingTest, WhoFindsNoGapBacksOutAfterSomeTimeAtGreen) {
   const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
-  here_.scene.context[own].at_red = true;
   here_.scene.context[own].reason = LimitReason::Merge;
-  EXPECT_GT(stand_wedged(own, 60.0), 1.0);
+  const auto rolls = [&](bool at_red, double time) {
+    here_.scene.context[own].at_red = at_red;
+    return stand_wedged(own, time, 0.0);
+  };
+  EXPECT_EQ(rolls(true, 60.0), 0.0);
+  EXPECT_EQ(rolls(false, 10.0), 0.0) << "the queue beside it sets off";
+  EXPECT_FALSE(is_wedged(here_.scene, own));
+  EXPECT_EQ(rolls(true, 60.0), 0.0);
+  EXPECT_GT(rolls(false, 20.0), 1.0) << "two greens together";
+}
+
+TEST_F(BackingTest, NobodyBacksOutOrGivesWayOnceItsGapIsThere) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
+  here_.scene.merge_to[own] = here_.model.road.lane_by_name.at("CE_0");
+  const auto left = [&](double gate) {
+    here_.scene.gate[own] = gate;
+    here_.scene.backing_left[own] = 0.0;
+    here_.scene.gives_way_left[own] = 10.0;
+    update(own);
+    const double gives_way = here_.scene.gives_way_left[own];
+    here_.scene.backing_left[own] = 5.0;
+    update(own);
+    return std::pair(gives_way > 0.0, here_.scene.backing_left[own] > 0.0);
+  };
+  EXPECT_EQ(left(101.0), std::pair(true, true)) << "it waits for one";
+  EXPECT_EQ(left(std::numeric_limits<double>::infinity()), std::pair(false, false));
+  // amid its change others may wedge it
+  here_.scene.lane[own].lane = here_.scene.merge_to[own];
+  EXPECT_EQ(left(std::numeric_limits<double>::infinity()), std::pair(true, true));
 }
 
 // two motorcycles that wanted each other's lane rolled back until somebody stood behind them and
@@ -99,6 +129,48 @@ TEST_F(BackingTest, WhoFindsNoGapGivesWayFromWhereItCanRollNoFurther) {
     rolled += just_now = stand_wedged(own, 1.0);
   EXPECT_GT(rolled, 1.0);
   EXPECT_GT(here_.scene.gives_way_left[own], 1.0);
+}
+
+// a truck whose nose touched a car swung it 11 cm into that, as the place half a metre back was
+// free
+TEST_F(BackingTest, NobodySwingsItsNoseIntoWhomItTouches) {
+  const std::size_t own = here_.add("truck", {"WC", "CE"}, 100, 0);
+  const std::size_t beside = here_.add("car", {"WC", "CE"}, 100, 0);
+  const std::size_t behind = here_.add("car", {"WC", "CE"}, 90, 0);
+  const Vec2 from = here_.scene.position[own];
+  const double heading = here_.scene.heading[own];
+  const auto draw = [&](int trial, std::uint64_t what, double least, double most) {
+    return random_uniform(1, static_cast<std::uint32_t>(trial), what, Draw::Intention, least, most);
+  };
+  const auto gap = [&] {
+    prepare_tick(here_.model, here_.scene, workers_, here_.geometry);
+    return separation(here_.geometry.agent[own].box(), here_.geometry.agent[beside].box());
+  };
+  int touching = 0, rolled = 0;
+  for (int trial = 0; trial < 6000; ++trial) {
+    here_.scene.position[own] = from;
+    here_.scene.heading[own] = heading + draw(trial, 5, -0.6, 0.6);
+    here_.set_speed(own, 0);
+    const auto place = [&](double ahead, double left) {
+      return Vec2(from + from_body(Vec2(ahead, left), direction_of(here_.scene.heading[own])));
+    };
+    here_.scene.position[beside] = place(draw(trial, 0, 1, 5), draw(trial, 1, 2.4, 3.8));
+    here_.scene.heading[beside] = here_.scene.heading[own] + draw(trial, 2, -1.1, -0.3);
+    here_.scene.position[behind] = place(draw(trial, 3, -8, -6), draw(trial, 4, -2, 2));
+    const double before = gap();
+    if (before > 0.03 || before < -0.04) continue;
+    ++touching;
+    here_.scene.standing_time[own] = here_.scene.blocked_time[own] = 20.0;
+    here_.scene.backing_left[own] = here_.scene.gives_way_left[own] = 0.0;
+    double least = before;
+    for (int k = 0; k < 30; ++k) {
+      rolled += stand_wedged(own, 0.5) > 0.01 ? 1 : 0;
+      least = std::min(least, gap());
+    }
+    EXPECT_GT(least, std::min(before, 0.0) - 0.01) << trial;
+  }
+  EXPECT_GT(touching, 10);
+  EXPECT_GT(rolled, 50);
 }
 
 // Who stands behind somebody that has no room to back out makes some, and so on down the queue.

@@ -1,0 +1,531 @@
+// Lane changes: for speed, for the trip, and who lets whom in.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "model/lane_choice.h"
+#include "model/leader.h"
+#include "model/locate.h"
+#include "support/lane_looks.h"
+#include "support/road_scene.h"
+#include "support/small_net.h"
+
+namespace sumogamma {
+namespace {
+
+using testing::let_all_look;
+using testing::PlainNet;
+using testing::RoadScene;
+using testing::two_lanes;
+
+// Somebody changes to the left lane, beside a car there that is a metre ahead.
+class ChangingLanes : public ::testing::Test {
+ protected:
+  /// Of the type, where its path is so far from the middle of the left lane, and so far to the
+  /// right of its path.
+  void begin(const std::string& type, double from_lane, double to_right,
+             const std::string& other = "car", double ahead = 1.0) {
+    own_ = here_.add(type, {"WE"}, 66, 2, 0, -1, "WE_0");
+    const LaneId left = here_.model.road.lane_by_name.at("WE_1");
+    double along = here_.scene.path_along[own_];
+    auto changed = change_lane(here_.model.road, here_.path(own_), along, left, 40, 20);
+    ASSERT_TRUE(changed);
+    take_path(std::move(*changed), along, own_, here_.road, here_.scene);
+    const Polyline& target = here_.model.road.lane(left).centerline;
+    while (target.project(here_.path(own_).line.point_at(along)).distance > from_lane) along += 0.5;
+    here_.move(own_, along, -to_right);
+    const double beside = target.project(here_.scene.position[own_]).along;
+    car_ = here_.add(other, {"WE"}, beside + ahead, 0, 0, -1, "WE_1");
+  }
+  /// Does it halt to let the car go first?
+  bool halts() {
+    here_.update();
+    let_all_look(here_);
+    return std::isfinite(here_.scene.gate[own_]);
+  }
+  RoadScene here_{testing::read_plain_net(two_lanes())};
+  std::size_t own_ = 0, car_ = 0;
+};
+
+// or both would wait for ever
+TEST_F(ChangingLanes, NobodyLetsSomebodyGoFirstWhoWaitsForAGap) {
+  begin("car", 1.6, 0.6);
+  EXPECT_TRUE(halts());
+  here_.scene.standing_time[car_] = 5;
+  here_.scene.gate[car_] = here_.scene.path_along[car_];
+  // its own look would tell it that it needs no gap
+  here_.scene.control[car_] = Control::External;
+  EXPECT_FALSE(halts());
+}
+
+// a car turned in before a bus whose front was ahead already, and the two wedged each other
+TEST_F(ChangingLanes, WhoHasItsNoseAheadGoesFirst) {
+  begin("car", 1.6, 0.9, "bus", -2.5);
+  EXPECT_TRUE(halts());
+}
+TEST_F(ChangingLanes, WhoIsAheadOfTheOthersNoseGoesOn) {
+  begin("car", 1.6, 0.9, "bus", -5.0);
+  EXPECT_FALSE(halts());
+}
+
+// it stood for 80 s amid its change beside a queue, its own lane empty before it
+TEST_F(ChangingLanes, WhoHasToHaltAmidItGoesBackAndOn) {
+  begin("car", 1.6, 0.6);
+  EXPECT_TRUE(halts());
+  here_.update();
+  ASSERT_EQ(here_.context(own_).reason, LimitReason::Merge);
+  const auto is_amid_change = [&] {
+    return here_.path(own_).stretch_at(here_.scene.path_along[own_]).changing;
+  };
+  here_.scene.standing_time[own_] = 3;
+  let_all_look(here_);
+  EXPECT_TRUE(is_amid_change());
+  here_.scene.standing_time[own_] = 5;
+  let_all_look(here_);
+  EXPECT_FALSE(is_amid_change());
+}
+
+// motorcycles halted beside every car of a queue, for minutes in all
+TEST_F(ChangingLanes, WhoFiltersGoesOnBetweenTheLanes) {
+  begin("motorcycle", 1.2, 0.3);
+  EXPECT_FALSE(halts());
+}
+
+// who changed lanes before a lane ended pushed in before somebody whom it had to let in anyway
+TEST(BetterLane, NobodyChangesForALaneThatRunsIntoItsOwn) {
+  for (const bool one_lane_after : {false, true}) {
+    PlainNet net;
+    net.nodes =
+        "<node id='W' x='0' y='0'/><node id='M' x='120' y='0' type='zipper'/>"
+        "<node id='E' x='400' y='0'/>";
+    net.edges =
+        "<edge id='WM' from='W' to='M' numLanes='2' speed='13.89'/>"
+        "<edge id='ME' from='M' to='E' numLanes='" +
+        std::string(one_lane_after ? "1" : "2") + "' speed='13.89'/>";
+    net.connections = one_lane_after ? "<connection from='WM' to='ME' fromLane='0' toLane='0'/>"
+                                       "<connection from='WM' to='ME' fromLane='1' toLane='0'/>"
+                                     : "";
+    RoadScene here{testing::read_plain_net(net)};
+    const std::size_t own = here.add("car", {"WM", "ME"}, 40, 8, 0, -1, "WM_0");
+    here.add("bus", {"WM", "ME"}, 62, 3, 0, -1, "WM_0");
+    here.update();
+    const LaneId before = here.path(own).stretch_at(70).lane;
+    let_all_look(here);
+    EXPECT_EQ(here.path(own).stretch_at(70).lane == before, one_lane_after);
+  }
+}
+
+/// Two lanes over 400 m, of which the left one alone leads on.
+RoadNetwork left_lane_leads_on() {
+  PlainNet net;
+  net.nodes = "<node id='W' x='0' y='0'/><node id='M' x='400' y='0'/><node id='E' x='500' y='0'/>";
+  net.edges =
+      "<edge id='WM' from='W' to='M' numLanes='2' speed='13.89'/>"
+      "<edge id='ME' from='M' to='E' numLanes='1' speed='13.89'/>";
+  net.connections = "<connection from='WM' to='ME' fromLane='1' toLane='0'/>";
+  return testing::read_plain_net(net);
+}
+
+// it stood over two lanes through a green when it wanted back into the queue on its own
+TEST(BetterLane, TheOneThatATurnNeedsIsKeptFrom150MetresOn) {
+  const RoadNetwork network = left_lane_leads_on();
+  for (const double before : {200.0, 120.0}) {
+    RoadScene here{network};
+    const std::size_t own = here.add("car", {"WM", "ME"}, 400.0 - before, 6, 0, -1, "WM_1");
+    here.add("bus", {"WM", "ME"}, 422.0 - before, 2, 0, -1, "WM_1");
+    here.update();
+    let_all_look(here);
+    bool leaves = false;
+    for (const PathStretch& stretch : here.path(own).stretches)
+      leaves = leaves || here.model.road.lane(stretch.lane).name == "WM_0";
+    EXPECT_EQ(leaves, before > 150.0) << before;
+  }
+}
+
+// they passed the queue to its head, stood there for their gap, and the other lane behind them
+TEST(BetterLane, WhoPassesAQueueHasToGetBackIntoIt) {
+  const RoadNetwork network = left_lane_leads_on();
+  for (const double their_speed : {0.0, 8.0}) {
+    RoadScene here{network};
+    const std::size_t own = here.add("car", {"WM", "ME"}, 150, 6, 0, -1, "WM_1");
+    here.add("bus", {"WM", "ME"}, 172, 3, 0, -1, "WM_1");
+    for (double place = 260; place < 390; place += 8.0)
+      here.add("car", {"WM", "ME"}, place, their_speed, 0, -1, "WM_1");
+    here.update();
+    let_all_look(here);
+    bool leaves = false;
+    for (const PathStretch& stretch : here.path(own).stretches)
+      leaves = leaves || here.model.road.lane(stretch.lane).name == "WM_0";
+    EXPECT_EQ(leaves, their_speed > 5.0);
+  }
+}
+
+/// A road of two lanes into a short one that has them as well, and then a road from its left lane
+/// alone.
+PlainNet both_lanes_lead_on() {
+  PlainNet net;
+  net.nodes =
+      "<node id='W' x='0' y='0'/><node id='C' x='150' y='0'/><node id='E' x='200' y='0'/>"
+      "<node id='L' x='200' y='80'/>";
+  net.edges =
+      "<edge id='WC' from='W' to='C' numLanes='2' speed='13.89'/>"
+      "<edge id='CE' from='C' to='E' numLanes='2' speed='13.89'/>"
+      "<edge id='EL' from='E' to='L' numLanes='1' speed='13.89'/>";
+  net.connections =
+      "<connection from='WC' to='CE' fromLane='0' toLane='0'/>"
+      "<connection from='WC' to='CE' fromLane='1' toLane='1'/>"
+      "<connection from='CE' to='EL' fromLane='1' toLane='0'/>";
+  return net;
+}
+
+// it stood at the end of its lane for minutes, although that lane leads on as well
+class NoGap : public ::testing::Test {
+ protected:
+  std::string lane_at(const Path& path, double x) {
+    const double place = path.line.project(Vec2(x, 0)).along;
+    return here_.model.road.lane(path.stretch_at(place).lane).name;
+  }
+  RoadScene here_{testing::read_plain_net(both_lanes_lead_on())};
+};
+
+TEST_F(NoGap, WhoseLaneLeadsOnKeepsIt) {
+  const std::size_t own = here_.add("car", {"WC", "CE", "EL"}, 10, 5, 0, -1, "WC_0");
+  ASSERT_EQ(lane_at(here_.path(own), 120), "WC_1");
+  double along = here_.scene.path_along[own];
+  const auto kept = keep_lane(here_.model.road, here_.path(own), along, 2.0, 20.0);
+  ASSERT_TRUE(kept);
+  EXPECT_NEAR((kept->line.point_at(along) - here_.scene.position[own]).norm(), 0.0, 0.1);
+  EXPECT_EQ(lane_at(*kept, 120), "WC_0");
+  EXPECT_EQ(lane_at(*kept, 185), "CE_1") << "it changes on the next road";
+  // not where that costs more than it may, or the lane doesn't lead on at all
+  along = here_.scene.path_along[own];
+  EXPECT_FALSE(keep_lane(here_.model.road, here_.path(own), along, 0.2, 20.0));
+  const std::size_t late = here_.add("car", {"CE", "EL"}, 10, 5, 0, -1, "CE_0");
+  along = here_.scene.path_along[late];
+  EXPECT_FALSE(keep_lane(here_.model.road, here_.path(late), along, 1e9, 20.0));
+}
+
+TEST_F(NoGap, WhoHasNoRoomLeftToChangeGoesOnByItsLane) {
+  const double end =
+      here_.model.road.lane(here_.model.road.lane_by_name.at("WC_0")).centerline.length();
+  const std::size_t own = here_.add("car", {"WC", "CE", "EL"}, 5, 0, 0, -1, "WC_0");
+  double along = here_.scene.path_along[own];
+  // the change begins at the last place that leaves room for it, beside somebody who stands
+  auto late = stay_in_lane(here_.model.road, here_.path(own), along, end - 15.0 - along, 20.0);
+  ASSERT_TRUE(late);
+  take_path(std::move(*late), along, own, here_.road, here_.scene);
+  here_.move(own, end - 15.0);
+  here_.add("car", {"WC", "CE", "EL"}, end - 14.5, 0, 0, -1, "WC_1");
+  here_.update();
+  let_all_look(here_);
+  EXPECT_EQ(lane_at(here_.path(own), end - 2.0), "WC_0");
+  EXPECT_FALSE(std::isfinite(here_.scene.gate[own]));
+}
+
+// side by side they came to the end of their lanes, and stood there for minutes
+TEST(Swap, OfTwoAbreastWhoWantEachOthersLaneOneLetsTheOtherAhead) {
+  RoadScene here(testing::read_plain_net(two_lanes()));
+  const std::size_t right = here.add("car", {"WE"}, 60, 7, 0, -1, "WE_0");
+  const std::size_t left = here.add("car", {"WE"}, 60.5, 7, 0, -1, "WE_1");
+  const auto& lanes = here.model.road.lane_by_name;
+  here.update(2);
+  const double before = here.context(right).allowed_speed;
+  here.scene.merge_to[right] = lanes.at("WE_1");
+  here.scene.merge_to[left] = lanes.at("WE_0");
+  here.update(2);
+  EXPECT_LT(here.context(right).allowed_speed, before - 0.05);
+  EXPECT_EQ(here.context(right).foe, static_cast<std::int64_t>(here.scene.id[left].value));
+  EXPECT_NE(here.context(left).foe, static_cast<std::int64_t>(here.scene.id[right].value));
+}
+
+// who was ahead stood at the end of its lane for 360 s, since the other waited beside it
+TEST(Swap, NobodyWaitsForWhoWaitsForItToGetOutOfTheWay) {
+  RoadScene here(testing::read_plain_net(two_lanes()));
+  const std::size_t right = here.add("car", {"WE"}, 60, 0, 0, -1, "WE_0");
+  const std::size_t left = here.add("car", {"WE"}, 60.5, 0, 0, -1, "WE_1");
+  here.move(left, 60.5, -0.4);
+  const auto& lanes = here.model.road.lane_by_name;
+  here.scene.merge_to[right] = lanes.at("WE_1");
+  here.scene.merge_to[left] = lanes.at("WE_0");
+  here.update(2);
+  EXPECT_EQ(here.context(right).allowed_speed, 0.0);
+  here.scene.gate[left] = 62;
+  here.scene.standing_time[left] = 3;
+  here.update(2);
+  EXPECT_GT(here.context(right).allowed_speed, 0.3);
+}
+
+// a car changed over and back within the last 15 m of its lane, into a motorcycle behind it
+TEST_F(NoGap, NobodyChangesWhoHasNoRoomLeftToChangeBackIn) {
+  const LaneId other = here_.model.road.lane_by_name.at("CE_0");
+  for (const double place : {5.0, 20.0}) {
+    const std::size_t own = here_.add("car", {"CE", "EL"}, place, 5, 0, -1, "CE_1");
+    double along = here_.scene.path_along[own];
+    const auto changed = change_lane(here_.model.road, here_.path(own), along, other, 12.0, 20.0);
+    EXPECT_EQ(changed.has_value(), place < 10.0) << place;
+  }
+}
+
+TEST_F(NoGap, NarrowVehiclesChangeLanesInLess) {
+  const LaneId lane = here_.model.road.lane_by_name.at("WC_0");
+  const double end = here_.model.road.lane(lane).centerline.length();
+  for (const double turning_radius : {1.7, 4.5}) {
+    const std::vector<EdgeId> route = testing::route_of(here_.model.road, {"WC", "CE", "EL"});
+    PathRequest request;
+    request.route = route;
+    request.vehicle_class = vehicle_class::kMotorcycle;
+    request.start_lane = lane;
+    request.cornering.turning_radius = turning_radius;
+    std::string why;
+    const auto path = build_driving_path(here_.model.road, request, why);
+    ASSERT_TRUE(path) << why;
+    double along = 5.0;
+    const auto late = stay_in_lane(here_.model.road, *path, along, end - 9.0 - along, 20.0);
+    EXPECT_EQ(late.has_value(), turning_radius < 2.0);
+  }
+}
+
+/// Puts off the lane change of a row as long as there is room for it, and the row a metre before
+/// it. Where it begins [m along the path].
+double wait_at_gate(RoadScene& here, std::size_t row) {
+  double along = here.scene.path_along[row];
+  for (double room = 40.0; room > 0.0; room -= 1.0) {
+    auto late = stay_in_lane(here.model.road, here.path(row), along, room, 20.0);
+    if (!late) continue;
+    take_path(std::move(*late), along, row, here.road, here.scene);
+    break;
+  }
+  const auto& stretches = here.path(row).stretches;
+  const auto change = std::find_if(stretches.begin(), stretches.end(),
+                                   [](const PathStretch& stretch) { return stretch.changing; });
+  if (change == stretches.end()) throw std::runtime_error("the row changes no lane");
+  here.move(row, change->from - 1.0);
+  return change->from;
+}
+
+/// Moves a row along its path to where x is this [m].
+void move_to_x(RoadScene& here, std::size_t row, double x) {
+  here.move(row, here.path(row).line.project(Vec2(x, here.scene.position[row].y())).along);
+}
+
+// A bus that has to change into the lane beside, at the end of its own, in a queue: whoever was
+// beside its tail was neither before nor behind it, and it stood there for minutes.
+class LongWait : public ::testing::Test {
+ protected:
+  LongWait() : bus_(here_.add("bus", {"CE", "EL"}, 0, 0, 0, -1, "CE_0")) {
+    const double gate = wait_at_gate(here_, bus_);
+    here_.scene.gate[bus_] = gate;
+    here_.scene.merge_to[bus_] = here_.model.road.lane_by_name.at("CE_1");
+    here_.scene.standing_time[bus_] = 12;
+  }
+  /// A car in the lane beside whose nose is so far behind the one of the bus [m].
+  std::size_t add_car(double behind, double speed) {
+    const std::size_t car = here_.add("car", {"CE", "EL"}, 5, speed, 0, -1, "CE_1");
+    const double nose = here_.scene.position[bus_].x() + 6.0 - behind;
+    move_to_x(here_, car, nose - 2.25);
+    return car;
+  }
+  bool lets_in(std::size_t car) {
+    here_.update();
+    DrivingAhead ahead;
+    find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, car, 60.0, ahead);
+    return ahead.merging.id == static_cast<std::int64_t>(here_.scene.id[bus_].value);
+  }
+  bool waits_on() {
+    let_all_look(here_);
+    return std::isfinite(here_.scene.gate[bus_]);
+  }
+  RoadScene here_{testing::read_plain_net(both_lanes_lead_on())};
+  std::size_t bus_ = 0;
+};
+
+TEST_F(LongWait, WhoIsBesideTheTailLetsTheNoseIn) {
+  const std::size_t car = add_car(4.0, 1.0);
+  EXPECT_TRUE(lets_in(car));
+  EXPECT_EQ(here_.context(car).foe, static_cast<std::int64_t>(here_.scene.id[bus_].value));
+  here_.scene.standing_time[bus_] = 5;
+  EXPECT_FALSE(lets_in(car)) << "it has just come";
+  here_.scene.standing_time[bus_] = 12;
+  here_.scene.standing_time[car] = 30;
+  EXPECT_FALSE(lets_in(car)) << "there is an end to courtesy";
+}
+TEST_F(LongWait, WhoseNoseIsNearTheNoseGoesOn) { EXPECT_FALSE(lets_in(add_car(1.0, 1.0))); }
+
+TEST_F(LongWait, IsOverOnceWhoIsBesideTheTailHolds) {
+  const std::size_t car = add_car(3.0, 0.0);
+  here_.update();
+  here_.scene.context[car] = {};
+  EXPECT_TRUE(waits_on()) << "nobody holds yet";
+  ASSERT_TRUE(lets_in(car));
+  EXPECT_LT(here_.context(car).allowed_speed, 0.3);
+  EXPECT_FALSE(waits_on());
+}
+
+// in a queue that crept on nobody let it in over 180 m, since it never stood for long
+TEST_F(LongWait, CreepingOnIsWaitingToo) {
+  const std::size_t car = add_car(4.0, 1.0);
+  here_.scene.standing_time[bus_] = 0.0;
+  const auto lets_it_in = [&](double waiting, double speed) {
+    here_.scene.waiting_time[bus_] = waiting;
+    here_.set_speed(bus_, speed);
+    return lets_in(car);
+  };
+  EXPECT_TRUE(lets_it_in(15.0, 1.0));
+  EXPECT_FALSE(lets_it_in(5.0, 1.0)) << "not for long";
+  EXPECT_FALSE(lets_it_in(15.0, 6.0)) << "it gets on";
+}
+
+// whom others had let in drove on beside the queue, past its gap
+TEST_F(LongWait, WhoIsLetInStaysWhereTheGapIs) {
+  const std::size_t car = add_car(4.0, 0.0);
+  here_.add("car", {"CE", "EL"}, here_.scene.position[bus_].x() - 145.0, 0, 0, -1, "CE_1");
+  here_.scene.standing_time[bus_] = 0.0;
+  here_.set_speed(bus_, 1.0);
+  here_.update();
+  for (const bool holds : {false, true}) {
+    here_.scene.context[car].foe =
+        holds ? static_cast<std::int64_t>(here_.scene.id[bus_].value) : -1;
+    EXPECT_TRUE(waits_on());
+    EXPECT_EQ(here_.scene.gate[bus_] <= here_.scene.path_along[bus_], holds);
+  }
+}
+
+/// A road of three lanes, of which the middle one alone leads on.
+PlainNet middle_lane_leads_on() {
+  PlainNet net;
+  net.nodes = "<node id='W' x='0' y='0'/><node id='M' x='120' y='0'/><node id='E' x='200' y='0'/>";
+  net.edges =
+      "<edge id='WM' from='W' to='M' numLanes='3' speed='13.89'/>"
+      "<edge id='ME' from='M' to='E' numLanes='1' speed='13.89'/>";
+  net.connections = "<connection from='WM' to='ME' fromLane='1' toLane='0'/>";
+  return net;
+}
+
+// From the right lane of three into the middle one.
+class IntoTheMiddle : public ::testing::Test {
+ protected:
+  std::size_t add(const std::string& type, const std::string& lane) {
+    const std::size_t row = here_.add(type, {"WM", "ME"}, 0, 0, 60, -1, lane);
+    wait_at_gate(here_, row);
+    return row;
+  }
+  bool waits(std::size_t row) {
+    here_.update();
+    let_all_look(here_);
+    return std::isfinite(here_.scene.gate[row]);
+  }
+  RoadScene here_{testing::read_plain_net(middle_lane_leads_on())};
+};
+
+// one held amid its change for the other, which took it for somebody about to go: a whole green
+// long
+TEST_F(IntoTheMiddle, WhoHasHaltedOnTheOtherSideDoesNotContestIt) {
+  const std::size_t other = add("car", "WM_2"), own = add("car", "WM_0");
+  move_to_x(here_, other, here_.scene.position[own].x() - 1.0);
+  EXPECT_TRUE(waits(own));
+  here_.scene.standing_time[other] = 3.0;
+  EXPECT_FALSE(waits(own));
+}
+TEST_F(IntoTheMiddle, NorDoesWhoLetsItGoFirst) {
+  const std::size_t other = add("car", "WM_2"), own = add("car", "WM_0");
+  move_to_x(here_, other, here_.scene.position[own].x() - 1.0);
+  here_.update();
+  here_.scene.context[other].foe = static_cast<std::int64_t>(here_.scene.id[own].value);
+  let_all_look(here_);
+  EXPECT_FALSE(std::isfinite(here_.scene.gate[own]));
+}
+
+// where its path moves over already, somebody two lanes further on counted as in the next one
+TEST_F(IntoTheMiddle, WhoIsTwoLanesAsideIsNotInTheWay) {
+  const std::size_t own = add("bus", "WM_0");
+  const std::size_t other = here_.add("bus", {"WM"}, 60, 0, 0, -1, "WM_2");
+  for (double ahead = -2.0; ahead < 8.0; ahead += 1.0) {
+    move_to_x(here_, other, here_.scene.position[own].x() + ahead);
+    EXPECT_FALSE(waits(own)) << ahead;
+  }
+}
+
+TEST_F(IntoTheMiddle, WhomItsPathComesUpToOnlyThereIsFollowed) {
+  const std::size_t own = add("car", "WM_0");
+  here_.set_speed(own, 6.0);
+  const std::size_t other = here_.add("car", {"WM", "ME"}, 60, 0, 0, -1, "WM_1");
+  const auto& stretches = here_.path(own).stretches;
+  const auto change = std::find_if(stretches.begin(), stretches.end(),
+                                   [](const PathStretch& stretch) { return stretch.changing; });
+  move_to_x(here_, other, here_.path(own).line.point_at(change->to + 1.0).x());
+  EXPECT_FALSE(waits(own));
+  move_to_x(here_, other, here_.path(own).line.point_at(change->to - 3.0).x());
+  EXPECT_TRUE(waits(own));
+}
+
+// the one stood 4 cm too far ahead for the other, and neither went
+TEST_F(LongWait, IsOverAlsoWhereWhoHoldsHasRolledOnByAHandsBreadth) {
+  const std::size_t car = add_car(2.95, 0.0);
+  here_.update();
+  here_.scene.context[car].foe = static_cast<std::int64_t>(here_.scene.id[bus_].value);
+  EXPECT_FALSE(waits_on());
+}
+
+// of two motorcycles abreast that wanted each other's lane one rolled back, and the other stayed
+TEST(Swap, WhoHasRolledBackToLetOthersGoLeavesTheWayForANose) {
+  RoadScene here(testing::read_plain_net(both_lanes_lead_on()));
+  const std::size_t own = here.add("motorcycle", {"CE", "EL"}, 0, 0, 0, -1, "CE_0");
+  wait_at_gate(here, own);
+  const double x = here.scene.position[own].x();
+  const std::size_t other = here.add("motorcycle", {"CE", "EL"}, 5, 0, 0, -1, "CE_1");
+  const auto waits = [&](double behind, double gives_way) {
+    move_to_x(here, other, x - behind);
+    here.scene.gives_way_left[other] = gives_way;
+    here.update();
+    let_all_look(here);
+    return std::isfinite(here.scene.gate[own]);
+  };
+  EXPECT_TRUE(waits(1.6, 0.0));
+  EXPECT_FALSE(waits(1.6, 5.0));
+  EXPECT_TRUE(waits(0.6, 5.0)) << "its nose is beside the own one";
+}
+
+// the lane was two metres long: everybody was on the junction before it, and nobody let anybody in
+TEST_F(LongWait, WhoIsOnItsWayIntoThatLaneLetsItIn) {
+  const std::size_t car = here_.add("car", {"WC", "CE", "EL"}, 100, 4, 0, -1, "WC_1");
+  here_.move(car, here_.path(car).links.front().stop_line - 4.0);
+  here_.move(bus_, 8.0);
+  EXPECT_TRUE(lets_in(car));
+  const std::size_t other = here_.add("car", {"WC"}, 140, 4, 0, -1, "WC_1");
+  EXPECT_FALSE(lets_in(other)) << "it doesn't get there";
+}
+
+// somebody who stood behind the begin of its path counted as beside it, and it waited for ever
+TEST(Surrounding, WhoIsBehindTheBeginOfAPathIsSeenWhereItIs) {
+  RoadScene here(testing::read_plain_net(both_lanes_lead_on()));
+  const std::size_t own = here.add("car", {"CE", "EL"}, 5, 0, 0, -1, "CE_0");
+  const std::size_t behind = here.add("car", {"WC", "CE", "EL"}, 0, 0, 0, -1, "WC_0");
+  here.move(behind, here.path(behind).links.front().stop_line - 1.0);
+  here.update();
+  Surroundings around;
+  look_around(here.model, here.road, here.scene, here.geometry.grid, own, 60.0, 8.0, around);
+  const Vec2 way = here.scene.position[behind] - here.scene.position[own];
+  ASSERT_LT(here.scene.path_along[own] + way.x(), -0.5) << "behind its begin";
+  ASSERT_EQ(around.users.size(), 1u);
+  const RoadUser& user = around.users.front();
+  EXPECT_NEAR(user.offset, way.y(), 0.05);
+  EXPECT_NEAR(0.5 * (user.front + user.rear), around.along + way.x(), 0.05);
+}
+
+// who rolled over it by a hair had begun its change, whoever was beside
+TEST(Gate, IsHaltedAtALittleBefore) {
+  RoadScene here(testing::read_plain_net(two_lanes()));
+  const std::size_t own = here.add("car", {"WE"}, 60, 0);
+  here.scene.gate[own] = 60.2;
+  here.update();
+  EXPECT_EQ(here.context(own).reason, LimitReason::Merge);
+  EXPECT_EQ(here.context(own).allowed_speed, 0.0);
+  here.scene.gate[own] = 63.0;
+  here.update();
+  EXPECT_GT(here.context(own).allowed_speed, 0.0);
+}
+
+}  // namespace
+}  // namespace sumogamma
