@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "model/approaches.h"
-#include "model/following.h"
 #include "model/free_entry.h"
-#include "model/leader.h"
+#include "model/lane_gap.h"
 #include "model/locate.h"
 #include "model/overtaking.h"
 #include "model/passing.h"
@@ -32,98 +30,6 @@ constexpr double kSidewalk = 8.0, kWalls = 4.0, kAside = 4.5;
 
 double look_ahead(const Scene& scene, std::size_t row) {
   return std::min(30.0 + 3.0 * scene.speed[row], 100.0);
-}
-
-double smooth_step(double t) { return t * t * (3.0 - 2.0 * t); }
-
-/// The lane beside, in the coordinates of a path that may move over to it.
-struct LaneBeside {
-  double shift = 0;  ///< of its middle beside the lane that the path leaves [m, positive left]
-  double from =
-      std::numeric_limits<double>::infinity();  ///< where the path moves over [m along it]
-  double to = std::numeric_limits<double>::infinity();
-
-  /// Its middle beside the path there [m].
-  double offset_at(double along) const {
-    return along <= from ? shift
-                         : shift * (1.0 - smooth_step(std::min((along - from) / (to - from), 1.0)));
-  }
-};
-
-/// Would moving over to `lane` force nobody to brake harder than `braking` [m/s^2], oneself
-/// included, and leave everybody a third of a second?
-bool is_safe(const Scene& scene, const Surroundings& around, std::size_t row,
-             const LaneBeside& lane, double braking) {
-  constexpr double kLeast = 0.5, kLeastTime = 0.35;  // [m], [s]
-  constexpr double kClose = 0.3, kCloseTime = 0.15;  // [m], [s]
-  constexpr double kCourtesy = 2.0, kLeft = 0.4;     // [m/s^2], [m]
-  constexpr double kHolds = 0.3, kTooFar = 0.3;      // [m/s], [m]
-  const double front = around.along + around.half_length, rear = around.along - around.half_length;
-  for (const RoadUser& user : around.users) {
-    const double middle = 0.5 * (user.rear + user.front);
-    const double aside = user.offset - lane.offset_at(middle);
-    // whom the path comes up to only in that lane is followed anyway; on the way over it is askew
-    const double half_width =
-        std::min(user.half_width, half_extent(scene, user.row, left_of(around.tangent)));
-    if (middle > lane.to || std::abs(aside) > half_width + around.half_width + 0.3) continue;
-    // who lets us in keeps no headway for it, but brakes no harder than is courteous
-    const bool lets_us_in =
-        user.front < front &&
-        scene.context[user.row].foe == static_cast<std::int64_t>(scene.id[row].value);
-    if (user.rear < front && user.front > rear) {
-      // who stands beside our tail and holds, or has stepped back to let others go first, leaves
-      // the way for our nose
-      const bool holds = lets_us_in || scene.gives_way_left[user.row] > 0.0;
-      const double room = nose_room(2.0 * around.half_length);
-      if (holds && user.front < front - room + kTooFar && user.speed < kHolds) continue;
-      return false;
-    }
-    const bool ahead = user.rear >= front;
-    const double gap = ahead ? user.rear - front : rear - user.front;
-    const Vec2 tangent = around.tangent;
-    auto acceleration = [&](std::size_t who) { return scene.acceleration[who].dot(tangent); };
-    const double behind_speed = std::max(ahead ? around.speed : user.speed, 0.0);
-    const Followed followed{gap - kLeft, ahead ? user.speed : around.speed,
-                            acceleration(ahead ? user.row : row)};
-    const double needed = braking_behind(behind_speed, followed);
-    const double least =
-        lets_us_in ? kClose + kCloseTime * behind_speed : kLeast + kLeastTime * behind_speed;
-    if (gap < least || needed > (lets_us_in ? kCourtesy : braking)) return false;
-  }
-  return true;
-}
-
-/// Is somebody beside about to change into the same lane, from its other side, before this agent?
-/// Not who lets it go first, or has halted amid that.
-bool is_contested(const Scene& scene, const Surroundings& around, std::size_t row, LaneId target,
-                  const LaneBeside& lane) {
-  constexpr double kHalts = 2.0;  // [s]
-  const double front = around.along + around.half_length, rear = around.along - around.half_length;
-  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
-    const double aside = user.offset - lane.offset_at(0.5 * (user.rear + user.front));
-    const bool waits =
-        std::isfinite(scene.gate[user.row]) || scene.standing_time[user.row] > kHalts ||
-        scene.context[user.row].foe == static_cast<std::int64_t>(scene.id[row].value);
-    return aside * lane.shift > 0.0 && scene.merge_to[user.row] == target && !waits &&
-           user.rear < front + 2.0 && user.front > rear - 2.0 &&
-           (scene.merge_to[row] != target || scene.id[user.row] < scene.id[row]);
-  });
-}
-
-/// Is somebody who goes the same way in the way beside an agent that changes lanes, its nose
-/// ahead? Then that one goes first; who is behind lets the agent in. Who waits there for a gap
-/// itself doesn't go.
-bool is_beside(const Scene& scene, const Surroundings& around) {
-  constexpr double kSide = 0.3;   // [m]
-  constexpr double kWaits = 1.0;  // [s]
-  const double front = around.along + around.half_length;
-  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
-    const bool waits =
-        std::isfinite(scene.gate[user.row]) && scene.standing_time[user.row] > kWaits;
-    return user.aligned && !waits && user.rear < front && user.front > front &&
-           std::abs(user.offset) < user.half_width + around.half_width + kSide &&
-           std::abs(user.offset - around.offset) > user.half_width + around.half_width - kSide;
-  });
 }
 
 /// How far aside the middle of a neighbouring lane of the same edge lies [m, positive left].
@@ -176,25 +82,13 @@ LaneId better_lane(const Model& model, const LaneQueues& queues, const Path& pat
     const double shift = shift_to(model, lane, other);
     const double there =
         hoped_speed(around, shift, std::min(free_speed, other.speed_limit * 1.2), 0.3);
-    if (there <= most || there < kSlowest || !is_safe(scene, around, row, {shift}, kSafeBraking) ||
+    if (there <= most || there < kSlowest || !is_gap(scene, around, row, {shift}, kSafeBraking) ||
         run_together_soon(model, path, around.along, id))
       continue;
     most = there;
     best = id;
   }
   return best;
-}
-
-/// Does somebody in the lane beside hold for this agent, its nose behind?
-bool is_let_in(const Scene& scene, const Surroundings& around, std::size_t row,
-               const LaneBeside& lane) {
-  const double nose = around.along + around.half_length - nose_room(2.0 * around.half_length);
-  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
-    const double middle = 0.5 * (user.rear + user.front);
-    return user.front < nose + 0.3 &&
-           scene.context[user.row].foe == static_cast<std::int64_t>(scene.id[row].value) &&
-           std::abs(user.offset - lane.offset_at(middle)) < user.half_width + around.half_width;
-  });
 }
 
 /// The next planned lane change of a path from `along` on; null where none begins within `reach`.
@@ -217,7 +111,7 @@ bool filters(const Scene& scene, const Surroundings& around, std::size_t row) {
 /// closes the gate at its begin while there is none.
 void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
                   const Surroundings& around, std::size_t row, LaneIntent& intent) {
-  constexpr double kPressed = 3.0;  // [m/s^2]
+  constexpr double kPressed = 3.0, kCreeps = 3.0;  // [m/s^2], [m/s]
   const PathStretch& here = path.stretch_at(around.along);
   if (here.changing) {
     // who goes on between the lanes is in no lane's way until it has got past
@@ -238,10 +132,10 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   const LaneBeside beside{shift_to(model, from, to), change->from, change->to};
   const double braking = speed < 2.0 ? kPressed : kSafeBraking;
   if (!is_contested(scene, around, row, change->lane, beside) &&
-      is_safe(scene, around, row, beside, braking))
+      is_gap(scene, around, row, beside, braking))
     return;
   // who is let in doesn't drive on past the gap
-  if (speed < 3.0 && is_let_in(scene, around, row, beside)) {
+  if (speed < kCreeps && is_let_in(scene, around, row, beside)) {
     intent.gate = around.along;
     return;
   }

@@ -80,8 +80,10 @@ void keep_off_red_crossings(const RoadView& view, const Course& course, RoadCont
     Vec2 way = way_onto(crossing, position);
     const double distance = way.norm();
     if (distance == 0.0 || distance > kNear) return;
-    const bool crosses = std::any_of(
-        own.begin(), own.end(), [&](const PathStretch& stretch) { return stretch.lane == beside; });
+    // nor does who goes round others come back onto the one that lies behind it
+    const bool crosses = std::any_of(own.begin(), own.end(), [&](const PathStretch& stretch) {
+      return stretch.lane == beside && stretch.to > course.along;
+    });
     if (crosses && !waits) return;
     const double extent = half_extent(view.scene, course.row, way / distance);
     way *= std::max(distance - extent, kLeastWay) / distance;

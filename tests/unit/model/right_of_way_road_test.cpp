@@ -1191,6 +1191,30 @@ TEST_F(WalkersAtRed, WhoWaitsBesideItsCrossingIsKeptOffIt) {
 
 // a lorry stood a whole green before somebody who waited on an island of 0.6 m with a foot on its
 // side
+// it had crossed, met a crowd at the other kerb, and went round that over the crossing again
+TEST_F(WalkersAtRed, WhoHasCrossedIsKeptOffTheCrossingBehindIt) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.3, 195, 5);
+  const Path& path = here_.path(walker);
+  const auto crossing =
+      std::find_if(path.stretches.begin(), path.stretches.end(), [&](const PathStretch& stretch) {
+        return here_.model.road.lane(stretch.lane).kind == LaneKind::Crossing;
+      });
+  ASSERT_NE(crossing, path.stretches.end());
+  const Lane& lane = here_.model.road.lane(crossing->lane);
+  const Vec2 across = path.line.direction_at(0.5 * (crossing->from + crossing->to));
+  const double half = 0.5 * lane.centerline.length();
+  const Vec2 far_end = lane.centerline.point_at(half) + half * across;
+  here_.move(walker, crossing->to + 0.6);
+  here_.scene.position[walker] = far_end + 0.6 * across;
+  here_.update();
+  EXPECT_LT((here_.context(walker).to_red[0] + 0.4 * across).norm(), 0.15);
+  here_.move(walker, crossing->to - 0.6);
+  here_.scene.position[walker] = far_end - 0.6 * across;
+  here_.update();
+  for (const Vec2& way : here_.context(walker).to_red)
+    EXPECT_GE(way.dot(across), -1e-9) << "it is on it";
+}
+
 TEST_F(WalkersAtRed, OnANarrowIslandPeopleStandInItsMiddle) {
   const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.3, 195, 5);
   Path path = here_.path(walker);
