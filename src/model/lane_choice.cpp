@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/approaches.h"
 #include "model/free_entry.h"
 #include "model/lane_gap.h"
 #include "model/locate.h"

@@ -1,7 +1,6 @@
 // Narrow vehicles between queues: places, speeds, and who is first.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "model/lane_choice.h"
