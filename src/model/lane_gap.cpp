@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/smooth_step.h"
 #include "model/approaches.h"
 #include "model/following.h"
 #include "model/leader.h"
@@ -10,8 +11,6 @@
 namespace sumogamma {
 
 namespace {
-
-double smooth_step(double t) { return t * t * (3.0 - 2.0 * t); }
 
 /// How far somebody's middle is beside the middle of the lane [m].
 double aside_of(const RoadUser& user, const LaneBeside& lane) {

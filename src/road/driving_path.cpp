@@ -2,6 +2,7 @@
 #include <limits>
 #include <memory>
 
+#include "geometry/smooth_step.h"
 #include "road/path.h"
 #include "road/path_profile.h"
 
@@ -89,9 +90,6 @@ std::vector<std::vector<LaneOption>> plan_lanes(const RoadNetwork& network,
   }
   return plan;
 }
-
-/// From 0 at 0 to 1 at 1, level at both.
-double smooth_step(double t) { return t * t * (3.0 - 2.0 * t); }
 
 class Builder {
  public:
