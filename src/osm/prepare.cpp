@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/units.h"
+#include "osm/doubled_roads.h"
 #include "osm/round_bends.h"
 
 namespace sumogamma::osm {
@@ -215,6 +216,8 @@ void normalise_sidewalk(MapWay& way, IssueLog& log) {
           way_name(way));
 }
 
+}  // namespace
+
 bool is_one_way(const MapWay& way) {
   if (tag_is(way.tags, "oneway", {"yes", "1", "true", "-1", "reverse"})) return true;
   if (tag_is(way.tags, "oneway", {"no", "0", "false"})) return false;
@@ -223,6 +226,14 @@ bool is_one_way(const MapWay& way) {
 }
 
 bool is_reversed(const MapWay& way) { return tag_is(way.tags, "oneway", {"-1", "reverse"}); }
+
+int road_class(const MapWay& way) {
+  const std::string& highway = tag(way.tags, "highway");
+  const auto* const found = std::find(std::begin(kCarWays), std::end(kCarWays), highway);
+  return static_cast<int>(found - std::begin(kCarWays));
+}
+
+namespace {
 
 /// "a||c" for "c||a".
 std::string reversed_list(const std::string& list) {
@@ -669,6 +680,7 @@ void filter_restrictions(OsmMap& map, IssueLog& log) {
 void prepare_map(OsmMap& map, const PrepareOptions& options, IssueLog& log) {
   select_ways(map, log);
   normalise_tags(map, log);
+  drop_doubled_roads(map, log);
   if (options.left_hand) reverse_turn_lanes(map, log);
   if (options.clip) {
     clip_ways(map, options.box.grown(options.clip_margin), log);

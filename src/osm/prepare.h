@@ -63,12 +63,19 @@ SignsByJunction find_signs(const OsmMap& map, const char* kind, double reach);
 /// Drops turn restrictions that lost a member or no longer join at their via node.
 void filter_restrictions(OsmMap& map, IssueLog& log);
 
-/// All of the above.
+/// All of the above, with roads drawn twice dropped after the tags (doubled_roads.h) and bends
+/// rounded after the signals (round_bends.h).
 void prepare_map(OsmMap& map, const PrepareOptions& options, IssueLog& log);
 
 /// True for a way that cars may use by its highway tag.
 bool is_car_way(const MapWay& way);
 /// True for a way that only people on foot or on bicycles use by its highway tag.
 bool is_path_way(const MapWay& way);
+/// True for a way whose traffic goes one way only, by its tags or by what kind of road it is.
+bool is_one_way(const MapWay& way);
+/// True for a one-way road against the order of its nodes.
+bool is_reversed(const MapWay& way);
+/// Place of a road among the classes, 0 for motorways; behind all of them for other ways.
+int road_class(const MapWay& way);
 
 }  // namespace sumogamma::osm
