@@ -10,6 +10,7 @@
 
 #include "geometry/simplify.h"
 #include "geometry/vec2.h"
+#include "osm/hairpins.h"
 #include "osm/prepare.h"
 
 namespace sumogamma::osm {
@@ -18,7 +19,7 @@ namespace {
 constexpr double kRadius = 15.0;     // [m] least of a road's middle
 constexpr double kTighter = 0.9;     // of the radius, where a bend would move too far
 constexpr double kFarthest = 4.0;    // [m] that a point moves; maps are off by as much
-constexpr double kHairpin = 7.0;     // [m] least radius where the inside has no room for more
+constexpr double kHairpin = 7.0;     // [m] radius of the bulb that a hairpin becomes
 constexpr double kFromEnds = 15.0;   // [m] along the road from a junction, which netconvert shapes
 constexpr double kLeast = 0.5;       // [m] a move that is not worth new points
 constexpr double kSpacing = 1.5;     // [m] of the points that move
@@ -81,6 +82,14 @@ std::vector<Road> find_roads(const OsmMap& map) {
   return roads;
 }
 
+/// Nodes that one-way roads lead over.
+std::set<std::int64_t> find_one_way(const OsmMap& map) {
+  std::set<std::int64_t> nodes;
+  for (const MapWay& way : map.ways)
+    if (is_car_way(way) && is_one_way(way)) nodes.insert(way.nodes.begin(), way.nodes.end());
+  return nodes;
+}
+
 /// A road's line with points 1.5 m apart.
 struct Line {
   std::vector<Vec2> points;         ///< [m]
@@ -132,25 +141,6 @@ std::vector<Vec2> ease(std::vector<Vec2> points, const std::vector<double>& radi
   return points;
 }
 
-/// Eases a line by moving each point towards the inside and those beside it as much towards the
-/// outside, so that a hairpin becomes a bulb instead of shorter.
-std::vector<Vec2> widen(std::vector<Vec2> points, const std::vector<double>& radii) {
-  for (int round = 0; round < kRounds; ++round) {
-    double farthest = 0;
-    for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-      if (radii[i] <= 0) continue;
-      const Vec2 inwards =
-          0.25 * (eased(points[i - 1], points[i], points[i + 1], radii[i]) - points[i]);
-      farthest = std::max(farthest, inwards.norm());
-      points[i] += 2.0 * inwards;
-      for (const std::size_t beside : {i - 1, i + 1})
-        if (radii[beside] > 0) points[beside] -= inwards;
-    }
-    if (farthest <= kStill) break;
-  }
-  return points;
-}
-
 /// A radius for the points of a line, none for those near its ends, which stay.
 std::vector<double> radii_along(const std::vector<Vec2>& points, double radius) {
   std::vector<double> along{0};
@@ -162,13 +152,11 @@ std::vector<double> radii_along(const std::vector<Vec2>& points, double radius) 
   return radii;
 }
 
-/// The line as `move` eases it: a bend that would move too far with a smaller radius, one that
-/// hardly moves not at all.
-template <typename Move>
-std::vector<Vec2> fitted(const std::vector<Vec2>& drawn, double radius, Move move) {
-  std::vector<double> radii = radii_along(drawn, radius);
+/// The eased line: a bend that would move too far with a smaller radius, one that hardly moves not
+/// at all. `radii` are by point, 0 for those that stay.
+std::vector<Vec2> fitted(const std::vector<Vec2>& drawn, std::vector<double> radii) {
   for (;;) {
-    std::vector<Vec2> points = move(drawn, radii);
+    std::vector<Vec2> points = ease(drawn, radii);
     bool again = false;
     const auto moved = [&](std::size_t i) { return (points[i] - drawn[i]).norm(); };
     for (std::size_t first = 0, last = 0; first < points.size(); first = last + 1) {
@@ -224,10 +212,16 @@ void insert(const Added& added, MapWay& way) {
 
 void round_bends(OsmMap& map, IssueLog& log) {
   Added added;
+  const std::set<std::int64_t> one_way = find_one_way(map);
   for (const Road& road : find_roads(map)) {
     const LocalMetric metric(map.nodes.at(road.front()).place);
     Line line = draw(map, metric, road);
-    const std::vector<Vec2> points = fitted(fitted(line.points, kRadius, ease), kHairpin, widen);
+    const std::vector<double> radii = radii_along(line.points, kRadius);
+    // where two one-way roads meet in a point they are an entry and an exit, and no hairpin
+    const bool two_way = std::none_of(road.begin() + 1, road.end() - 1,
+                                      [&](std::int64_t node) { return one_way.contains(node); });
+    const std::vector<Vec2> points =
+        fitted(two_way ? open_hairpins(line.points, radii, kHairpin) : line.points, radii);
     if (points == line.points) continue;
     line.points = points;
     redraw(road, line, metric, map, added);
