@@ -10,6 +10,7 @@
 
 #include "geometry/simplify.h"
 #include "geometry/vec2.h"
+#include "osm/coarse_rings.h"
 #include "osm/hairpins.h"
 #include "osm/prepare.h"
 
@@ -228,6 +229,15 @@ void round_bends(OsmMap& map, IssueLog& log) {
     log.add(Severity::Note, "bends_rounded",
             "roads drawn with corners between junctions, where they were rounded",
             "node/" + std::to_string(road[road.size() / 2]));
+  }
+  for (const RingArc& arc : coarse_ring_arcs(map)) {
+    std::vector<std::int64_t>& nodes = added[{arc.from, arc.to}];
+    for (const GeoPoint place : arc.between) {
+      nodes.push_back(map.new_id());
+      map.nodes[nodes.back()].place = place;
+    }
+    log.add(Severity::Note, "rings_rounded", "roundabouts drawn with few points, made round",
+            "node/" + std::to_string(arc.from));
   }
   for (MapWay& way : map.ways)
     if (is_car_way(way)) insert(added, way);

@@ -10,8 +10,8 @@ namespace sumogamma::osm {
 /// road's middle then turns with a radius of less than 15 m (about the least for streets with buses
 /// in guidelines) its points move towards the inside of the bend, by 4 m at the most, and points
 /// are added where the line needs them. What lies on other ways in the same nodes moves along.
-/// Junctions with 15 m of road at each, ends of roads, roundabouts, and bends that would move by
-/// less than half a metre stay as they are.
+/// Junctions with 15 m of road at each, ends of roads, roundabouts but for arcs drawn with few
+/// points (coarse_rings.h), and bends that would move by less than half a metre stay as they are.
 void round_bends(OsmMap& map, IssueLog& log);
 
 }  // namespace sumogamma::osm

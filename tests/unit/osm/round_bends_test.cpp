@@ -129,16 +129,20 @@ TEST_F(RoundBendsTest, ABendGoesOnOverTheEndsOfWays) {
   EXPECT_THAT(b.find_way(12)->nodes, ElementsAre(2, 4)) << "the footway moves along";
 }
 
-TEST_F(RoundBendsTest, RoundaboutsAndPathsStay) {
+TEST_F(RoundBendsTest, RoundaboutsAreDrawnRoundAndPathsStay) {
   b.node(1, 0, 0).node(2, 40, 0).node(3, 40, 40).node(4, 0, 40).node(5, 150, 0).node(6, -80, 0);
   b.way(10, {1, 2, 3, 4, 1}, {{"highway", "tertiary"}, {"junction", "roundabout"}});
   b.way(11, {2, 5}, kStreet).way(12, {6, 1}, kStreet);
   b.node(7, 300, 0).node(8, 400, 0).node(9, 400, 100).way(13, {7, 8, 9}, {{"highway", "footway"}});
   round();
-  EXPECT_THAT(b.find_way(10)->nodes, SizeIs(5));
+  EXPECT_THAT(b.find_way(10)->nodes, testing::IsSupersetOf({1, 2, 3, 4}));
+  for (const Vec2& point : line(10))
+    EXPECT_NEAR((point - Vec2(20, 20)).norm(), std::sqrt(800), 0.1);
+  EXPECT_LT(sharpest(10), 16.0);
   EXPECT_THAT(b.find_way(11)->nodes, SizeIs(2));
   EXPECT_THAT(b.find_way(13)->nodes, SizeIs(3));
   EXPECT_EQ(b.log.count("bends_rounded"), 0);
+  EXPECT_EQ(b.log.count("rings_rounded"), 4);
 }
 
 // a loop road begins and ends in one junction
