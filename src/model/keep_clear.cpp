@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/turning_room.h"
+
 namespace sumogamma {
 
 namespace {
@@ -136,9 +138,12 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
       return {};
     if (next.stop_line <= link.stop_line) continue;
     const bool near = patient && next.stop_line <= link.stop_line + kFarthest;
-    const bool no_room = waits_for_light && next.stop_line < last->end + kNoRoom;
-    if (next.halt - kStopMargin - traveller.length > last->end || !(near || no_room)) break;
-    const LinkDecision decision = decide_link(view, traveller, next);
+    // its line may be drawn well before the end of its lane, on a crossing that is there
+    PathLink beyond = next;
+    beyond.halt = halt_for_long_bodies(view, traveller, next);
+    const bool no_room = waits_for_light && beyond.halt < last->end + kNoRoom;
+    if (beyond.halt - kStopMargin - traveller.length > last->end || !(near || no_room)) break;
+    const LinkDecision decision = decide_link(view, traveller, beyond);
     if (decision.must_stop && (near || decision.reason == LimitReason::Signal)) return decision;
     last = &next;
   }

@@ -603,6 +603,36 @@ TEST(JunctionsThatFollowClosely,
   }
 }
 
+// In Monaco whoever had a red light seven metres behind a zebra stood on the zebra, for 20 s each:
+// there is room for a car behind it, but the line is drawn for the buses that turn in.
+TEST(JunctionsThatFollowClosely, WhoseLineAtALightIsDrawnOnTheJunctionBeforeWaitsBeforeThatOne) {
+  RoadScene here(two_junctions(20, "traffic_light"));
+  const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
+  const std::vector<PathLink> links = here.path(own).links;
+  const double room = links.at(1).stop_line - links.at(0).end;
+  ASSERT_GT(room, 6.0) << "for a car";
+  ASSERT_LT(room, 11.5);
+  here.move(own, links[0].halt - 2.25 - 0.6);
+  const auto waits = [&](char letter) {
+    std::string& state = here.road.signal_states.at(0);
+    state.assign(here.model.road.signals.at(0).size, letter);
+    here.update();
+    return here.context(own).reason == LimitReason::Signal && here.context(own).allowed_speed < 0.3;
+  };
+  EXPECT_FALSE(waits('r')) << "it goes up to the light";
+
+  SweptWay swept;
+  swept.foe = links[1].connection;
+  swept.foe_sweeps = true;
+  swept.begin = -room - 0.5;
+  here.model.swept_ways[index_of(links[1].connection)].push_back(swept);
+  for (const double waited : {0.0, 60.0}) {
+    here.scene.standing_time[own] = here.scene.waiting_time[own] = waited;
+    EXPECT_TRUE(waits('r')) << "after " << waited << " s";
+    EXPECT_FALSE(waits('G')) << "after " << waited << " s";
+  }
+}
+
 // a bus and a car had both waited on a junction for long, both tried, and met nose to nose
 TEST_F(PriorityTest, OfTwoWhoHaveWaitedOnAJunctionForLongNobodyTriesWhileTheOtherDoes) {
   const std::size_t own = here_.add("car", {"SC", "CN"}, 0, 0.3);
