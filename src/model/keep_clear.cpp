@@ -131,21 +131,20 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
   const Connection& here = view.model.road.connection(link.connection);
   const bool for_cars = (view.model.road.lane(here.to).allowed & vehicle_class::kPassenger) != 0;
   const bool waits_for_light = for_cars && here.signal == kNoSignal;
-  const PathLink* last = &link;
-  for (const PathLink& next : course.path.links) {
+  double room_from = link.end;
+  for (PathLink next : course.path.links) {
     // who waits with its rear on a junction already goes as far as it can
     if (next.stop_line < link.stop_line && next.end > link.halt - kStopMargin - traveller.length)
       return {};
     if (next.stop_line <= link.stop_line) continue;
     const bool near = patient && next.stop_line <= link.stop_line + kFarthest;
     // its line may be drawn well before the end of its lane, on a crossing that is there
-    PathLink beyond = next;
-    beyond.halt = halt_for_long_bodies(view, traveller, next);
-    const bool no_room = waits_for_light && beyond.halt < last->end + kNoRoom;
-    if (beyond.halt - kStopMargin - traveller.length > last->end || !(near || no_room)) break;
-    const LinkDecision decision = decide_link(view, traveller, beyond);
+    next.halt = halt_for_long_bodies(view, traveller, next);
+    const bool no_room = waits_for_light && next.halt < room_from + kNoRoom;
+    if (next.halt - kStopMargin - traveller.length > room_from || !(near || no_room)) break;
+    const LinkDecision decision = decide_link(view, traveller, next);
     if (decision.must_stop && (near || decision.reason == LimitReason::Signal)) return decision;
-    last = &next;
+    room_from = next.end;
   }
   return {};
 }
