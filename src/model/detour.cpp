@@ -85,8 +85,7 @@ std::uint64_t take_detours(const Model& model, RoadState& road, Scene& scene) {
     if (shut == nullptr) continue;
     double along = scene.path_along[row];
     if (scene.context[row].reason == LimitReason::Merge) {
-      // the lane may lead where it has to go as well, if not as easily. Not where it would then
-      // have to change lanes on a road of a few metres, over the stop lines of others
+      // the lane may lead where it has to go as well, if not as easily
       constexpr double kNotAsEasily = 10.0;  // lane changes more
       if (auto kept = keep_lane(model.road, *path, along, kNotAsEasily, kBack)) {
         go_on(std::move(*kept), along, row);

@@ -488,7 +488,11 @@ std::optional<Path> keep_lane(const RoadNetwork& network, const Path& path, doub
   builder.enter_edge(old.index());
   builder.follow(old.id, old.begin, old.lane.centerline.length());
   if (!builder.cross(option.leave)) return std::nullopt;
-  const int entry = network.lane(network.connection(option.leave).to).index;
+  const Lane& next = network.lane(network.connection(option.leave).to);
+  if (old.index() + 1 < path.trip->options.size() &&
+      !has_room_to_change(*path.trip, old.index() + 1, next, 0.0))
+    return std::nullopt;
+  const int entry = next.index;
   return old.finish(builder, path.trip, old.index() + 1, entry, 0.0, along);
 }
 

@@ -163,8 +163,9 @@ std::optional<Path> back_to_lane(const RoadNetwork& network, const Path& path, d
                                  double back);
 
 /// The path of the same trip that leaves the edge by the present lane, for who finds no gap.
-/// Otherwise like change_lane. nullopt where the lane doesn't lead into the route's next edge, or
-/// costs more than `worse` lane changes later on.
+/// Otherwise like change_lane. nullopt where the lane doesn't lead into the route's next edge, that
+/// one is too short for the changes that it takes there, or they cost more than `worse` lane
+/// changes later on.
 std::optional<Path> keep_lane(const RoadNetwork& network, const Path& path, double& along,
                               double worse, double back);
 

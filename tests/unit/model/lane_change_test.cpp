@@ -164,11 +164,11 @@ TEST(BetterLane, WhoPassesAQueueHasToGetBackIntoIt) {
 
 /// A road of two lanes into a short one that has them as well, and then a road from its left lane
 /// alone.
-PlainNet both_lanes_lead_on() {
+PlainNet both_lanes_lead_on(double length = 50) {
   PlainNet net;
-  net.nodes =
-      "<node id='W' x='0' y='0'/><node id='C' x='150' y='0'/><node id='E' x='200' y='0'/>"
-      "<node id='L' x='200' y='80'/>";
+  const std::string end = std::to_string(150 + length);
+  net.nodes = "<node id='W' x='0' y='0'/><node id='C' x='150' y='0'/><node id='E' x='" + end +
+              "' y='0'/><node id='L' x='" + end + "' y='80'/>";
   net.edges =
       "<edge id='WC' from='W' to='C' numLanes='2' speed='13.89'/>"
       "<edge id='CE' from='C' to='E' numLanes='2' speed='13.89'/>"
@@ -205,6 +205,14 @@ TEST_F(NoGap, WhoseLaneLeadsOnKeepsIt) {
   const std::size_t late = here_.add("car", {"CE", "EL"}, 10, 5, 0, -1, "CE_0");
   along = here_.scene.path_along[late];
   EXPECT_FALSE(keep_lane(here_.model.road, here_.path(late), along, 1e9, 20.0));
+}
+
+// on Shi Men Er Lu it swung over the stop lines of others on a road of 20 cm
+TEST(NoGapBeforeAShortRoad, WhoCouldNotChangeOnItDoesNotKeepItsLane) {
+  RoadScene here{testing::read_plain_net(both_lanes_lead_on(8))};
+  const std::size_t own = here.add("car", {"WC", "CE", "EL"}, 10, 5, 0, -1, "WC_0");
+  double along = here.scene.path_along[own];
+  EXPECT_FALSE(keep_lane(here.model.road, here.path(own), along, 1e9, 20.0));
 }
 
 TEST_F(NoGap, WhoHasNoRoomLeftToChangeGoesOnByItsLane) {
