@@ -484,16 +484,13 @@ std::optional<Path> keep_lane(const RoadNetwork& network, const Path& path, doub
   const auto lane = static_cast<std::size_t>(old.lane.index);
   const LaneOption& option = path.trip->options[old.index()][lane];
   if (option.leave == kNoConnection || option.leave_cost > option.cost + worse) return std::nullopt;
+  const Lane& next = network.lane(network.connection(option.leave).to);
+  if (!has_room_to_change(*path.trip, old.index() + 1, next, 0.0)) return std::nullopt;
   Builder builder(network, path.trip->request);
   builder.enter_edge(old.index());
   builder.follow(old.id, old.begin, old.lane.centerline.length());
   if (!builder.cross(option.leave)) return std::nullopt;
-  const Lane& next = network.lane(network.connection(option.leave).to);
-  if (old.index() + 1 < path.trip->options.size() &&
-      !has_room_to_change(*path.trip, old.index() + 1, next, 0.0))
-    return std::nullopt;
-  const int entry = next.index;
-  return old.finish(builder, path.trip, old.index() + 1, entry, 0.0, along);
+  return old.finish(builder, path.trip, old.index() + 1, next.index, 0.0, along);
 }
 
 std::optional<Path> enter_beside(const RoadNetwork& network, const Path& path, double& along,
