@@ -16,8 +16,8 @@ namespace {
 /// Two who meet on a path too narrow for them step on the verge: each has so much room at least
 /// [m].
 constexpr double kLeastRoom = 0.75;
-/// Beside crossings, and beside lanes that vehicles use, too: who meets a van on a parking aisle of
-/// 3.2 m steps off it [m].
+/// Beside crossings, and beside lanes that others use, too: who meets a van on a parking aisle of
+/// 3.2 m, or bicycles on a path, steps off it [m].
 constexpr double kBesideCrossing = 0.5, kVerge = 1.0;
 
 /// Lanes reached from one lane on foot: connections count in both directions.
@@ -139,7 +139,7 @@ class Walk {
     stretch.lane_from = from;
     stretch.reversed = to < from;
     stretch.speed_limit = std::max(lane.speed_limit, 1.0);
-    const bool shared = (lane.allowed & ~kOnFootOrBicycle) != 0;
+    const bool shared = (lane.allowed & ~vehicle_class::kPedestrian) != 0;
     const double verge = lane.kind == LaneKind::Crossing ? kBesideCrossing : shared ? kVerge : 0.0;
     stretch.room_left = stretch.room_right = std::max(0.5 * lane.width + verge, kLeastRoom);
     PathLink link{kNoConnection, stretch.from, 0.0, stretch.from};
