@@ -105,39 +105,6 @@ TEST(WalkingRoom, WhoMeetsAVehicleOnASharedLaneStepsAside) {
   EXPECT_GT(room_on("allow='pedestrian bicycle' width='1.0'"), 0.5 + 0.9);
 }
 
-TEST(WalkingRoom, TheLittleRoadLeftBetweenTwoJunctionsIsNoDoor) {
-  testing::PlainNet plain;
-  plain.nodes =
-      "<node id='W' x='-60' y='0'/><node id='A' x='0' y='0'/><node id='B' x='12' y='0'/>"
-      "<node id='E' x='72' y='0'/><node id='N' x='0' y='60'/><node id='S' x='12' y='-60'/>";
-  for (const char* road : {"W A", "A B", "B E"}) {
-    const std::string from(1, road[0]), to(1, road[2]);
-    for (const auto& [a, b] : {std::pair(from, to), std::pair(to, from)})
-      plain.edges += "<edge id='" + a + b + "' from='" + a + "' to='" + b + "' numLanes='1'/>";
-  }
-  for (const char* arm : {"N A", "B S"}) {
-    const std::string from(1, arm[0]), to(1, arm[2]);
-    for (const auto& [a, b] : {std::pair(from, to), std::pair(to, from)})
-      plain.edges += "<edge id='" + a + b + "' from='" + a + "' to='" + b + "' numLanes='3'/>";
-  }
-  plain.options = {"--sidewalks.guess", "--crossings.guess"};
-  const RoadNetwork network = read_plain_net(plain);
-  PathRequest request;
-  const std::vector<EdgeId> route = route_of(network, {"WA", "AB", "BE"});
-  request.route = route;
-  request.vehicle_class = vehicle_class::kPedestrian;
-  std::string why;
-  const auto walk = build_walking_path(network, request, why);
-  ASSERT_TRUE(walk) << why;
-  const auto between =
-      std::find_if(walk->stretches.begin(), walk->stretches.end(), [&](const PathStretch& stretch) {
-        return network.edge(network.lane(stretch.lane).edge).name == "AB";
-      });
-  ASSERT_NE(between, walk->stretches.end());
-  ASSERT_LT(between->to - between->from, 1.0);
-  EXPECT_GT(between->room_left + between->room_right, 1.5 * network.lane(between->lane).width);
-}
-
 TEST_P(WalkingPath, WalksBackwardsToAnArrivalBehindTheStart) {
   std::string why;
   const auto path = walk({"WC"}, why, 120, 20);
