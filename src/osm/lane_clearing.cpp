@@ -11,7 +11,6 @@ constexpr double kFootClearance = 0.8;  // [m] to either side of a sidewalk's mi
 constexpr double kOffGround = 2.5;      // [m] over or under the street
 constexpr double kBesideTunnel = 1.5;   // [m] beyond a lane up there or down there
 constexpr double kJoint = 0.3;          // [m] by which pieces overlap, so that bends leave no gap
-constexpr VehicleClassMask kOnFootOrBicycle = vehicle_class::kPedestrian | vehicle_class::kBicycle;
 
 std::uint64_t cell_key(std::int64_t column, std::int64_t row) {
   return (static_cast<std::uint64_t>(column + (1 << 30)) << 32) |
@@ -26,7 +25,8 @@ bool is_off_the_ground(const Lane& lane, std::size_t segment) {
 
 double half_width_of(const Lane& lane, std::size_t segment) {
   if (is_off_the_ground(lane, segment)) return lane.width / 2 + kBesideTunnel;
-  const bool feet = lane.kind == LaneKind::Normal && (lane.allowed & ~kOnFootOrBicycle) == 0;
+  const bool feet =
+      lane.kind == LaneKind::Normal && (lane.allowed & ~vehicle_class::kOnFootOrBicycle) == 0;
   return feet ? std::min(lane.width / 2, kFootClearance) : lane.width / 2;
 }
 

@@ -31,7 +31,7 @@ bool is_clear(const RoadNetwork& network, EdgeId edge, EdgeId twin, const Vec2& 
          });
 }
 
-bool has_kerb(const Lane& lane) { return (lane.allowed & ~kOnFootOrBicycle) == 0; }
+bool has_kerb(const Lane& lane) { return (lane.allowed & ~vehicle_class::kOnFootOrBicycle) == 0; }
 
 }  // namespace
 

@@ -6,10 +6,6 @@
 
 namespace sumogamma {
 
-/// Classes that walk, or ride among those who do.
-inline constexpr VehicleClassMask kOnFootOrBicycle =
-    vehicle_class::kPedestrian | vehicle_class::kBicycle;
-
 /// A straight way over a road between junctions, from one sidewalk to the one across.
 struct MidBlock {
   LaneId across = kNoLane;

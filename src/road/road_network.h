@@ -37,7 +37,9 @@ inline constexpr VehicleClassMask kPedestrian = 1u << 0, kBicycle = 1u << 1, kMo
                                   kTruck = 1u << 6, kTrailer = 1u << 7, kBus = 1u << 8,
                                   kTaxi = 1u << 9, kEmergency = 1u << 10, kTram = 1u << 11,
                                   kRail = 1u << 12, kOther = 1u << 13, kAll = ~0u;
-}
+/// Who walks, or rides among those who do.
+inline constexpr VehicleClassMask kOnFootOrBicycle = kPedestrian | kBicycle;
+}  // namespace vehicle_class
 /// Mask of a SUMO class name; kOther for one not listed above ("rail_urban" and its kin are kRail,
 /// "ship" is kOther).
 VehicleClassMask vehicle_class_from_name(const std::string& name);
