@@ -82,12 +82,20 @@ struct LinkShape {
 };
 constexpr double kStep = 1.0;
 
-/// The way that is driven over a link by a car, from its stop line on.
+bool is_for_bicycles(const Lane& lane) {
+  return (lane.allowed & ~vehicle_class::kOnFootOrBicycle) == 0;
+}
+
+/// The way that is driven over a link by a car, or by a bicycle where only those may, from its stop
+/// line on.
 Polyline driven_way(const RoadNetwork& network, ConnectionId id) {
-  constexpr double kApproach = 20.0, kTurningRadius = 3.8;
-  if (network.lane(network.connection(id).to).kind == LaneKind::Crossing)
-    return link_geometry(network, id);
-  const Path path = rounded_way(network, id, kApproach, kApproach, {kTurningRadius});
+  constexpr double kApproach = 20.0, kOfCars = 3.8, kOfBicycles = 1.15;
+  const Connection& connection = network.connection(id);
+  if (network.lane(connection.to).kind == LaneKind::Crossing) return link_geometry(network, id);
+  const bool for_bicycles =
+      connection.via != kNoLane && is_for_bicycles(network.lane(connection.via));
+  const Path path =
+      rounded_way(network, id, kApproach, kApproach, {for_bicycles ? kOfBicycles : kOfCars});
   if (path.links.empty()) return {};
   std::vector<Vec2> driven;
   append_span(path.line, path.links.front().stop_line, path.links.front().end, driven);
@@ -101,8 +109,10 @@ LinkShape shape_of(const RoadNetwork& network, ConnectionId id) {
   const Connection& connection = network.connection(id);
   const Lane& lane = network.lane(connection.via != kNoLane ? connection.via : connection.to);
   // what drives on a lane is narrower than the lane; a crossing is used over its whole width
+  constexpr double kHalfBicycle = 0.33, kHalfBody = 1.35;  // [m]
+  const double widest = is_for_bicycles(lane) ? kHalfBicycle : kHalfBody;
   shape.half_width =
-      lane.kind == LaneKind::Crossing ? 0.5 * lane.width : std::min(0.5 * lane.width, 1.35);
+      lane.kind == LaneKind::Crossing ? 0.5 * lane.width : std::min(0.5 * lane.width, widest);
   if (shape.line.empty()) return shape;
   const auto count = static_cast<int>(shape.line.length() / kStep) + 1;
   for (int k = 0; k <= count; ++k) shape.samples.push_back(shape.line.point_at(k * kStep));
@@ -127,14 +137,17 @@ std::optional<std::pair<double, double>> near_span(const LinkShape& a, const Lin
 
 /// How near two ways must come to be in each other's way [m]. Those that start side by side are not
 /// yet, though bodies that swing may come near there: only from where they approach each other. Nor
-/// are one that starts beside the end of the other where the one who has to wait may do so on the
-/// junction, as who turns across those who come towards it.
+/// are one that starts beside the end of the other where that holds for both of their ends, as of
+/// the two directions of one road, or where the one who has to wait may do so on the junction, as
+/// who turns across those who come towards it.
 double conflict_reach(const RoadNetwork& network, const LinkShape& a, const LinkShape& b,
                       bool waits_inside) {
   constexpr double kAir = 0.3, kNearer = 0.4, kLeast = 1.5;  // [m]
-  double reach = a.half_width + b.half_width + kAir;
+  const double bodies = a.half_width + b.half_width;
+  double reach = bodies + kAir;
   const auto from_apart = [&](const Vec2& end, const Vec2& other_end) {
-    reach = std::min(reach, std::max((end - other_end).norm() - kNearer, kLeast));
+    const double nearer = (end - other_end).norm() - kNearer;
+    reach = std::min(reach, std::max(nearer, std::min(bodies, kLeast)));
   };
   const auto edge_of = [&](LaneId lane) -> const Edge& {
     return network.edge(network.lane(lane).edge);
@@ -143,10 +156,11 @@ double conflict_reach(const RoadNetwork& network, const LinkShape& a, const Link
   const Lane &from = network.lane(own.from), &beside = network.lane(other.from);
   if (from.edge == beside.edge && from.index != beside.index)
     from_apart(a.samples.front(), b.samples.front());
-  if (waits_inside && are_opposite(edge_of(own.from), edge_of(other.to)))
-    from_apart(a.samples.front(), b.samples.back());
-  if (waits_inside && are_opposite(edge_of(own.to), edge_of(other.from)))
-    from_apart(a.samples.back(), b.samples.front());
+  const bool at_begin = are_opposite(edge_of(own.from), edge_of(other.to));
+  const bool at_end = are_opposite(edge_of(own.to), edge_of(other.from));
+  const bool two_directions = at_begin && at_end;
+  if (at_begin && (waits_inside || two_directions)) from_apart(a.samples.front(), b.samples.back());
+  if (at_end && (waits_inside || two_directions)) from_apart(a.samples.back(), b.samples.front());
   return reach;
 }
 

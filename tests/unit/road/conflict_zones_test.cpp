@@ -152,6 +152,53 @@ TEST(ConflictZones, WhoTurnsAcrossThoseWhoComeTowardsItHasRoomToWaitOnTheJunctio
   EXPECT_NEAR(other->end, zone->foe_end, 1e-9);
 }
 
+/// Arms that end at the nodes of `ends`, around C at the origin, with a lane each way.
+PlainNet one_lane_each_way(const std::string& nodes, const std::vector<std::string>& ends,
+                           const std::string& lane) {
+  PlainNet plain;
+  plain.nodes = R"(<node id="C" x="0" y="0"/>)" + nodes;
+  for (const std::string& end : ends)
+    for (const auto& [from, to] :
+         {std::pair(end, std::string("C")), std::pair(std::string("C"), end)})
+      plain.edges += "<edge id=\"" + from + to + "\" from=\"" + from + "\" to=\"" + to +
+                     "\" numLanes=\"1\" speed=\"5.6\" " + lane + "/>";
+  return plain;
+}
+
+// who met somebody on a junction of narrow roads or cycleways took turns with whoever came towards
+// it, side by side though their lanes were
+TEST(ConflictZones, TheTwoDirectionsOfANarrowRoadAreNotInEachOthersWay) {
+  const std::string nodes = R"(<node id="W" x="-80" y="0"/><node id="E" x="70" y="30"/>
+                               <node id="S" x="0" y="-80"/>)";
+  for (const char* lane : {R"(width="2.75")", R"(width="1.0" allow="bicycle pedestrian")"}) {
+    const RoadNetwork network = read_plain_net(one_lane_each_way(nodes, {"W", "E", "S"}, lane));
+    const ConflictTable conflicts = build_conflict_table(network);
+    EXPECT_EQ(zone_between(conflicts, link_between(network, "WC_0", "CE_0"),
+                           link_between(network, "EC_0", "CW_0")),
+              nullptr)
+        << lane;
+    EXPECT_NE(zone_between(conflicts, link_between(network, "WC_0", "CE_0"),
+                           link_between(network, "SC_0", "CW_0")),
+              nullptr)
+        << lane << ": their ways do cross";
+  }
+}
+
+// rounded as for a car the turn of a cycleway missed those whom bicycles meet on it
+TEST(ConflictZones, CyclewaysMeetWhereBicyclesTurn) {
+  const std::string nodes = R"(<node id="E" x="48" y="13"/><node id="N" x="10" y="50"/>
+                               <node id="S" x="-14" y="-50"/>)";
+  PlainNet plain =
+      one_lane_each_way(nodes, {"E", "N", "S"}, R"(width="1.0" allow="bicycle pedestrian")");
+  plain.options = {"--lefthand", "--default.junctions.radius", "1.5"};
+  const RoadNetwork network = read_plain_net(plain);
+  const ConnectionId turn = link_between(network, "NC_0", "CE_0");
+  const ConflictTable conflicts = build_conflict_table(network);
+  const ConflictZone* zone = zone_between(conflicts, turn, link_between(network, "SC_0", "CE_0"));
+  ASSERT_NE(zone, nullptr);
+  EXPECT_GT(zone->end, link_geometry(network, turn).length() - 0.7);
+}
+
 TEST(ConflictZones, DriversYieldOnACrossingOverItsWholeWidth) {
   const RoadNetwork network = testing::small_net();
   const ConflictTable conflicts = build_conflict_table(network);
