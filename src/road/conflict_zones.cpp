@@ -137,17 +137,16 @@ std::optional<std::pair<double, double>> near_span(const LinkShape& a, const Lin
 
 /// How near two ways must come to be in each other's way [m]. Those that start side by side are not
 /// yet, though bodies that swing may come near there: only from where they approach each other. Nor
-/// are one that starts beside the end of the other where that holds for both of their ends, as of
-/// the two directions of one road, or where the one who has to wait may do so on the junction, as
-/// who turns across those who come towards it.
+/// are one that starts beside the end of the other where the one who has to wait may do so on the
+/// junction, as who turns across those who come towards it, or where they are the two directions of
+/// one road that is narrow.
 double conflict_reach(const RoadNetwork& network, const LinkShape& a, const LinkShape& b,
                       bool waits_inside) {
   constexpr double kAir = 0.3, kNearer = 0.4, kLeast = 1.5;  // [m]
-  const double bodies = a.half_width + b.half_width;
-  double reach = bodies + kAir;
-  const auto from_apart = [&](const Vec2& end, const Vec2& other_end) {
-    const double nearer = (end - other_end).norm() - kNearer;
-    reach = std::min(reach, std::max(nearer, std::min(bodies, kLeast)));
+  const double bodies = a.half_width + b.half_width, roomy = bodies + kAir;
+  double reach = roomy;
+  const auto from_apart = [&](double apart) {
+    reach = std::min(reach, std::max(apart - kNearer, std::min(bodies, kLeast)));
   };
   const auto edge_of = [&](LaneId lane) -> const Edge& {
     return network.edge(network.lane(lane).edge);
@@ -155,12 +154,14 @@ double conflict_reach(const RoadNetwork& network, const LinkShape& a, const Link
   const Connection &own = network.connection(a.link), &other = network.connection(b.link);
   const Lane &from = network.lane(own.from), &beside = network.lane(other.from);
   if (from.edge == beside.edge && from.index != beside.index)
-    from_apart(a.samples.front(), b.samples.front());
+    from_apart((a.samples.front() - b.samples.front()).norm());
   const bool at_begin = are_opposite(edge_of(own.from), edge_of(other.to));
   const bool at_end = are_opposite(edge_of(own.to), edge_of(other.from));
-  const bool two_directions = at_begin && at_end;
-  if (at_begin && (waits_inside || two_directions)) from_apart(a.samples.front(), b.samples.back());
-  if (at_end && (waits_inside || two_directions)) from_apart(a.samples.back(), b.samples.front());
+  const auto beside_each_other = [&](double apart) {
+    if (waits_inside || (at_begin && at_end && apart < roomy)) from_apart(apart);
+  };
+  if (at_begin) beside_each_other((a.samples.front() - b.samples.back()).norm());
+  if (at_end) beside_each_other((a.samples.back() - b.samples.front()).norm());
   return reach;
 }
 

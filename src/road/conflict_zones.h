@@ -22,8 +22,8 @@ struct ConflictZone {
 /// and the geometry of the ways that are driven (corners rounded as for a car, or for a bicycle
 /// where only those may drive; sampled every metre; ways conflict where their swept widths meet).
 /// Links that the matrix calls conflicting but whose ways never come near are left out, as are the
-/// two directions of one road side by side; links that it calls free of conflict but whose ways
-/// meet, as of opposite turns on a narrow junction, are in.
+/// two directions of one narrow road side by side; links that it calls free of conflict but whose
+/// ways meet, as of opposite turns on a narrow junction, are in.
 using ConflictTable = std::vector<std::vector<ConflictZone>>;
 ConflictTable build_conflict_table(const RoadNetwork& network);
 
