@@ -29,6 +29,18 @@ const ConflictZone* zone_between(const ConflictTable& table, ConnectionId own, C
   return nullptr;
 }
 
+/// Arms, each with a lane to and from C, which is among the nodes; `lane`: attributes of all edges.
+PlainNet one_lane_each_way(const std::string& nodes, const std::string& arms,
+                           const std::string& lane) {
+  PlainNet plain;
+  plain.nodes = nodes;
+  for (const char arm : arms)
+    for (const std::string& ends : {std::string{arm, 'C'}, std::string{'C', arm}})
+      plain.edges += "<edge id=\"" + ends + "\" from=\"" + ends[0] + "\" to=\"" + ends[1] +
+                     "\" numLanes=\"1\" " + lane + "/>";
+  return plain;
+}
+
 class Conflicts : public ::testing::Test {
  protected:
   static const RoadNetwork& net() {
@@ -108,14 +120,10 @@ TEST_F(Conflicts, ZonesLieOnTheirLinksAndComeInPairs) {
 
 TEST(ConflictZones, OppositeTurnsOnANarrowJunctionConflictThoughTheMatrixSaysNo) {
   // arms that are 6 m off: left turns from both sides sweep the same ground
-  PlainNet plain;
-  plain.nodes = R"(<node id="C" x="0" y="0" type="priority"/><node id="W" x="-100" y="0"/>
-    <node id="E" x="100" y="0"/><node id="N" x="0" y="100"/><node id="S" x="0" y="-100"/>)";
-  for (const char* end : {"W", "E", "N", "S"})
-    plain.edges += std::string("<edge id=\"") + end + "C\" from=\"" + end +
-                   "\" to=\"C\" numLanes=\"1\" speed=\"13.9\"/><edge id=\"C" + end +
-                   "\" from=\"C\" to=\"" + end + "\" numLanes=\"1\" speed=\"13.9\"/>";
-  const RoadNetwork network = read_plain_net(plain);
+  const std::string nodes = R"(<node id="C" x="0" y="0" type="priority"/>
+    <node id="W" x="-100" y="0"/><node id="E" x="100" y="0"/><node id="N" x="0" y="100"/>
+    <node id="S" x="0" y="-100"/>)";
+  const RoadNetwork network = read_plain_net(one_lane_each_way(nodes, "WENS", R"(speed="13.9")"));
   const ConflictTable conflicts = build_conflict_table(network);
   const ConnectionId a = link_between(network, "WC_0", "CN_0");
   const ConnectionId b = link_between(network, "EC_0", "CS_0");
@@ -131,13 +139,9 @@ TEST(ConflictZones, OppositeTurnsOnANarrowJunctionConflictThoughTheMatrixSaysNo)
 // with lanes of 2.8 m the oncoming way counted as met from the stop line on: nobody waited on the
 // junction, and none got over it at the end of its green
 TEST(ConflictZones, WhoTurnsAcrossThoseWhoComeTowardsItHasRoomToWaitOnTheJunction) {
-  PlainNet plain;
-  plain.nodes = R"(<node id="C" x="0" y="0" type="traffic_light"/><node id="W" x="-100" y="0"/>
-    <node id="E" x="100" y="0"/><node id="N" x="0" y="100"/>)";
-  for (const char* end : {"W", "E", "N"})
-    plain.edges += std::string("<edge id=\"") + end + "C\" from=\"" + end +
-                   "\" to=\"C\" numLanes=\"1\" width=\"2.8\" speed=\"13.9\"/><edge id=\"C" + end +
-                   "\" from=\"C\" to=\"" + end + "\" numLanes=\"1\" width=\"2.8\" speed=\"13.9\"/>";
+  const std::string nodes = R"(<node id="C" x="0" y="0" type="traffic_light"/>
+    <node id="W" x="-100" y="0"/><node id="E" x="100" y="0"/><node id="N" x="0" y="100"/>)";
+  PlainNet plain = one_lane_each_way(nodes, "WEN", R"(width="2.8" speed="13.9")");
   plain.options = {"--default.junctions.radius", "6"};
   const RoadNetwork network = read_plain_net(plain);
   const ConflictTable conflicts = build_conflict_table(network);
@@ -152,26 +156,14 @@ TEST(ConflictZones, WhoTurnsAcrossThoseWhoComeTowardsItHasRoomToWaitOnTheJunctio
   EXPECT_NEAR(other->end, zone->foe_end, 1e-9);
 }
 
-/// Arms that end at the nodes of `ends`, around C at the origin, with a lane each way.
-PlainNet one_lane_each_way(const std::string& nodes, const std::vector<std::string>& ends,
-                           const std::string& lane) {
-  PlainNet plain;
-  plain.nodes = R"(<node id="C" x="0" y="0"/>)" + nodes;
-  for (const std::string& end : ends)
-    for (const auto& [from, to] :
-         {std::pair(end, std::string("C")), std::pair(std::string("C"), end)})
-      plain.edges += "<edge id=\"" + from + to + "\" from=\"" + from + "\" to=\"" + to +
-                     "\" numLanes=\"1\" speed=\"5.6\" " + lane + "/>";
-  return plain;
-}
-
 // who met somebody on a junction of narrow roads or cycleways took turns with whoever came towards
 // it, side by side though their lanes were
 TEST(ConflictZones, TheTwoDirectionsOfANarrowRoadAreNotInEachOthersWay) {
-  const std::string nodes = R"(<node id="W" x="-80" y="0"/><node id="E" x="70" y="30"/>
-                               <node id="S" x="0" y="-80"/>)";
-  for (const char* lane : {R"(width="2.75")", R"(width="1.0" allow="bicycle pedestrian")"}) {
-    const RoadNetwork network = read_plain_net(one_lane_each_way(nodes, {"W", "E", "S"}, lane));
+  const std::string nodes = R"(<node id="C" x="0" y="0"/><node id="W" x="-80" y="0"/>
+    <node id="E" x="70" y="30"/><node id="S" x="0" y="-80"/>)";
+  for (const char* lane :
+       {R"(width="2.75" speed="5.6")", R"(width="1.0" speed="5.6" allow="bicycle pedestrian")"}) {
+    const RoadNetwork network = read_plain_net(one_lane_each_way(nodes, "WES", lane));
     const ConflictTable conflicts = build_conflict_table(network);
     EXPECT_EQ(zone_between(conflicts, link_between(network, "WC_0", "CE_0"),
                            link_between(network, "EC_0", "CW_0")),
@@ -186,10 +178,10 @@ TEST(ConflictZones, TheTwoDirectionsOfANarrowRoadAreNotInEachOthersWay) {
 
 // rounded as for a car the turn of a cycleway missed those whom bicycles meet on it
 TEST(ConflictZones, CyclewaysMeetWhereBicyclesTurn) {
-  const std::string nodes = R"(<node id="E" x="48" y="13"/><node id="N" x="10" y="50"/>
-                               <node id="S" x="-14" y="-50"/>)";
+  const std::string nodes = R"(<node id="C" x="0" y="0"/><node id="E" x="48" y="13"/>
+    <node id="N" x="10" y="50"/><node id="S" x="-14" y="-50"/>)";
   PlainNet plain =
-      one_lane_each_way(nodes, {"E", "N", "S"}, R"(width="1.0" allow="bicycle pedestrian")");
+      one_lane_each_way(nodes, "ENS", R"(width="1.0" speed="5.6" allow="bicycle pedestrian")");
   plain.options = {"--lefthand", "--default.junctions.radius", "1.5"};
   const RoadNetwork network = read_plain_net(plain);
   const ConnectionId turn = link_between(network, "NC_0", "CE_0");
