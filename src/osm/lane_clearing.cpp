@@ -25,8 +25,7 @@ bool is_off_the_ground(const Lane& lane, std::size_t segment) {
 
 double half_width_of(const Lane& lane, std::size_t segment) {
   if (is_off_the_ground(lane, segment)) return lane.width / 2 + kBesideTunnel;
-  const bool feet =
-      lane.kind == LaneKind::Normal && (lane.allowed & ~vehicle_class::kOnFootOrBicycle) == 0;
+  const bool feet = lane.kind == LaneKind::Normal && is_without_motors(lane);
   return feet ? std::min(lane.width / 2, kFootClearance) : lane.width / 2;
 }
 

@@ -82,18 +82,14 @@ struct LinkShape {
 };
 constexpr double kStep = 1.0;
 
-bool is_for_bicycles(const Lane& lane) {
-  return (lane.allowed & ~vehicle_class::kOnFootOrBicycle) == 0;
-}
-
 /// The way that is driven over a link by a car, or by a bicycle where only those may, from its stop
 /// line on.
 Polyline driven_way(const RoadNetwork& network, ConnectionId id) {
-  constexpr double kApproach = 20.0, kOfCars = 3.8, kOfBicycles = 1.15;
+  constexpr double kApproach = 20.0, kOfCars = 3.8, kOfBicycles = 1.15;  // [m]
   const Connection& connection = network.connection(id);
   if (network.lane(connection.to).kind == LaneKind::Crossing) return link_geometry(network, id);
   const bool for_bicycles =
-      connection.via != kNoLane && is_for_bicycles(network.lane(connection.via));
+      connection.via != kNoLane && is_without_motors(network.lane(connection.via));
   const Path path =
       rounded_way(network, id, kApproach, kApproach, {for_bicycles ? kOfBicycles : kOfCars});
   if (path.links.empty()) return {};
@@ -110,7 +106,7 @@ LinkShape shape_of(const RoadNetwork& network, ConnectionId id) {
   const Lane& lane = network.lane(connection.via != kNoLane ? connection.via : connection.to);
   // what drives on a lane is narrower than the lane; a crossing is used over its whole width
   constexpr double kHalfBicycle = 0.33, kHalfBody = 1.35;  // [m]
-  const double widest = is_for_bicycles(lane) ? kHalfBicycle : kHalfBody;
+  const double widest = is_without_motors(lane) ? kHalfBicycle : kHalfBody;
   shape.half_width =
       lane.kind == LaneKind::Crossing ? 0.5 * lane.width : std::min(0.5 * lane.width, widest);
   if (shape.line.empty()) return shape;

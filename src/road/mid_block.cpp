@@ -31,8 +31,6 @@ bool is_clear(const RoadNetwork& network, EdgeId edge, EdgeId twin, const Vec2& 
          });
 }
 
-bool has_kerb(const Lane& lane) { return (lane.allowed & ~vehicle_class::kOnFootOrBicycle) == 0; }
-
 }  // namespace
 
 LaneId sidewalk_across(const RoadNetwork& network, LaneId sidewalk) {
@@ -62,7 +60,8 @@ std::optional<MidBlock> find_mid_block(const RoadNetwork& network, LaneId sidewa
   constexpr double kAskew = 0.3;      // of the way over, along the sidewalks
   constexpr double kLevel = 1.5;      // [m]
   const Lane &here = network.lane(sidewalk), &there = network.lane(across);
-  if (!has_kerb(here) || !has_kerb(there)) return std::nullopt;
+  // only such lanes end at a kerb
+  if (!is_without_motors(here) || !is_without_motors(there)) return std::nullopt;
   const double ahead = to < from ? -1.0 : 1.0;
   const double first = from + ahead * kFirst;
   const double low = std::max(std::min(first, to), kFromEnds);

@@ -177,6 +177,11 @@ inline bool allows(const RoadNetwork& network, const Edge& edge, VehicleClassMas
                      [&](LaneId id) { return (network.lane(id).allowed & classes) != 0; });
 }
 
+/// Is a lane for people on foot and bicycles only?
+inline bool is_without_motors(const Lane& lane) {
+  return (lane.allowed & ~vehicle_class::kOnFootOrBicycle) == 0;
+}
+
 /// Does one edge lead straight back to where the other comes from?
 inline bool are_opposite(const Edge& a, const Edge& b) { return a.from == b.to && a.to == b.from; }
 
