@@ -132,7 +132,21 @@ bool stands_before(const Model& model, const Scene& scene, const TickGeometry& g
   return found;
 }
 
-/// Does this row stand in the way of somebody wedged, for whom it waits itself?
+/// Is there somebody wedged at the end of the chain of those who wait for one another from this row
+/// on?
+bool waits_for_wedged(const Scene& scene, std::size_t row) {
+  constexpr int kLongest = 12;
+  std::size_t last = row;
+  for (int k = 0; k < kLongest; ++k) {
+    const std::size_t next = foe_row(scene, last);
+    if (next >= scene.size()) break;
+    last = next;
+  }
+  return last != row && is_wedged(scene, last);
+}
+
+/// Does this row stand in the way of somebody wedged, and wait itself for that one or for another
+/// who is? Of three who hold each other the one with room behind may wait for the wrong one.
 bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometry& geometry,
                        std::size_t row) {
   constexpr double kLong = 25.0;  // [s]
@@ -140,8 +154,9 @@ bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometr
   return scene.standing_time[row] > kLong && !is_wedged(scene, row) && !scene.context[row].at_red &&
          stands_before(model, scene, geometry, row, [&](std::size_t other) {
            return scene.blocked_time[other] > kHeldUp &&
-                  waits_for(scene, row, other, kLongest,
-                            [&](std::size_t waiting) { return foe_row(scene, waiting); });
+                  (waits_for(scene, row, other, kLongest,
+                             [&](std::size_t waiting) { return foe_row(scene, waiting); }) ||
+                   waits_for_wedged(scene, row));
          });
 }
 

@@ -13,7 +13,8 @@ namespace sumogamma {
 /// been wedged for long (see is_wedged) and has room behind rolls back along its path by some
 /// metres, at walking pace, and then lets the others go first for some seconds. Where there is no
 /// room behind, those who stand there roll back before it, one after the other. Who has stood for
-/// long in the way of somebody wedged for whom it waits itself steps back likewise.
+/// long in the way of somebody wedged, and waits for that one or for another who is, steps back
+/// likewise.
 ///
 /// Still to roll back for that long, and still to let others go first [s]; kept once a tick, after
 /// everybody has moved.

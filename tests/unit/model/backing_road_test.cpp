@@ -247,6 +247,30 @@ TEST_F(BackingTest, WhoStandsAcrossTheWayOfSomebodyWedgedStepsBack) {
   EXPECT_EQ(here_.scene.backing_left[own], 0.0);
 }
 
+// a bus, a van and a car: the van before the nose of the car, its tail in the turn of the bus, and
+// the car behind the bus, with room to step back from both
+TEST_F(BackingTest, WhoStandsBeforeSomebodyWedgedAndWaitsForAnotherStepsBack) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
+  const std::size_t wedged = here_.add("van", {"SC", "CN"}, 0, 0);
+  const std::size_t waited_for = here_.add("bus", {"WC", "CE"}, 150, 0);
+  const AgentType& type = type_of(here_.model.types, here_.scene.type[wedged]);
+  const Vec2 forward = direction_of(here_.scene.heading[own]);
+  // nose to nose
+  here_.scene.heading[wedged] = here_.scene.heading[own] + kPi;
+  here_.scene.position[wedged] =
+      here_.scene.position[own] + (2.25 + 0.5 * type.length + 0.5) * forward;
+  here_.scene.standing_time = {30.0, 30.0, 30.0};
+  here_.scene.wedge_left[wedged] = here_.scene.blocked_time[wedged] = 10.0;
+  here_.scene.context[own].active = true;
+  here_.scene.context[own].reason = LimitReason::Leader;
+  here_.scene.context[own].foe = here_.scene.id[waited_for].value;
+  update(own);
+  EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "the bus may go on any time";
+  here_.scene.wedge_left[waited_for] = 10.0;
+  update(own);
+  EXPECT_GT(here_.scene.backing_left[own], 0.0);
+}
+
 // it rolled back from a ring, gave way for half a minute, and all the time stood before the nose of
 // the one that it gave way to
 TEST_F(BackingTest, WhoGivesWayRollsBackFurtherForWhomItStillHolds) {
