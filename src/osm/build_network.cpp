@@ -22,6 +22,7 @@
 #include "osm/right_of_way_tags.h"
 #include "osm/signal_offsets.h"
 #include "osm/swallowed_roads.h"
+#include "osm/walking_ground.h"
 #include "road/sumo_net_reader.h"
 
 namespace sumogamma::osm {
@@ -196,6 +197,17 @@ void coordinate_signals(const std::filesystem::path& network, const RoadNetwork&
                    signal + " offset " + std::to_string(offset) + " s");
 }
 
+/// Takes the ground that turning vehicles need off the walking areas.
+void clear_walking_areas(const std::filesystem::path& network, const RoadNetwork& road,
+                         BuildResult& result) {
+  const auto outlines = walking_areas_off_the_road(road);
+  if (outlines.empty()) return;
+  set_walking_areas(network, road, outlines);
+  for (const auto& [area, outline] : outlines)
+    result.log.add(Severity::Note, "kerbs_rounded",
+                   "walking areas cut back to where vehicles turn beside them", area);
+}
+
 /// Gives the network, as netconvert made it of the map, what netconvert does not read there, and
 /// moves its carriageways apart. The network, or nothing where it was stopped.
 std::optional<RoadNetwork> patch(const OsmMap& map, const NetconvertRequest& netconvert,
@@ -263,6 +275,7 @@ bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result
   const std::optional<RoadNetwork> road = convert_and_patch(map, netconvert, result);
   if (!road) return false;
   coordinate_signals(request.folder / netconvert.network, *road, result);
+  clear_walking_areas(request.folder / netconvert.network, *road, result);
   std::filesystem::remove_all(request.folder / "work");
   result.netconvert_messages = count_message_kinds(read_text(request.folder / netconvert.log));
   return true;

@@ -17,12 +17,24 @@
 namespace sumogamma::osm {
 namespace {
 
-constexpr double kRadius = 15.0;     // [m] least of a road's middle
+/// How the roads or paths of a kind are rounded.
+struct BendRule {
+  bool (*holds_for)(const MapWay&);
+  double radius;        ///< [m] least of its middle
+  double from_roads;    ///< [m] along it from a junction with a road, which netconvert shapes
+  double from_paths;    ///< [m] likewise from other ends of paths
+  double least;         ///< [m] a move that is not worth new points
+  bool hairpins;        ///< are opened to bulbs
+  bool ends_at_others;  ///< keeps the nodes that it shares with ways of another kind
+};
+
+bool is_cycle_way(const MapWay& way) { return tag_is(way.tags, "highway", {"cycleway", "path"}); }
+
+constexpr BendRule kForCars = {is_car_way, 15.0, 15.0, 15.0, 0.5, true, false};
+constexpr BendRule kForBicycles = {is_cycle_way, 5.0, 15.0, 5.0, 0.15, false, true};
 constexpr double kTighter = 0.9;     // of the radius, where a bend would move too far
 constexpr double kFarthest = 4.0;    // [m] that a point moves; maps are off by as much
 constexpr double kHairpin = 7.0;     // [m] radius of the bulb that a hairpin becomes
-constexpr double kFromEnds = 15.0;   // [m] along the road from a junction, which netconvert shapes
-constexpr double kLeast = 0.5;       // [m] a move that is not worth new points
 constexpr double kSpacing = 1.5;     // [m] of the points that move
 constexpr double kStill = 0.0005;    // [m] of change in a round that is none
 constexpr double kTolerance = 0.05;  // [m] by which the drawn line may be off the rounded one
@@ -36,26 +48,26 @@ bool is_ring(const MapWay& way) {
          way.nodes.front() == way.nodes.back();
 }
 
-/// Roads for cars but roundabouts, as nodes with those next to them; a road ends where it comes to
-/// a ring.
+/// Roads of a kind but roundabouts, as nodes with those next to them; a road ends where it comes to
+/// a ring, a cycleway where it comes to anything else that is travelled.
 struct RoadGraph {
   std::map<std::int64_t, std::vector<std::int64_t>> neighbours;
-  std::set<std::int64_t> on_rings;
+  std::set<std::int64_t> ends;
 
   bool goes_on(std::int64_t node) const {
     const std::vector<std::int64_t>& next = neighbours.at(node);
-    return next.size() == 2 && next[0] != next[1] && !on_rings.contains(node);
+    return next.size() == 2 && next[0] != next[1] && !ends.contains(node);
   }
 };
 
-RoadGraph make_graph(const OsmMap& map) {
+RoadGraph make_graph(const OsmMap& map, const BendRule& rule) {
   RoadGraph graph;
   for (const MapWay& way : map.ways) {
-    if (!is_car_way(way) || way.nodes.size() < 2) continue;
-    if (is_ring(way)) {
-      graph.on_rings.insert(way.nodes.begin(), way.nodes.end());
-      continue;
-    }
+    if (way.nodes.size() < 2) continue;
+    const bool other = rule.ends_at_others && (is_car_way(way) || is_path_way(way));
+    if (rule.holds_for(way) ? is_ring(way) : other)
+      graph.ends.insert(way.nodes.begin(), way.nodes.end());
+    if (!rule.holds_for(way) || is_ring(way)) continue;
     for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i) {
       graph.neighbours[way.nodes[i]].push_back(way.nodes[i + 1]);
       graph.neighbours[way.nodes[i + 1]].push_back(way.nodes[i]);
@@ -64,8 +76,8 @@ RoadGraph make_graph(const OsmMap& map) {
   return graph;
 }
 
-std::vector<Road> find_roads(const OsmMap& map) {
-  const RoadGraph graph = make_graph(map);
+std::vector<Road> find_roads(const OsmMap& map, const BendRule& rule) {
+  const RoadGraph graph = make_graph(map, rule);
   std::vector<Road> roads;
   for (const auto& [end, nexts] : graph.neighbours) {
     if (graph.goes_on(end)) continue;
@@ -83,11 +95,12 @@ std::vector<Road> find_roads(const OsmMap& map) {
   return roads;
 }
 
-/// Nodes that one-way roads lead over.
-std::set<std::int64_t> find_one_way(const OsmMap& map) {
+/// Nodes that roads lead over, or one-way roads alone.
+std::set<std::int64_t> nodes_of_roads(const OsmMap& map, bool one_way_only) {
   std::set<std::int64_t> nodes;
   for (const MapWay& way : map.ways)
-    if (is_car_way(way) && is_one_way(way)) nodes.insert(way.nodes.begin(), way.nodes.end());
+    if (is_car_way(way) && (!one_way_only || is_one_way(way)))
+      nodes.insert(way.nodes.begin(), way.nodes.end());
   return nodes;
 }
 
@@ -142,20 +155,22 @@ std::vector<Vec2> ease(std::vector<Vec2> points, const std::vector<double>& radi
   return points;
 }
 
-/// A radius for the points of a line, none for those near its ends, which stay.
-std::vector<double> radii_along(const std::vector<Vec2>& points, double radius) {
+/// A radius for the points of a line, none for those near its ends, which stay: so far from its
+/// front and from its back [m].
+std::vector<double> radii_along(const std::vector<Vec2>& points, double radius, double from_front,
+                                double from_back) {
   std::vector<double> along{0};
   for (std::size_t i = 1; i < points.size(); ++i)
     along.push_back(along.back() + (points[i] - points[i - 1]).norm());
   std::vector<double> radii(points.size(), 0.0);
   for (std::size_t i = 1; i + 1 < points.size(); ++i)
-    if (std::min(along[i], along.back() - along[i]) >= kFromEnds) radii[i] = radius;
+    if (along[i] >= from_front && along.back() - along[i] >= from_back) radii[i] = radius;
   return radii;
 }
 
 /// The eased line: a bend that would move too far with a smaller radius, one that hardly moves not
 /// at all. `radii` are by point, 0 for those that stay.
-std::vector<Vec2> fitted(const std::vector<Vec2>& drawn, std::vector<double> radii) {
+std::vector<Vec2> fitted(const std::vector<Vec2>& drawn, std::vector<double> radii, double least) {
   for (;;) {
     std::vector<Vec2> points = ease(drawn, radii);
     bool again = false;
@@ -164,7 +179,7 @@ std::vector<Vec2> fitted(const std::vector<Vec2>& drawn, std::vector<double> rad
       double farthest = 0;
       for (last = first; last < points.size() && moved(last) > 0; ++last)
         farthest = std::max(farthest, moved(last));
-      if (farthest > 0 && farthest < kLeast)
+      if (farthest > 0 && farthest < least)
         std::copy_n(&drawn[first], last - first, &points[first]);
       again = again || farthest > kFarthest;
       if (farthest > kFarthest)
@@ -209,27 +224,38 @@ void insert(const Added& added, MapWay& way) {
   way.nodes = std::move(nodes);
 }
 
-}  // namespace
-
-void round_bends(OsmMap& map, IssueLog& log) {
-  Added added;
-  const std::set<std::int64_t> one_way = find_one_way(map);
-  for (const Road& road : find_roads(map)) {
+/// Rounds the roads of a kind: moves their nodes and tells which to add between them.
+void round_roads(const BendRule& rule, OsmMap& map, Added& added, IssueLog& log) {
+  const std::set<std::int64_t> on_roads = nodes_of_roads(map, false);
+  const std::set<std::int64_t> one_way = nodes_of_roads(map, true);
+  const auto from = [&](std::int64_t end) {
+    return on_roads.contains(end) ? rule.from_roads : rule.from_paths;
+  };
+  for (const Road& road : find_roads(map, rule)) {
     const LocalMetric metric(map.nodes.at(road.front()).place);
     Line line = draw(map, metric, road);
-    const std::vector<double> radii = radii_along(line.points, kRadius);
+    const std::vector<double> radii =
+        radii_along(line.points, rule.radius, from(road.front()), from(road.back()));
     // where two one-way roads meet in a point they are an entry and an exit, and no hairpin
-    const bool two_way = std::none_of(road.begin() + 1, road.end() - 1,
+    const bool opened =
+        rule.hairpins && std::none_of(road.begin() + 1, road.end() - 1,
                                       [&](std::int64_t node) { return one_way.contains(node); });
-    const std::vector<Vec2> points =
-        fitted(two_way ? open_hairpins(line.points, radii, kHairpin) : line.points, radii);
+    const std::vector<Vec2> points = fitted(
+        opened ? open_hairpins(line.points, radii, kHairpin) : line.points, radii, rule.least);
     if (points == line.points) continue;
     line.points = points;
     redraw(road, line, metric, map, added);
     log.add(Severity::Note, "bends_rounded",
-            "roads drawn with corners between junctions, where they were rounded",
+            "roads and cycleways drawn with corners between junctions, where they were rounded",
             "node/" + std::to_string(road[road.size() / 2]));
   }
+}
+
+}  // namespace
+
+void round_bends(OsmMap& map, IssueLog& log) {
+  Added added;
+  for (const BendRule& rule : {kForCars, kForBicycles}) round_roads(rule, map, added, log);
   for (const RingArc& arc : coarse_ring_arcs(map)) {
     std::vector<std::int64_t>& nodes = added[{arc.from, arc.to}];
     for (const GeoPoint place : arc.between) {
@@ -240,7 +266,7 @@ void round_bends(OsmMap& map, IssueLog& log) {
             "node/" + std::to_string(arc.from));
   }
   for (MapWay& way : map.ways)
-    if (is_car_way(way)) insert(added, way);
+    if (is_car_way(way) || is_cycle_way(way)) insert(added, way);
 }
 
 }  // namespace sumogamma::osm

@@ -12,6 +12,8 @@ namespace sumogamma::osm {
 /// are added where the line needs them. What lies on other ways in the same nodes moves along.
 /// Junctions with 15 m of road at each, ends of roads, roundabouts but for arcs drawn with few
 /// points (coarse_rings.h), and bends that would move by less than half a metre stay as they are.
+/// Cycleways and paths likewise with 5 m, from 0.15 m on, but for 15 m from a road, 5 m from other
+/// ends, and the points that they share with ways of another kind.
 void round_bends(OsmMap& map, IssueLog& log);
 
 }  // namespace sumogamma::osm

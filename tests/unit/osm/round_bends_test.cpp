@@ -145,6 +145,36 @@ TEST_F(RoundBendsTest, RoundaboutsAreDrawnRoundAndPathsStay) {
   EXPECT_EQ(b.log.count("rings_rounded"), 4);
 }
 
+const Tags kCycleway = {{"highway", "cycleway"}};
+
+// whose lanes are a metre wide: at a corner bicycles swing over the one that comes towards them
+TEST_F(RoundBendsTest, ACyclewayGetsTheRadiusOfBicycles) {
+  b.node(1, 0, 0).node(2, 40, 0).node(3, 40, 30).node(4, 70, 30);
+  b.way(10, {1, 2, 3, 4}, kCycleway);
+  b.node(5, 0, 100).node(6, 40, 100).node(7, 40, 106).node(8, 80, 106).way(11, {5, 6}, kCycleway);
+  b.way(12, {6, 7, 8}, kCycleway);
+  round();
+  EXPECT_LT(sharpest(10), 25.0);
+  EXPECT_LT(Vec2(b.east(2) - 40, b.north(2)).norm(), 2.5) << "5 m, where a road would get 15";
+  EXPECT_GT(sharpest(11) + sharpest(12), 0.0);
+  EXPECT_EQ(b.find_way(12)->nodes.front(), 6) << "goes on over the ends of ways";
+  EXPECT_EQ(b.log.count("bends_rounded"), 2);
+}
+
+TEST_F(RoundBendsTest, ACyclewayStaysWhereItMeetsOtherWays) {
+  // before a road netconvert shapes the junction by the first points of what meets there
+  b.node(1, 0, 0).node(2, 40, 0).node(3, 40, 12).node(4, 0, 12).node(5, 80, 12);
+  b.way(10, {1, 2, 3}, kCycleway).way(11, {4, 3, 5}, kStreet);
+  // a footway joins at the corner
+  b.node(6, 0, 100).node(7, 40, 100).node(8, 40, 140).node(9, 80, 100);
+  b.way(12, {6, 7, 8}, kCycleway).way(13, {7, 9}, {{"highway", "footway"}});
+  round();
+  EXPECT_THAT(b.find_way(10)->nodes, ElementsAre(1, 2, 3));
+  EXPECT_NEAR(b.east(2), 40, 1e-6);
+  EXPECT_THAT(b.find_way(12)->nodes, ElementsAre(6, 7, 8));
+  EXPECT_EQ(b.log.count("bends_rounded"), 0);
+}
+
 // a loop road begins and ends in one junction
 TEST_F(RoundBendsTest, ALoopIsRoundedOnce) {
   b.node(1, 0, 0).node(2, 100, 0).node(3, 100, 100).node(4, 0, 100).node(5, -100, 0);

@@ -1,0 +1,272 @@
+#include "osm/walking_ground.h"
+
+#include <algorithm>
+#include <clipper.hpp>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <optional>
+#include <sstream>
+
+#include "osm/lane_overlap.h"
+#include "osm/network_file.h"
+#include "road/conflict_zones.h"
+#include "road/lane_locator.h"
+#include "road/path_profile.h"
+
+namespace sumogamma::osm {
+namespace {
+
+constexpr double kScale = 1000.0;    // Clipper works on whole numbers: millimetres
+constexpr double kBeside = 10.0;     // [m] of the lanes before and behind a junction
+constexpr double kRoundness = 0.05;  // [m] that the ends of a strip may be off a circle
+constexpr double kSliver = 0.1;      // [m] half the width of what is no ground to walk on
+constexpr double kAtEnd = 0.3;       // [m] from an outline that a lane's end may lie
+constexpr double kWorthIt = 0.02;    // [m^2] of a walking area
+
+struct Turner {
+  VehicleClassMask vehicle_class;
+  Cornering cornering;
+  double half_width;  ///< [m] that it needs to either side of its middle
+};
+constexpr Turner kTurners[] = {{vehicle_class::kMotorcycle, {1.84}, 0.6},
+                               {vehicle_class::kPassenger, {3.8}, 1.2},
+                               {vehicle_class::kDelivery, {4.4}, 1.2},
+                               {vehicle_class::kTruck, {4.4, 7.5, 2.4}, 0.6},
+                               {vehicle_class::kBus, {6.6, 12.0, 2.5}, 0.6}};
+
+ClipperLib::Path to_clipper(const std::vector<Vec2>& points) {
+  ClipperLib::Path path;
+  for (const Vec2& p : points)
+    path.emplace_back(std::llround(p.x() * kScale), std::llround(p.y() * kScale));
+  return path;
+}
+
+std::vector<Vec2> from_clipper(const ClipperLib::Path& path) {
+  std::vector<Vec2> points;
+  for (const ClipperLib::IntPoint& p : path)
+    points.emplace_back(static_cast<double>(p.X) / kScale, static_cast<double>(p.Y) / kScale);
+  return points;
+}
+
+ClipperLib::Paths grown(const ClipperLib::Paths& polygons, double margin) {
+  ClipperLib::ClipperOffset offset(2.0, kRoundness * kScale);
+  offset.AddPaths(polygons, ClipperLib::jtMiter, ClipperLib::etClosedPolygon);
+  ClipperLib::Paths result;
+  offset.Execute(result, margin * kScale);
+  return result;
+}
+
+/// The ground within a distance of a line, with the box about it [m].
+struct Strip {
+  ClipperLib::Paths ground;
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+};
+
+Strip strip_of(const Polyline& line, double half_width, ClipperLib::EndType ends) {
+  Strip strip;
+  ClipperLib::ClipperOffset offset(2.0, kRoundness * kScale);
+  offset.AddPath(to_clipper(line.points()), ClipperLib::jtRound, ends);
+  offset.Execute(strip.ground, half_width * kScale);
+  for (const Vec2& point : line.points()) {
+    strip.low = strip.low.cwiseMin(point - Vec2::Constant(half_width));
+    strip.high = strip.high.cwiseMax(point + Vec2::Constant(half_width));
+  }
+  return strip;
+}
+
+/// A way along lanes, as they lie.
+struct LaneWay {
+  std::vector<Vec2> points;
+  std::vector<PathStretch> stretches;
+
+  void append(const Polyline& line, double from, double to, double kerb) {
+    PathStretch stretch;
+    stretch.from = stretches.empty() ? 0.0 : stretches.back().to;
+    append_span(line, from, to, points);
+    stretch.to = Polyline(points).length();
+    stretch.kerb = kerb;
+    stretches.push_back(stretch);
+  }
+};
+
+/// The ways that a vehicle may take over a link and `after` [m] on from it, over the junctions that
+/// follow where the road between them is shorter.
+void follow(const RoadNetwork& road, ConnectionId id, LaneWay way, double after, int links,
+            std::vector<LaneWay>& ways) {
+  const Connection& link = road.connection(id);
+  const Lane& next = road.lane(link.to);
+  const double length = next.centerline.length();
+  const Polyline inside = link_geometry(road, id);
+  if (!inside.empty())
+    way.append(inside, 0.0, inside.length(), width_to_kerb(road, road.lane(link.via)));
+  way.append(next.centerline, 0.0, std::min(after, length), width_to_kerb(road, next));
+  bool ends = length >= after || links <= 1;
+  if (!ends) {
+    ends = true;
+    for (const ConnectionId on : next.outgoing) {
+      if (!is_driven(road, on) || lane_use(road.lane(road.connection(on).to)) != LaneUse::Driving)
+        continue;
+      follow(road, on, way, after - length, links - 1, ways);
+      ends = false;
+    }
+  }
+  if (ends) ways.push_back(std::move(way));
+}
+
+std::vector<LaneWay> ways_over(const RoadNetwork& road, ConnectionId id) {
+  constexpr int kMostLinks = 3;
+  const Lane& before = road.lane(road.connection(id).from);
+  const double length = before.centerline.length();
+  LaneWay way;
+  way.append(before.centerline, std::max(0.0, length - kBeside), length,
+             width_to_kerb(road, before));
+  std::vector<LaneWay> ways;
+  follow(road, id, std::move(way), kBeside, kMostLinks, ways);
+  return ways;
+}
+
+/// What motor vehicles drive over the junctions, corners rounded.
+std::vector<Strip> driven_ways(const RoadNetwork& road) {
+  std::vector<Strip> strips;
+  for (const Junction& junction : road.junctions) {
+    for (const ConnectionId id : driven_links(road, junction)) {
+      const Connection& link = road.connection(id);
+      const VehicleClassMask allowed = road.lane(link.from).allowed & road.lane(link.to).allowed;
+      const std::vector<LaneWay> ways = ways_over(road, id);
+      for (const Turner& turner : kTurners) {
+        if ((allowed & turner.vehicle_class) == 0) continue;
+        Cornering cornering = turner.cornering;
+        cornering.keep_left = road.left_hand;
+        for (const LaneWay& way : ways) {
+          Path path;
+          path.line = Polyline(way.points);
+          path.stretches = way.stretches;
+          round_corners(cornering, path);
+          strips.push_back(strip_of(path.line, turner.half_width, ClipperLib::etOpenRound));
+        }
+      }
+    }
+  }
+  return strips;
+}
+
+/// The lanes of motor vehicles, on junctions and off them.
+std::vector<Strip> motor_lanes(const RoadNetwork& road) {
+  std::vector<Strip> strips;
+  for (const Lane& lane : road.lanes) {
+    const bool drives = lane.kind == LaneKind::Normal || lane.kind == LaneKind::Internal;
+    if (drives && lane_use(lane) == LaneUse::Driving)
+      strips.push_back(strip_of(lane.centerline, 0.5 * lane.width, ClipperLib::etOpenButt));
+  }
+  return strips;
+}
+
+/// Adds those of the strips that come near the area; whether there are any.
+bool add_near(const std::vector<Strip>& strips, const Lane& area, ClipperLib::PolyType as,
+              ClipperLib::Clipper& clipper) {
+  Strip own;
+  for (const Vec2& point : area.outline) {
+    own.low = own.low.cwiseMin(point);
+    own.high = own.high.cwiseMax(point);
+  }
+  bool any = false;
+  for (const Strip& strip : strips) {
+    if ((strip.low.array() > own.high.array()).any() ||
+        (strip.high.array() < own.low.array()).any())
+      continue;
+    any = clipper.AddPaths(strip.ground, as, true) || any;
+  }
+  return any;
+}
+
+/// Where the lanes on foot that meet at a walking area end there.
+std::vector<Vec2> ends_at(const RoadNetwork& road, const Lane& area) {
+  std::vector<Vec2> ends;
+  const auto add = [&](LaneId id) {
+    const std::vector<Vec2>& points = road.lane(id).centerline.points();
+    const bool front = distance_to_ring(area.outline, points.front()) <
+                       distance_to_ring(area.outline, points.back());
+    ends.push_back(front ? points.front() : points.back());
+  };
+  for (const ConnectionId id : area.incoming) add(road.connection(id).from);
+  for (const ConnectionId id : area.outgoing) add(road.connection(id).to);
+  return ends;
+}
+
+double off(const std::vector<Vec2>& ring, const Vec2& point) {
+  return ring_contains(ring, point) ? 0.0 : distance_to_ring(ring, point);
+}
+
+/// What is left of an area; nothing where it is the same, or falls apart.
+std::optional<std::vector<Vec2>> cut(const RoadNetwork& road, const Lane& area,
+                                     const std::vector<Strip>& ways,
+                                     const std::vector<Strip>& lanes) {
+  ClipperLib::Clipper beside;
+  if (!add_near(ways, area, ClipperLib::ptSubject, beside)) return std::nullopt;
+  add_near(lanes, area, ClipperLib::ptClip, beside);
+  ClipperLib::Paths needed, pieces;
+  beside.Execute(ClipperLib::ctDifference, needed, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  ClipperLib::Clipper clipper;
+  const ClipperLib::Path outline = to_clipper(area.outline);
+  clipper.AddPath(outline, ClipperLib::ptSubject, true);
+  clipper.AddPaths(needed, ClipperLib::ptClip, true);
+  clipper.Execute(ClipperLib::ctDifference, pieces, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
+  double taken = std::abs(ClipperLib::Area(outline));
+  for (const ClipperLib::Path& piece : pieces) taken -= ClipperLib::Area(piece);
+  if (taken < kWorthIt * kScale * kScale) return std::nullopt;
+  pieces = grown(grown(pieces, -kSliver), kSliver);
+  if (pieces.empty()) return std::nullopt;
+  const auto largest = std::max_element(pieces.begin(), pieces.end(),
+                                        [](const ClipperLib::Path& a, const ClipperLib::Path& b) {
+                                          return ClipperLib::Area(a) < ClipperLib::Area(b);
+                                        });
+  std::vector<Vec2> left = from_clipper(*largest);
+  for (const Vec2& end : ends_at(road, area))
+    if (off(left, end) > off(area.outline, end) + kAtEnd) return std::nullopt;
+  return left;
+}
+
+/// Height of an area's outline where it is nearest [m].
+double height_near(const Lane& area, const Vec2& point) {
+  const std::vector<Vec2>& points = area.centerline.points();
+  const auto nearest =
+      std::min_element(points.begin(), points.end(), [&](const Vec2& a, const Vec2& b) {
+        return (a - point).squaredNorm() < (b - point).squaredNorm();
+      });
+  return area.elevation[static_cast<std::size_t>(nearest - points.begin())];
+}
+
+}  // namespace
+
+std::map<std::string, std::vector<Vec2>> walking_areas_off_the_road(const RoadNetwork& road) {
+  const std::vector<Strip> ways = driven_ways(road), lanes = motor_lanes(road);
+  std::map<std::string, std::vector<Vec2>> outlines;
+  for (const Lane& lane : road.lanes) {
+    if (lane.kind != LaneKind::WalkingArea || lane.outline.size() < 3) continue;
+    if (auto left = cut(road, lane, ways, lanes)) outlines[lane.name] = std::move(*left);
+  }
+  return outlines;
+}
+
+void set_walking_areas(const std::filesystem::path& network, const RoadNetwork& road,
+                       const std::map<std::string, std::vector<Vec2>>& outlines) {
+  pugi::xml_document document = load_network(network);
+  for (const pugi::xml_node edge : document.child("net").children("edge")) {
+    for (pugi::xml_node lane : edge.children("lane")) {
+      const auto outline = outlines.find(lane.attribute("id").value());
+      if (outline == outlines.end()) continue;
+      const Lane& before = road.lane(road.lane_by_name.at(outline->first));
+      std::ostringstream shape;
+      shape << std::fixed << std::setprecision(2);
+      for (const Vec2& point : outline->second) {
+        shape << (shape.tellp() > 0 ? " " : "") << point.x() << ',' << point.y();
+        if (!before.elevation.empty()) shape << ',' << height_near(before, point);
+      }
+      lane.attribute("shape") = shape.str().c_str();
+    }
+  }
+  save_xml(document, network);
+}
+
+}  // namespace sumogamma::osm
