@@ -41,7 +41,7 @@ void set_junction_rooms(RoadNetwork& network) {
     if (lane.kind != LaneKind::Internal) continue;
     const Polyline& line = lane.centerline;
     auto room = [&](double side) {
-      double most = kMost;
+      double most = is_without_motors(lane) ? 0.0 : kMost;
       for (double along = 0.0; along <= line.length(); along += kAlong) {
         const Vec2 kerb = line.point_at(along);
         const Vec2 outwards = side * left_of(line.direction_at(along));
