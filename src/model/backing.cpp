@@ -149,7 +149,7 @@ bool waits_for_wedged(const Scene& scene, std::size_t row) {
 /// who is? Of three who hold each other the one with room behind may wait for the wrong one.
 bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometry& geometry,
                        std::size_t row) {
-  constexpr double kLong = 25.0;  // [s]
+  constexpr double kLong = 12.0;  // [s]
   constexpr int kLongest = 12;
   return scene.standing_time[row] > kLong && !is_wedged(scene, row) && !scene.context[row].at_red &&
          stands_before(model, scene, geometry, row, [&](std::size_t other) {
