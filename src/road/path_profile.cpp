@@ -31,34 +31,49 @@ std::vector<double> turning_sums(const Polyline& line, double step, std::size_t 
 }
 
 constexpr double kFastest = 100.0;  ///< where nothing bends [m/s]
+constexpr double kTight = 2.5;      ///< radius within which only two-wheelers turn [m]
+
+/// How a path's bends are looked at.
+struct BendView {
+  double step;    ///< between the places where they are looked at [m]
+  double steers;  ///< [s] to each side in which a driver steers into a bend or out of it
+};
+
+/// Finer, and what is left of the map's kinks counts as bends; but two-wheelers turn on less, and
+/// swing off it where they don't slow down for that.
+BendView bend_view(double turning_radius) {
+  constexpr double kStepInRadii = 0.53;
+  if (turning_radius <= 0.0 || turning_radius > kTight) return {2.0, 0.6};
+  return {kStepInRadii * turning_radius, 0.25};
+}
 
 /// Speed [m/s] that the bend at place i leaves: the lateral acceleration is the comfortable one on
 /// the mean over the way that the vehicle covers at that speed while it steers into the bend and
 /// out of it, since a driver spreads what a map draws as a kink.
-double speed_in_bend(const std::vector<double>& sums, double step, std::size_t i,
+double speed_in_bend(const std::vector<double>& sums, const BendView& view, std::size_t i,
                      double lateral_acceleration) {
   constexpr std::size_t kWidest = 6;  // places to each side
-  constexpr double kSteers = 0.6;     // [s] to each side
   const std::size_t widest = std::min({kWidest, i, sums.size() - 2 - i});
   for (std::size_t k = widest; k > 0; --k) {
-    const double reach = (static_cast<double>(k) + 0.5) * step;
+    const double reach = (static_cast<double>(k) + 0.5) * view.step;
     const double curvature = (sums[i + k + 1] - sums[i - k]) / (2.0 * reach);
     const double comfortable = std::sqrt(lateral_acceleration / std::max(curvature, 1e-4));
     // who is slower than it takes to cover this way spreads the bend over a shorter one
-    const bool covers = comfortable * kSteers > reach - step;
-    if (covers || k == 1) return k < widest ? std::min(comfortable, reach / kSteers) : comfortable;
+    const bool covers = comfortable * view.steers > reach - view.step;
+    if (covers || k == 1)
+      return k < widest ? std::min(comfortable, reach / view.steers) : comfortable;
   }
   return kFastest;
 }
 
-/// Speeds [m/s] that a line's bends leave at places `step` [m] apart.
-std::vector<double> speeds_in_bends(const Polyline& line, double step,
+/// Speeds [m/s] that a line's bends leave at the places of the view.
+std::vector<double> speeds_in_bends(const Polyline& line, const BendView& view,
                                     double lateral_acceleration) {
-  const auto count = static_cast<std::size_t>(std::ceil(line.length() / step)) + 1;
-  const std::vector<double> sums = turning_sums(line, step, count);
+  const auto count = static_cast<std::size_t>(std::ceil(line.length() / view.step)) + 1;
+  const std::vector<double> sums = turning_sums(line, view.step, count);
   std::vector<double> speeds(count);
   for (std::size_t i = 0; i < count; ++i)
-    speeds[i] = speed_in_bend(sums, step, i, lateral_acceleration);
+    speeds[i] = speed_in_bend(sums, view, i, lateral_acceleration);
   return speeds;
 }
 
@@ -104,18 +119,18 @@ void ease_profile(std::vector<double>& profile) {
 }  // namespace
 
 void compute_speed_profile(const PathRequest& request, Path& path) {
-  constexpr double kBendStep = 2.0;  // finer, and what is left of the map's kinks counts as bends
+  const BendView view = bend_view(request.cornering.turning_radius);
   const double length = path.line.length();
   const auto samples = static_cast<std::size_t>(std::ceil(length / Path::kProfileStep)) + 1;
   const std::vector<double> in_bends =
       path.walking ? std::vector<double>{}
-                   : speeds_in_bends(path.line, kBendStep, request.max_lateral_acceleration);
+                   : speeds_in_bends(path.line, view, request.max_lateral_acceleration);
   path.speed_profile.resize(samples);
   for (std::size_t i = 0; i < samples; ++i) {
     const double along = std::min(static_cast<double>(i) * Path::kProfileStep, length);
     double speed =
         std::min(path.stretch_at(along).speed_limit * request.speed_factor, request.max_speed);
-    if (!path.walking) speed = std::min(speed, speed_between(in_bends, kBendStep, along));
+    if (!path.walking) speed = std::min(speed, speed_between(in_bends, view.step, along));
     path.speed_profile[i] = std::max(speed, 1.5);
   }
   if (path.walking) return;
@@ -135,13 +150,28 @@ namespace {
 /// must not cut over the kerb.
 std::vector<double> filter_widths(const std::vector<Vec2>& samples, double step,
                                   double turning_radius) {
-  constexpr double kWidest = 4.0, kReach = 2.0, kRamp = 0.8;
+  constexpr double kWidest = 4.0, kReach = 2.0, kReachInRadii = 0.53, kRamp = 0.8;
   const double width = std::min(std::sqrt(2.0) * turning_radius, kWidest);
-  const auto reach = static_cast<std::size_t>(std::max(1.0, kReach / step));
+  // over as long a chord a corner seems as wide as a bicycle turns
+  const double chord = std::min(kReach, kReachInRadii * turning_radius);
+  const auto reach = static_cast<std::size_t>(std::max(1.0, chord / step));
   std::vector<double> widths(samples.size(), 0.0);
-  for (std::size_t i = reach; i + reach < samples.size(); ++i)
-    if (menger_curvature(samples[i - reach], samples[i], samples[i + reach]) * turning_radius > 1.0)
+  for (std::size_t i = reach; i + reach < samples.size(); ++i) {
+    const double turns =
+        menger_curvature(samples[i - reach], samples[i], samples[i + reach]) * turning_radius;
+    if (turns <= 1.0) continue;
+    if (turning_radius > kTight) {
       widths[i] = width;
+      continue;
+    }
+    // two-wheelers have the room for the whole of a window, which turns by an angle with radius
+    // w / (2 sin(angle / 2)), and little room in their lane before a corner
+    const double needed = std::min(turns * static_cast<double>(reach) * step, width);
+    const auto held = static_cast<std::size_t>(needed / step);
+    const std::size_t last = std::min(i + held + 1, widths.size());
+    for (std::size_t k = i - std::min(i, held); k < last; ++k)
+      widths[k] = std::max(widths[k], needed);
+  }
   for (std::size_t i = 1; i < widths.size(); ++i)
     widths[i] = std::max(widths[i], widths[i - 1] - kRamp * step);
   for (std::size_t i = widths.size() - 1; i-- > 0;)
@@ -249,7 +279,8 @@ std::optional<std::pair<std::size_t, std::size_t>> turn_before(const std::vector
 /// Draws the line straight where it turns back on itself and on again, as between the ends of lanes
 /// that overlap: nobody drives to the tip and back. What turns round for good stays, but narrow
 /// vehicles turn where the way back is far enough away for that, not at the tip of an acute angle.
-void straighten_folds(double step, const Cornering& cornering, std::vector<Vec2>& samples) {
+/// Whether anything was drawn anew: samples lie closer to each other there.
+bool straighten_folds(double step, const Cornering& cornering, std::vector<Vec2>& samples) {
   constexpr double kReversal = -0.35;  // cosine of a turn within kNear
   constexpr double kNear = 1.0;        // [m]
   constexpr double kFarthest = 14.0;   // [m]
@@ -257,6 +288,7 @@ void straighten_folds(double step, const Cornering& cornering, std::vector<Vec2>
   const auto farthest = static_cast<std::size_t>(kFarthest / step);
   const auto near = static_cast<std::size_t>(std::max(1.0, kNear / step));
   const Heading heading{samples, near};
+  bool any = false;
   for (std::size_t tip = 2 * near; tip + 2 * near < samples.size(); ++tip) {
     if (Heading::cosine(heading.into(tip), heading.out_of(tip)) > kReversal) continue;
     auto bridge = bridge_over(heading, tip, farthest);
@@ -268,7 +300,9 @@ void straighten_folds(double step, const Cornering& cornering, std::vector<Vec2>
     for (std::size_t k = from + 1; k < to; ++k)
       samples[k] = begin + static_cast<double>(k - from) / static_cast<double>(to - from) * piece;
     tip = to;
+    any = true;
   }
+  return any;
 }
 
 /// Leaves out vertices that lie within a centimetre of the chord over them: whoever looks along the
@@ -303,38 +337,61 @@ double width_to_kerb(const RoadNetwork& network, const Lane& lane) {
   return 0.5 * lane.width + beside + width_beside(network, lane, false, is_carriageway);
 }
 
-void round_corners(const Cornering& cornering, Path& path) {
-  constexpr double kSample = 0.5;
-  const double length = path.line.length();
-  if (cornering.turning_radius <= 0.0 || length < 2.0) return;
-  const auto count = static_cast<std::size_t>(length / kSample) + 1;
-  const double step = length / static_cast<double>(count);
-  std::vector<Vec2> samples(count + 1);
-  for (std::size_t i = 0; i <= count; ++i)
-    samples[i] = path.line.point_at(static_cast<double>(i) * step);
+namespace {
+/// A path's line at equal paces of about half a metre, shorter for who turns on the spot of a
+/// bicycle: its corners would be jagged.
+struct Samples {
+  std::vector<Vec2> points;
+  double step = 0;  ///< [m]
 
-  straighten_folds(step, cornering, samples);
-  std::vector<Vec2> sums(count + 2, Vec2::Zero());
-  for (std::size_t i = 0; i <= count; ++i) sums[i + 1] = sums[i] + samples[i];
-  // wide only where the line bends tighter than the body can: other bends are driven as they lie
-  std::vector<double> widths = filter_widths(samples, step, cornering.turning_radius);
-  const std::vector<double> cuts = cuts_of(path, count, step, cornering);
-  const std::vector<double> smoothing = smoothing_widths(samples, sums, step, cuts, cornering);
-  for (std::size_t i = 0; i <= count; ++i) widths[i] = std::max(widths[i], smoothing[i]);
-  std::vector<Vec2> rounded(count + 1);
-  std::vector<double> along(count + 1, 0.0);
-  for (std::size_t i = 0; i <= count; ++i) {
-    // the mean over a window that shrinks towards the ends, by running sums
-    const std::size_t window = std::min({static_cast<std::size_t>(widths[i] / step), i, count - i});
-    rounded[i] = (sums[i + window + 1] - sums[i - window]) / static_cast<double>(2 * window + 1);
-    if (i > 0) along[i] = along[i - 1] + (rounded[i] - rounded[i - 1]).norm();
+  Samples(const Polyline& line, double turning_radius) {
+    constexpr double kSample = 0.5, kSampleInRadii = 0.2;
+    const double sample = std::min(kSample, kSampleInRadii * turning_radius);
+    const auto count = static_cast<std::size_t>(line.length() / sample) + 1;
+    step = line.length() / static_cast<double>(count);
+    for (std::size_t i = 0; i <= count; ++i)
+      points.push_back(line.point_at(static_cast<double>(i) * step));
   }
+};
+
+/// Leads the path along points that stand for its samples, and its places with them.
+void lead_along(const std::vector<Vec2>& points, double step, Path& path) {
+  std::vector<double> along{0.0};
+  for (std::size_t i = 1; i < points.size(); ++i)
+    along.push_back(along[i - 1] + (points[i] - points[i - 1]).norm());
+  const std::size_t count = points.size() - 1;
   carry_places(path, [&](double& place) {
     const double index = std::clamp(place / step, 0.0, static_cast<double>(count));
     const auto i = std::min(static_cast<std::size_t>(index), count - 1);
     place = along[i] + (index - static_cast<double>(i)) * (along[i + 1] - along[i]);
   });
-  path.line = Polyline(without_flat_vertices(rounded));
+  path.line = Polyline(without_flat_vertices(points));
+}
+}  // namespace
+
+void round_corners(const Cornering& cornering, Path& path) {
+  if (cornering.turning_radius <= 0.0 || path.line.length() < 2.0) return;
+  Samples samples(path.line, cornering.turning_radius);
+  if (straighten_folds(samples.step, cornering, samples.points)) {
+    lead_along(samples.points, samples.step, path);
+    samples = Samples(path.line, cornering.turning_radius);
+  }
+  const auto& [points, step] = samples;
+  const std::size_t count = points.size() - 1;
+  std::vector<Vec2> sums(count + 2, Vec2::Zero());
+  for (std::size_t i = 0; i <= count; ++i) sums[i + 1] = sums[i] + points[i];
+  // wide only where the line bends tighter than the body can: other bends are driven as they lie
+  const std::vector<double> widths = filter_widths(points, step, cornering.turning_radius);
+  const std::vector<double> cuts = cuts_of(path, count, step, cornering);
+  const std::vector<double> smoothing = smoothing_widths(points, sums, step, cuts, cornering);
+  std::vector<Vec2> rounded(count + 1);
+  for (std::size_t i = 0; i <= count; ++i) {
+    // the mean over a window that shrinks towards the ends, by running sums
+    const double width = std::max(widths[i], smoothing[i]);
+    const std::size_t window = std::min({static_cast<std::size_t>(width / step), i, count - i});
+    rounded[i] = (sums[i + window + 1] - sums[i - window]) / static_cast<double>(2 * window + 1);
+  }
+  lead_along(rounded, step, path);
 }
 
 void move_stop_lines(const RoadNetwork& network, Path& path) {

@@ -218,6 +218,24 @@ TEST_F(Crossroads, RoomEndsWhereTheClassMayNotGo) {
   EXPECT_NEAR(inner.stretches.front().room_left, 0.5 * width, 1e-9);
 }
 
+// who rode round somebody beside its way came out on the wrong side of a queue on a path of 1 m
+TEST(JunctionRoom, BicyclesKeepToTheirWay) {
+  PlainNet plain = crossroads("priority");
+  const std::string any = "speed=\"13\"";
+  for (std::size_t at = plain.edges.find(any); at != std::string::npos;
+       at = plain.edges.find(any, at + 1))
+    plain.edges.replace(at, any.size(), "speed=\"5\" width=\"1\" allow=\"bicycle\"");
+  const RoadNetwork network = read_plain_net(plain);
+  int links = 0;
+  for (const Lane& lane : network.lanes) {
+    if (lane.kind != LaneKind::Internal) continue;
+    ++links;
+    EXPECT_EQ(lane.beside_left, 0.0) << lane.name;
+    EXPECT_EQ(lane.beside_right, 0.0) << lane.name;
+  }
+  EXPECT_GT(links, 0);
+}
+
 TEST_F(Crossroads, RoomOnAJunctionEndsWherePeopleWalk) {
   const LaneLocator locator(right());
   std::vector<LaneHit> hits;
@@ -383,6 +401,65 @@ TEST(RoundCorners, WhoIsNarrowTurnsBeforeTheTipOfAnAcuteAngle) {
   // 4 m apart are the two branches 8.7 m from the tip
   EXPECT_LT(farthest({2.0, 1.8, 0.6}), 33.0);
   EXPECT_GT(farthest({2.0, 4.5, 1.8}), 35.0) << "where a car turns is the map's to say";
+}
+
+/// Tightest radius of a line between two places on it [m], over half a metre.
+double tightest(const Polyline& line, double from, double to) {
+  constexpr double kReach = 0.25;
+  double radius = 1e9;
+  for (double s = from; s < to; s += 0.1) {
+    const double turn = std::abs(wrap_angle(heading_of(line.direction_at(s + kReach)) -
+                                            heading_of(line.direction_at(s - kReach))));
+    if (turn > 1e-6) radius = std::min(radius, 2.0 * kReach / turn);
+  }
+  return radius;
+}
+
+// over 2 m a right angle seems as wide as a bicycle turns: it was left as sharp as it was drawn
+TEST(RoundCorners, ABicycleTurnsWithItsRadius) {
+  for (const double angle : {60.0, 90.0, 140.0}) {
+    Path path;
+    path.line = Polyline({{0, 0}, {20, 0}, Vec2(20, 0) + 20 * direction_of(radians(angle))});
+    path.stretches.push_back({});
+    path.stretches.back().to = path.line.length();
+    const Polyline drawn = path.line;
+    round_corners({1.15, 1.6, 0.65}, path);
+    EXPECT_GT(tightest(path.line, 15, path.line.length() - 15), 0.7) << angle;
+    for (double s = 0; s < path.line.length(); s += 0.25)
+      EXPECT_LT(drawn.project(path.line.point_at(s)).distance, 1.2) << angle;
+  }
+}
+
+// samples lie closer to each other on the piece that is drawn anew: its corners got hardly a window
+TEST(RoundCorners, ThePieceAcrossAnAcuteAngleHasRoundCornersToo) {
+  Path path;
+  path.line = Polyline({{0, 0}, {40, 0}, {10, 9}});
+  path.stretches.push_back({});
+  path.stretches.back().to = path.line.length();
+  path.links.push_back({kNoConnection, 20.0, 36.0, 20.0, 20.0});
+  const Vec2 line_at = path.line.point_at(20.0);
+  round_corners({1.15, 1.6, 0.65}, path);
+  EXPECT_GT(tightest(path.line, 15, path.line.length() - 15), 0.7);
+  EXPECT_NEAR((path.line.point_at(path.links.front().stop_line) - line_at).norm(), 0.0, 0.1);
+}
+
+TEST(SpeedProfile, ABicycleSlowsDownToTurn) {
+  const auto slowest = [](double turning_radius) {
+    Path path;
+    path.line = Polyline({{0, 0}, {30, 0}, {30, 30}});
+    path.stretches.push_back({});
+    path.stretches.back().to = path.line.length();
+    path.stretches.back().speed_limit = 6;
+    PathRequest request;
+    request.max_lateral_acceleration = 2.0;
+    request.comfortable_deceleration = 2.0;
+    request.cornering = {turning_radius, 1.6, 0.65};
+    round_corners(request.cornering, path);
+    compute_speed_profile(request, path);
+    return *std::min_element(path.speed_profile.begin(), path.speed_profile.end());
+  };
+  EXPECT_LT(slowest(1.15), 2.3) << "1.5 m/s in a circle of 1.15 m";
+  EXPECT_GT(slowest(4.4), 2.8);
 }
 
 TEST(SpeedProfile, BrakesSteadilyBetweenItsPlaces) {
