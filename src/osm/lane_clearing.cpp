@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "road/lane_locator.h"
+
 namespace sumogamma::osm {
 namespace {
 
@@ -82,12 +84,10 @@ void append_within_ring(const std::vector<Vec2>& ring, const Vec2& a, const Vec2
       stretches.push_back({cuts[i], cuts[i + 1]});
 }
 
-/// Where the lanes on foot that meet at a walking area end there: people walk straight from one to
-/// another.
-std::vector<Vec2> ends_at(const RoadNetwork& road, const Lane& area,
-                          const std::vector<Vec2>& outline) {
-  Vec2 middle = Vec2::Zero();
-  for (const Vec2& point : outline) middle += point / static_cast<double>(outline.size());
+}  // namespace
+
+std::vector<Vec2> walking_ends(const RoadNetwork& road, const Lane& area) {
+  const std::vector<Vec2>& outline = area.centerline.points();
   std::vector<LaneId> lanes;
   for (const ConnectionId id : area.incoming) lanes.push_back(road.connection(id).from);
   for (const ConnectionId id : area.outgoing) lanes.push_back(road.connection(id).to);
@@ -96,13 +96,12 @@ std::vector<Vec2> ends_at(const RoadNetwork& road, const Lane& area,
   std::vector<Vec2> ends;
   for (const LaneId id : lanes) {
     const std::vector<Vec2>& points = road.lane(id).centerline.points();
-    const bool front = (points.front() - middle).norm() < (points.back() - middle).norm();
+    const bool front =
+        distance_to_ring(outline, points.front()) < distance_to_ring(outline, points.back());
     ends.push_back(front ? points.front() : points.back());
   }
   return ends;
 }
-
-}  // namespace
 
 template <typename Visit>
 void LaneClearing::visit_cells(const Vec2& low, const Vec2& high, Visit visit) const {
@@ -131,7 +130,7 @@ LaneClearing::LaneClearing(const RoadNetwork& road) {
           lane.outline.empty() ? lane.centerline.points() : lane.outline;
       if (outline.size() < 3) continue;
       walking_areas_.push_back(outline);
-      const std::vector<Vec2> ends = ends_at(road, lane, outline);
+      const std::vector<Vec2> ends = walking_ends(road, lane);
       for (std::size_t i = 0; i < ends.size(); ++i)
         for (std::size_t k = i + 1; k < ends.size(); ++k)
           add_piece(ends[i], ends[k], kFootClearance);

@@ -8,6 +8,10 @@
 
 namespace sumogamma::osm {
 
+/// Where the lanes on foot that meet at a walking area end there: people walk straight from one to
+/// another.
+std::vector<Vec2> walking_ends(const RoadNetwork& road, const Lane& area);
+
 /// A stretch of a segment, as shares of it in [0, 1].
 struct Stretch {
   double from = 0, to = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <clipper.hpp>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -10,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "osm/clipping.h"
 #include "osm/lane_clearing.h"
 
 namespace sumogamma::osm {
@@ -17,9 +17,8 @@ namespace {
 
 using Ring = std::vector<Vec2>;
 
-constexpr double kLeastWall = 0.5;        // [m]: shorter remains of a cut wall are left out
-constexpr double kLeastArea = 1.0;        // [m^2]: smaller remains of a cut building are left out
-constexpr double kClipperScale = 1000.0;  // Clipper works on whole numbers: millimetres
+constexpr double kLeastWall = 0.5;  // [m]: shorter remains of a cut wall are left out
+constexpr double kLeastArea = 1.0;  // [m^2]: smaller remains of a cut building are left out
 constexpr std::string_view kWalls[] = {"wall",           "fence",        "hedge",
                                        "retaining_wall", "guard_rail",   "city_wall",
                                        "jersey_barrier", "cable_barrier"};
@@ -116,21 +115,6 @@ std::vector<Ring> off_lanes(const LaneClearing& clearing, const Ring& chain, boo
     parts.erase(parts.begin());
   }
   return parts;
-}
-
-ClipperLib::Path to_clipper(const Ring& ring) {
-  ClipperLib::Path path;
-  for (const Vec2& p : ring)
-    path.emplace_back(std::llround(p.x() * kClipperScale), std::llround(p.y() * kClipperScale));
-  return path;
-}
-
-Ring from_clipper(const ClipperLib::Path& path) {
-  Ring ring;
-  for (const ClipperLib::IntPoint& p : path)
-    ring.emplace_back(static_cast<double>(p.X) / kClipperScale,
-                      static_cast<double>(p.Y) / kClipperScale);
-  return ring;
 }
 
 /// What remains of a polygon (outer ring, then courtyards) off all lanes: polygons of the same

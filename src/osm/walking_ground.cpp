@@ -1,13 +1,14 @@
 #include "osm/walking_ground.h"
 
 #include <algorithm>
-#include <clipper.hpp>
 #include <cmath>
 #include <iomanip>
 #include <limits>
 #include <optional>
 #include <sstream>
 
+#include "osm/clipping.h"
+#include "osm/lane_clearing.h"
 #include "osm/lane_overlap.h"
 #include "osm/network_file.h"
 #include "road/conflict_zones.h"
@@ -17,7 +18,6 @@
 namespace sumogamma::osm {
 namespace {
 
-constexpr double kScale = 1000.0;    // Clipper works on whole numbers: millimetres
 constexpr double kBeside = 10.0;     // [m] of the lanes before and behind a junction
 constexpr double kRoundness = 0.05;  // [m] that the ends of a strip may be off a circle
 constexpr double kSliver = 0.1;      // [m] half the width of what is no ground to walk on
@@ -35,25 +35,11 @@ constexpr Turner kTurners[] = {{vehicle_class::kMotorcycle, {1.84}, 0.6},
                                {vehicle_class::kTruck, {4.4, 7.5, 2.4}, 0.6},
                                {vehicle_class::kBus, {6.6, 12.0, 2.5}, 0.6}};
 
-ClipperLib::Path to_clipper(const std::vector<Vec2>& points) {
-  ClipperLib::Path path;
-  for (const Vec2& p : points)
-    path.emplace_back(std::llround(p.x() * kScale), std::llround(p.y() * kScale));
-  return path;
-}
-
-std::vector<Vec2> from_clipper(const ClipperLib::Path& path) {
-  std::vector<Vec2> points;
-  for (const ClipperLib::IntPoint& p : path)
-    points.emplace_back(static_cast<double>(p.X) / kScale, static_cast<double>(p.Y) / kScale);
-  return points;
-}
-
 ClipperLib::Paths grown(const ClipperLib::Paths& polygons, double margin) {
-  ClipperLib::ClipperOffset offset(2.0, kRoundness * kScale);
+  ClipperLib::ClipperOffset offset(2.0, kRoundness * kClipperScale);
   offset.AddPaths(polygons, ClipperLib::jtMiter, ClipperLib::etClosedPolygon);
   ClipperLib::Paths result;
-  offset.Execute(result, margin * kScale);
+  offset.Execute(result, margin * kClipperScale);
   return result;
 }
 
@@ -65,9 +51,9 @@ struct Strip {
 
 Strip strip_of(const Polyline& line, double half_width, ClipperLib::EndType ends) {
   Strip strip;
-  ClipperLib::ClipperOffset offset(2.0, kRoundness * kScale);
+  ClipperLib::ClipperOffset offset(2.0, kRoundness * kClipperScale);
   offset.AddPath(to_clipper(line.points()), ClipperLib::jtRound, ends);
-  offset.Execute(strip.ground, half_width * kScale);
+  offset.Execute(strip.ground, half_width * kClipperScale);
   for (const Vec2& point : line.points()) {
     strip.low = strip.low.cwiseMin(point - Vec2::Constant(half_width));
     strip.high = strip.high.cwiseMax(point + Vec2::Constant(half_width));
@@ -180,20 +166,6 @@ bool add_near(const std::vector<Strip>& strips, const Lane& area, ClipperLib::Po
   return any;
 }
 
-/// Where the lanes on foot that meet at a walking area end there.
-std::vector<Vec2> ends_at(const RoadNetwork& road, const Lane& area) {
-  std::vector<Vec2> ends;
-  const auto add = [&](LaneId id) {
-    const std::vector<Vec2>& points = road.lane(id).centerline.points();
-    const bool front = distance_to_ring(area.outline, points.front()) <
-                       distance_to_ring(area.outline, points.back());
-    ends.push_back(front ? points.front() : points.back());
-  };
-  for (const ConnectionId id : area.incoming) add(road.connection(id).from);
-  for (const ConnectionId id : area.outgoing) add(road.connection(id).to);
-  return ends;
-}
-
 double off(const std::vector<Vec2>& ring, const Vec2& point) {
   return ring_contains(ring, point) ? 0.0 : distance_to_ring(ring, point);
 }
@@ -214,7 +186,7 @@ std::optional<std::vector<Vec2>> cut(const RoadNetwork& road, const Lane& area,
   clipper.Execute(ClipperLib::ctDifference, pieces, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
   double taken = std::abs(ClipperLib::Area(outline));
   for (const ClipperLib::Path& piece : pieces) taken -= ClipperLib::Area(piece);
-  if (taken < kWorthIt * kScale * kScale) return std::nullopt;
+  if (taken < kWorthIt * kClipperScale * kClipperScale) return std::nullopt;
   pieces = grown(grown(pieces, -kSliver), kSliver);
   if (pieces.empty()) return std::nullopt;
   const auto largest = std::max_element(pieces.begin(), pieces.end(),
@@ -222,7 +194,7 @@ std::optional<std::vector<Vec2>> cut(const RoadNetwork& road, const Lane& area,
                                           return ClipperLib::Area(a) < ClipperLib::Area(b);
                                         });
   std::vector<Vec2> left = from_clipper(*largest);
-  for (const Vec2& end : ends_at(road, area))
+  for (const Vec2& end : walking_ends(road, area))
     if (off(left, end) > off(area.outline, end) + kAtEnd) return std::nullopt;
   return left;
 }

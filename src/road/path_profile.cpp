@@ -338,8 +338,7 @@ double width_to_kerb(const RoadNetwork& network, const Lane& lane) {
 }
 
 namespace {
-/// A path's line at equal paces of about half a metre, shorter for who turns on the spot of a
-/// bicycle: its corners would be jagged.
+/// A path's line at equal paces of about half a metre, or a fifth of a tighter turning radius.
 struct Samples {
   std::vector<Vec2> points;
   double step = 0;  ///< [m]
