@@ -18,11 +18,12 @@
 namespace sumogamma::osm {
 namespace {
 
-constexpr double kBeside = 10.0;     // [m] of the lanes before and behind a junction
-constexpr double kRoundness = 0.05;  // [m] that the ends of a strip may be off a circle
-constexpr double kSliver = 0.1;      // [m] half the width of what is no ground to walk on
-constexpr double kAtEnd = 0.3;       // [m] from an outline that a lane's end may lie
-constexpr double kWorthIt = 0.02;    // [m^2] of a walking area
+constexpr double kBeside = 10.0;      // [m] of the lanes before and behind a junction
+constexpr double kRoundness = 0.05;   // [m] that the ends of a strip may be off a circle
+constexpr double kSliver = 0.1;       // [m] half the width of what is no ground to walk on
+constexpr double kAtEnd = 0.3;        // [m] from an outline that a lane's end may lie
+constexpr double kWorthIt = 0.02;     // [m^2] of a walking area
+constexpr double kOtherStorey = 2.5;  // [m]
 
 struct Turner {
   VehicleClassMask vehicle_class;
@@ -47,10 +48,12 @@ ClipperLib::Paths grown(const ClipperLib::Paths& polygons, double margin) {
 struct Strip {
   ClipperLib::Paths ground;
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  double height = 0;  ///< [m]
 };
 
-Strip strip_of(const Polyline& line, double half_width, ClipperLib::EndType ends) {
+Strip strip_of(const Polyline& line, double height, double half_width, ClipperLib::EndType ends) {
   Strip strip;
+  strip.height = height;
   ClipperLib::ClipperOffset offset(2.0, kRoundness * kClipperScale);
   offset.AddPath(to_clipper(line.points()), ClipperLib::jtRound, ends);
   offset.Execute(strip.ground, half_width * kClipperScale);
@@ -119,6 +122,8 @@ std::vector<Strip> driven_ways(const RoadNetwork& road) {
     for (const ConnectionId id : driven_links(road, junction)) {
       const Connection& link = road.connection(id);
       const VehicleClassMask allowed = road.lane(link.from).allowed & road.lane(link.to).allowed;
+      const Lane& from = road.lane(link.from);
+      const double height = elevation_at(from, from.centerline.length());
       const std::vector<LaneWay> ways = ways_over(road, id);
       for (const Turner& turner : kTurners) {
         if ((allowed & turner.vehicle_class) == 0) continue;
@@ -129,7 +134,7 @@ std::vector<Strip> driven_ways(const RoadNetwork& road) {
           path.line = Polyline(way.points);
           path.stretches = way.stretches;
           round_corners(cornering, path);
-          strips.push_back(strip_of(path.line, turner.half_width, ClipperLib::etOpenRound));
+          strips.push_back(strip_of(path.line, height, turner.half_width, ClipperLib::etOpenRound));
         }
       }
     }
@@ -143,12 +148,14 @@ std::vector<Strip> motor_lanes(const RoadNetwork& road) {
   for (const Lane& lane : road.lanes) {
     const bool drives = lane.kind == LaneKind::Normal || lane.kind == LaneKind::Internal;
     if (drives && lane_use(lane) == LaneUse::Driving)
-      strips.push_back(strip_of(lane.centerline, 0.5 * lane.width, ClipperLib::etOpenButt));
+      strips.push_back(strip_of(lane.centerline, elevation_at(lane, 0.0), 0.5 * lane.width,
+                                ClipperLib::etOpenButt));
   }
   return strips;
 }
 
-/// Adds those of the strips that come near the area; whether there are any.
+/// Adds those of the strips that come near the area, and not far above or below it; whether there
+/// are any.
 bool add_near(const std::vector<Strip>& strips, const Lane& area, ClipperLib::PolyType as,
               ClipperLib::Clipper& clipper) {
   Strip own;
@@ -159,7 +166,8 @@ bool add_near(const std::vector<Strip>& strips, const Lane& area, ClipperLib::Po
   bool any = false;
   for (const Strip& strip : strips) {
     if ((strip.low.array() > own.high.array()).any() ||
-        (strip.high.array() < own.low.array()).any())
+        (strip.high.array() < own.low.array()).any() ||
+        std::abs(strip.height - elevation_at(area, 0.0)) > kOtherStorey)
       continue;
     any = clipper.AddPaths(strip.ground, as, true) || any;
   }
