@@ -86,19 +86,19 @@ void append_within_ring(const std::vector<Vec2>& ring, const Vec2& a, const Vec2
 
 }  // namespace
 
-std::vector<Vec2> walking_ends(const RoadNetwork& road, const Lane& area) {
+std::vector<WalkingEnd> walking_ends(const RoadNetwork& road, const Lane& area) {
   const std::vector<Vec2>& outline = area.centerline.points();
   std::vector<LaneId> lanes;
   for (const ConnectionId id : area.incoming) lanes.push_back(road.connection(id).from);
   for (const ConnectionId id : area.outgoing) lanes.push_back(road.connection(id).to);
   std::sort(lanes.begin(), lanes.end());
   lanes.erase(std::unique(lanes.begin(), lanes.end()), lanes.end());
-  std::vector<Vec2> ends;
+  std::vector<WalkingEnd> ends;
   for (const LaneId id : lanes) {
     const std::vector<Vec2>& points = road.lane(id).centerline.points();
     const bool front =
         distance_to_ring(outline, points.front()) < distance_to_ring(outline, points.back());
-    ends.push_back(front ? points.front() : points.back());
+    ends.push_back({front ? points.front() : points.back(), road.lane(id).width});
   }
   return ends;
 }
@@ -130,10 +130,10 @@ LaneClearing::LaneClearing(const RoadNetwork& road) {
           lane.outline.empty() ? lane.centerline.points() : lane.outline;
       if (outline.size() < 3) continue;
       walking_areas_.push_back(outline);
-      const std::vector<Vec2> ends = walking_ends(road, lane);
+      const std::vector<WalkingEnd> ends = walking_ends(road, lane);
       for (std::size_t i = 0; i < ends.size(); ++i)
         for (std::size_t k = i + 1; k < ends.size(); ++k)
-          add_piece(ends[i], ends[k], kFootClearance);
+          add_piece(ends[i].place, ends[k].place, kFootClearance);
       continue;
     }
     const std::vector<Vec2>& points = lane.centerline.points();

@@ -8,9 +8,13 @@
 
 namespace sumogamma::osm {
 
-/// Where the lanes on foot that meet at a walking area end there: people walk straight from one to
+/// Where a lane on foot ends at a walking area: people walk straight from one such place to
 /// another.
-std::vector<Vec2> walking_ends(const RoadNetwork& road, const Lane& area);
+struct WalkingEnd {
+  Vec2 place = Vec2::Zero();  ///< [m]
+  double width = 0;           ///< of the lane [m]
+};
+std::vector<WalkingEnd> walking_ends(const RoadNetwork& road, const Lane& area);
 
 /// A stretch of a segment, as shares of it in [0, 1].
 struct Stretch {

@@ -154,6 +154,19 @@ std::vector<Strip> motor_lanes(const RoadNetwork& road) {
   return strips;
 }
 
+/// The straight ways between where people come onto an area and leave it, as wide as the narrower
+/// of the two lanes.
+std::vector<Strip> walked_ways(const std::vector<WalkingEnd>& ends, double height) {
+  std::vector<Strip> strips;
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (std::size_t k = i + 1; k < ends.size(); ++k)
+      if (ends[i].place != ends[k].place)
+        strips.push_back(strip_of(Polyline({ends[i].place, ends[k].place}), height,
+                                  0.5 * std::min(ends[i].width, ends[k].width),
+                                  ClipperLib::etOpenButt));
+  return strips;
+}
+
 /// Adds those of the strips that come near the area, and not far above or below it; whether there
 /// are any.
 bool add_near(const std::vector<Strip>& strips, const Lane& area, ClipperLib::PolyType as,
@@ -185,6 +198,8 @@ std::optional<std::vector<Vec2>> cut(const RoadNetwork& road, const Lane& area,
   ClipperLib::Clipper beside;
   if (!add_near(ways, area, ClipperLib::ptSubject, beside)) return std::nullopt;
   add_near(lanes, area, ClipperLib::ptClip, beside);
+  const std::vector<WalkingEnd> ends = walking_ends(road, area);
+  add_near(walked_ways(ends, elevation_at(area, 0.0)), area, ClipperLib::ptClip, beside);
   ClipperLib::Paths needed, pieces;
   beside.Execute(ClipperLib::ctDifference, needed, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
   ClipperLib::Clipper clipper;
@@ -202,8 +217,8 @@ std::optional<std::vector<Vec2>> cut(const RoadNetwork& road, const Lane& area,
                                           return ClipperLib::Area(a) < ClipperLib::Area(b);
                                         });
   std::vector<Vec2> left = from_clipper(*largest);
-  for (const Vec2& end : walking_ends(road, area))
-    if (off(left, end) > off(area.outline, end) + kAtEnd) return std::nullopt;
+  for (const WalkingEnd& end : ends)
+    if (off(left, end.place) > off(area.outline, end.place) + kAtEnd) return std::nullopt;
   return left;
 }
 

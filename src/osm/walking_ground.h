@@ -14,8 +14,9 @@ namespace sumogamma::osm {
 /// netconvert draws an area from the corners of the lanes that meet there, sharper than anybody
 /// turns; a kerb follows the turn. What motorcycles, cars, vans, trucks and buses drive beside the
 /// lanes of a junction, corners rounded for each, is taken off: 1.2 m to either side of the middle
-/// of a car or van, 0.6 m of others, since the rear of a long body cuts corners in any case. Areas
-/// that would fall apart, so that somebody's lane ends off what is left, stay as they are.
+/// of a car or van, 0.6 m of others, since the rear of a long body cuts corners in any case. The
+/// straight ways of people between the lanes on foot stay, as wide as those. Areas that would
+/// fall apart, so that somebody's lane ends off what is left, stay as they are.
 std::map<std::string, std::vector<Vec2>> walking_areas_off_the_road(const RoadNetwork& road);
 
 /// Writes outlines of walking areas into the file of the network `road`, heights where it has them.
