@@ -30,6 +30,7 @@ constexpr double kClear = 0.25;         // kept to everybody behind [m]
 constexpr double kRoomToBegin = 0.5;    // [m]
 constexpr double kTarget = 3.0;         // behind the rear axle, aimed at on the path [m]
 constexpr double kStill = 0.01;         // [m/s]
+constexpr int kLongest = 12;            // chain of those who wait for one another
 
 double backward_speed(const Scene& scene, std::size_t row) {
   return std::max(0.0, -scene.velocity[row].dot(direction_of(scene.heading[row])));
@@ -135,7 +136,6 @@ bool stands_before(const Model& model, const Scene& scene, const TickGeometry& g
 /// Is there somebody wedged at the end of the chain of those who wait for one another from this row
 /// on?
 bool waits_for_wedged(const Scene& scene, std::size_t row) {
-  constexpr int kLongest = 12;
   std::size_t last = row;
   for (int k = 0; k < kLongest; ++k) {
     const std::size_t next = foe_row(scene, last);
@@ -150,7 +150,6 @@ bool waits_for_wedged(const Scene& scene, std::size_t row) {
 bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometry& geometry,
                        std::size_t row) {
   constexpr double kLong = 12.0;  // [s]
-  constexpr int kLongest = 12;
   return scene.standing_time[row] > kLong && !is_wedged(scene, row) && !scene.context[row].at_red &&
          stands_before(model, scene, geometry, row, [&](std::size_t other) {
            return scene.blocked_time[other] > kHeldUp &&

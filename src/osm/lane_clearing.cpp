@@ -44,18 +44,6 @@ void merge(std::vector<Stretch>& stretches) {
   stretches = std::move(merged);
 }
 
-/// Even-odd rule.
-bool inside_ring(const std::vector<Vec2>& ring, const Vec2& point) {
-  bool inside = false;
-  for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Vec2 &a = ring[i], &b = ring[j];
-    if ((a.y() > point.y()) != (b.y() > point.y()) &&
-        point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-      inside = !inside;
-  }
-  return inside;
-}
-
 bool boxes_meet(const std::vector<Vec2>& ring, const Vec2& low, const Vec2& high) {
   Vec2 ring_low = ring[0], ring_high = ring[0];
   for (const Vec2& p : ring) {
@@ -80,7 +68,7 @@ void append_within_ring(const std::vector<Vec2>& ring, const Vec2& a, const Vec2
   }
   std::sort(cuts.begin(), cuts.end());
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-    if (cuts[i] < cuts[i + 1] && inside_ring(ring, a + (cuts[i] + cuts[i + 1]) / 2 * d))
+    if (cuts[i] < cuts[i + 1] && ring_contains(ring, a + (cuts[i] + cuts[i + 1]) / 2 * d))
       stretches.push_back({cuts[i], cuts[i + 1]});
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -30,8 +31,8 @@ struct BendRule {
 
 bool is_cycle_way(const MapWay& way) { return tag_is(way.tags, "highway", {"cycleway", "path"}); }
 
-constexpr BendRule kForCars = {is_car_way, 15.0, 15.0, 15.0, 0.5, true, false};
-constexpr BendRule kForBicycles = {is_cycle_way, 5.0, 15.0, 5.0, 0.15, false, true};
+constexpr BendRule kRules[] = {{is_car_way, 15.0, 15.0, 15.0, 0.5, true, false},
+                               {is_cycle_way, 5.0, 15.0, 5.0, 0.15, false, true}};
 constexpr double kTighter = 0.9;     // of the radius, where a bend would move too far
 constexpr double kFarthest = 4.0;    // [m] that a point moves; maps are off by as much
 constexpr double kHairpin = 7.0;     // [m] radius of the bulb that a hairpin becomes
@@ -255,7 +256,7 @@ void round_roads(const BendRule& rule, OsmMap& map, Added& added, IssueLog& log)
 
 void round_bends(OsmMap& map, IssueLog& log) {
   Added added;
-  for (const BendRule& rule : {kForCars, kForBicycles}) round_roads(rule, map, added, log);
+  for (const BendRule& rule : kRules) round_roads(rule, map, added, log);
   for (const RingArc& arc : coarse_ring_arcs(map)) {
     std::vector<std::int64_t>& nodes = added[{arc.from, arc.to}];
     for (const GeoPoint place : arc.between) {
@@ -266,7 +267,9 @@ void round_bends(OsmMap& map, IssueLog& log) {
             "node/" + std::to_string(arc.from));
   }
   for (MapWay& way : map.ways)
-    if (is_car_way(way) || is_cycle_way(way)) insert(added, way);
+    if (std::any_of(std::begin(kRules), std::end(kRules),
+                    [&](const BendRule& rule) { return rule.holds_for(way); }))
+      insert(added, way);
 }
 
 }  // namespace sumogamma::osm

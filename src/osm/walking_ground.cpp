@@ -13,7 +13,6 @@
 #include "osm/network_file.h"
 #include "road/conflict_zones.h"
 #include "road/lane_locator.h"
-#include "road/path_profile.h"
 
 namespace sumogamma::osm {
 namespace {
@@ -64,81 +63,56 @@ Strip strip_of(const Polyline& line, double height, double half_width, ClipperLi
   return strip;
 }
 
-/// A way along lanes, as they lie.
-struct LaneWay {
-  std::vector<Vec2> points;
-  std::vector<PathStretch> stretches;
-
-  void append(const Polyline& line, double from, double to, double kerb) {
-    PathStretch stretch;
-    stretch.from = stretches.empty() ? 0.0 : stretches.back().to;
-    append_span(line, from, to, points);
-    stretch.to = Polyline(points).length();
-    stretch.kerb = kerb;
-    stretches.push_back(stretch);
-  }
+/// Links that follow each other, and how far a way goes on the lane behind the last [m].
+struct Chain {
+  std::vector<ConnectionId> links;
+  double after = 0;
 };
 
-/// The ways that a vehicle may take over a link and `after` [m] on from it, over the junctions that
-/// follow where the road between them is shorter.
-void follow(const RoadNetwork& road, ConnectionId id, LaneWay way, double after, int links,
-            std::vector<LaneWay>& ways) {
-  const Connection& link = road.connection(id);
-  const Lane& next = road.lane(link.to);
+/// The chains of links that a vehicle may take from the end of one on: over the junctions that
+/// follow where the road between them is too short.
+void follow(const RoadNetwork& road, Chain chain, std::vector<Chain>& chains) {
+  constexpr std::size_t kMostLinks = 3;
+  const Lane& next = road.lane(road.connection(chain.links.back()).to);
   const double length = next.centerline.length();
-  const Polyline inside = link_geometry(road, id);
-  if (!inside.empty())
-    way.append(inside, 0.0, inside.length(), width_to_kerb(road, road.lane(link.via)));
-  way.append(next.centerline, 0.0, std::min(after, length), width_to_kerb(road, next));
-  bool ends = length >= after || links <= 1;
-  if (!ends) {
-    ends = true;
+  bool ends = true;
+  if (length < chain.after && chain.links.size() < kMostLinks) {
     for (const ConnectionId on : next.outgoing) {
       if (!is_driven(road, on) || lane_use(road.lane(road.connection(on).to)) != LaneUse::Driving)
         continue;
-      follow(road, on, way, after - length, links - 1, ways);
+      Chain longer{chain.links, chain.after - length};
+      longer.links.push_back(on);
+      follow(road, std::move(longer), chains);
       ends = false;
     }
   }
-  if (ends) ways.push_back(std::move(way));
+  if (ends) chains.push_back(std::move(chain));
 }
 
-std::vector<LaneWay> ways_over(const RoadNetwork& road, ConnectionId id) {
-  constexpr int kMostLinks = 3;
-  const Lane& before = road.lane(road.connection(id).from);
-  const double length = before.centerline.length();
-  LaneWay way;
-  way.append(before.centerline, std::max(0.0, length - kBeside), length,
-             width_to_kerb(road, before));
-  std::vector<LaneWay> ways;
-  follow(road, id, std::move(way), kBeside, kMostLinks, ways);
-  return ways;
-}
-
-/// What motor vehicles drive over the junctions, corners rounded.
-std::vector<Strip> driven_ways(const RoadNetwork& road) {
-  std::vector<Strip> strips;
-  for (const Junction& junction : road.junctions) {
-    for (const ConnectionId id : driven_links(road, junction)) {
-      const Connection& link = road.connection(id);
-      const VehicleClassMask allowed = road.lane(link.from).allowed & road.lane(link.to).allowed;
-      const Lane& from = road.lane(link.from);
-      const double height = elevation_at(from, from.centerline.length());
-      const std::vector<LaneWay> ways = ways_over(road, id);
-      for (const Turner& turner : kTurners) {
-        if ((allowed & turner.vehicle_class) == 0) continue;
-        Cornering cornering = turner.cornering;
-        cornering.keep_left = road.left_hand;
-        for (const LaneWay& way : ways) {
-          Path path;
-          path.line = Polyline(way.points);
-          path.stretches = way.stretches;
-          round_corners(cornering, path);
-          strips.push_back(strip_of(path.line, height, turner.half_width, ClipperLib::etOpenRound));
-        }
-      }
+/// Adds what motor vehicles drive over a link and on, corners rounded.
+void add_driven(const RoadNetwork& road, ConnectionId id, std::vector<Strip>& strips) {
+  const Connection& link = road.connection(id);
+  const Lane& from = road.lane(link.from);
+  const double height = elevation_at(from, from.centerline.length());
+  std::vector<Chain> chains;
+  follow(road, {{id}, kBeside}, chains);
+  for (const Turner& turner : kTurners) {
+    if ((from.allowed & road.lane(link.to).allowed & turner.vehicle_class) == 0) continue;
+    Cornering cornering = turner.cornering;
+    cornering.keep_left = road.left_hand;
+    for (const Chain& chain : chains) {
+      const Path way = rounded_way(road, chain.links, kBeside, chain.after, cornering);
+      if (!way.line.empty())
+        strips.push_back(strip_of(way.line, height, turner.half_width, ClipperLib::etOpenRound));
     }
   }
+}
+
+/// What motor vehicles drive over the junctions.
+std::vector<Strip> driven_ways(const RoadNetwork& road) {
+  std::vector<Strip> strips;
+  for (const Junction& junction : road.junctions)
+    for (const ConnectionId id : driven_links(road, junction)) add_driven(road, id, strips);
   return strips;
 }
 
@@ -187,10 +161,6 @@ bool add_near(const std::vector<Strip>& strips, const Lane& area, ClipperLib::Po
   return any;
 }
 
-double off(const std::vector<Vec2>& ring, const Vec2& point) {
-  return ring_contains(ring, point) ? 0.0 : distance_to_ring(ring, point);
-}
-
 /// What is left of an area; nothing where it is the same, or falls apart.
 std::optional<std::vector<Vec2>> cut(const RoadNetwork& road, const Lane& area,
                                      const std::vector<Strip>& ways,
@@ -218,7 +188,8 @@ std::optional<std::vector<Vec2>> cut(const RoadNetwork& road, const Lane& area,
                                         });
   std::vector<Vec2> left = from_clipper(*largest);
   for (const WalkingEnd& end : ends)
-    if (off(left, end.place) > off(area.outline, end.place) + kAtEnd) return std::nullopt;
+    if (distance_to_area(left, end.place) > distance_to_area(area.outline, end.place) + kAtEnd)
+      return std::nullopt;
   return left;
 }
 

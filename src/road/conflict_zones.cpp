@@ -43,30 +43,36 @@ std::vector<ConnectionId> driven_links(const RoadNetwork& network, const Junctio
 
 Path rounded_way(const RoadNetwork& network, ConnectionId id, double before, double after,
                  const Cornering& cornering) {
-  const Connection& connection = network.connection(id);
-  const Polyline inside = link_geometry(network, id);
+  return rounded_way(network, std::span(&id, 1), before, after, cornering);
+}
+
+Path rounded_way(const RoadNetwork& network, std::span<const ConnectionId> ids, double before,
+                 double after, const Cornering& cornering) {
   Path path;
-  if (inside.empty()) return path;
-  const Polyline& from = network.lane(connection.from).centerline;
-  const Polyline& to = network.lane(connection.to).centerline;
   std::vector<Vec2> points;
-  append_span(from, std::max(0.0, from.length() - before), from.length(), points);
-  const double stop_line = Polyline(points).length();
-  append_span(inside, 0.0, inside.length(), points);
-  const double end = Polyline(points).length();
-  append_span(to, 0.0, std::min(after, to.length()), points);
-  path.line = Polyline(std::move(points));
-  path.links.push_back({id, stop_line, end, stop_line});
-  const auto add = [&](const Lane& lane, double begin, double stretch_end) {
+  const auto append = [&](const Polyline& line, double from, double to, LaneId lane) {
     PathStretch stretch;
-    stretch.from = begin;
-    stretch.to = stretch_end;
-    stretch.kerb = width_to_kerb(network, lane);
+    stretch.from = path.stretches.empty() ? 0.0 : path.stretches.back().to;
+    append_span(line, from, to, points);
+    stretch.to = Polyline(points).length();
+    stretch.kerb = width_to_kerb(network, network.lane(lane));
     path.stretches.push_back(stretch);
   };
-  add(network.lane(connection.from), 0.0, stop_line);
-  add(network.lane(connection.via), stop_line, end);
-  add(network.lane(connection.to), end, path.line.length());
+  const LaneId first = network.connection(ids.front()).from;
+  const Polyline& from = network.lane(first).centerline;
+  append(from, std::max(0.0, from.length() - before), from.length(), first);
+  for (const ConnectionId id : ids) {
+    const Connection& connection = network.connection(id);
+    const Polyline inside = link_geometry(network, id);
+    if (inside.empty()) return {};
+    const double stop_line = path.stretches.back().to;
+    append(inside, 0.0, inside.length(), connection.via);
+    if (path.links.empty())
+      path.links.push_back({id, stop_line, path.stretches.back().to, stop_line});
+    const Polyline& to = network.lane(connection.to).centerline;
+    append(to, 0.0, id == ids.back() ? std::min(after, to.length()) : to.length(), connection.to);
+  }
+  path.line = Polyline(std::move(points));
   round_corners(cornering, path);
   move_stop_lines(network, path);
   return path;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "road/path.h"
@@ -33,6 +34,11 @@ ConflictTable build_conflict_table(const RoadNetwork& network);
 /// own.
 Path rounded_way(const RoadNetwork& network, ConnectionId id, double before, double after,
                  const Cornering& cornering);
+
+/// Likewise over links that follow each other, the lanes between them whole; `after` is on the last
+/// lane, the link is the first one. Precondition: not empty.
+Path rounded_way(const RoadNetwork& network, std::span<const ConnectionId> ids, double before,
+                 double after, const Cornering& cornering);
 
 /// Does a link lead vehicles over a junction, from lane to lane?
 bool is_driven(const RoadNetwork& network, ConnectionId id);

@@ -38,6 +38,10 @@ double distance_to_ring(std::span<const Vec2> ring, const Vec2& point) {
   return nearest;
 }
 
+double distance_to_area(std::span<const Vec2> ring, const Vec2& point) {
+  return ring_contains(ring, point) ? 0.0 : distance_to_ring(ring, point);
+}
+
 LaneLocator::LaneLocator(const RoadNetwork& network) : network_(&network) {
   if (network.lanes.empty()) return;
   origin_ = network.lower_corner;
@@ -140,7 +144,7 @@ LaneHit LaneLocator::measure(const Entry& entry, const Vec2& point) const {
   LaneHit hit;
   hit.lane = entry.lane;
   if (lane.kind == LaneKind::WalkingArea) {
-    hit.distance = ring_contains(lane.outline, point) ? 0.0 : distance_to_ring(lane.outline, point);
+    hit.distance = distance_to_area(lane.outline, point);
     return hit;
   }
   const std::vector<Vec2>& points = lane.centerline.points();

@@ -26,6 +26,8 @@ bool ring_contains(std::span<const Vec2> ring, const Vec2& point);
 
 /// Distance from a point to the ring's boundary [m]; infinite for an empty ring.
 double distance_to_ring(std::span<const Vec2> ring, const Vec2& point);
+/// Likewise to the ground within it: 0 inside.
+double distance_to_area(std::span<const Vec2> ring, const Vec2& point);
 
 /// Answers "which lanes are here?" for lanes of all kinds by a uniform grid over the network. Lanes
 /// lie on one another on junctions and under bridges, so every answer is a set. Immutable: safe to

@@ -54,6 +54,13 @@ class BackingTest : public ::testing::Test {
     return farthest;
   }
 
+  /// Lets one row wait behind another.
+  void waits(std::size_t row, std::size_t foe) {
+    here_.scene.context[row].active = true;
+    here_.scene.context[row].reason = LimitReason::Leader;
+    here_.scene.context[row].foe = here_.scene.id[foe].value;
+  }
+
   void update(std::size_t row) {
     prepare_tick(here_.model, here_.scene, workers_, here_.geometry);
     update_backing(here_.model, here_.geometry, kDt, here_.scene, row);
@@ -216,11 +223,6 @@ TEST_F(BackingTest, WhoStandsAcrossTheWayOfSomebodyWedgedStepsBack) {
       here_.scene.position[own] + 2.0 * forward -
       (0.5 * type.width + 1.1 + 1.0) * direction_of(here_.scene.heading[wedged]);
   here_.scene.standing_time = {30.0, 30.0, 30.0};
-  auto waits = [&](std::size_t row, std::size_t foe) {
-    here_.scene.context[row].active = true;
-    here_.scene.context[row].reason = LimitReason::Leader;
-    here_.scene.context[row].foe = here_.scene.id[foe].value;
-  };
   waits(own, behind);
   waits(behind, wedged);
   update(own);
@@ -261,9 +263,7 @@ TEST_F(BackingTest, WhoStandsBeforeSomebodyWedgedAndWaitsForAnotherStepsBack) {
       here_.scene.position[own] + (2.25 + 0.5 * type.length + 0.5) * forward;
   here_.scene.standing_time = {30.0, 30.0, 30.0};
   here_.scene.wedge_left[wedged] = here_.scene.blocked_time[wedged] = 10.0;
-  here_.scene.context[own].active = true;
-  here_.scene.context[own].reason = LimitReason::Leader;
-  here_.scene.context[own].foe = here_.scene.id[waited_for].value;
+  waits(own, waited_for);
   update(own);
   EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "the bus may go on any time";
   here_.scene.wedge_left[waited_for] = 10.0;

@@ -311,11 +311,17 @@ TEST_F(Crossroads, RoundingKeepsTheEndsAndTheOrder) {
               0.0, 1.0);
 }
 
-TEST(RoundCorners, TurnsARightAngleAboutTheRadiusAskedFor) {
+/// A path of one stretch along a line.
+Path path_of(std::vector<Vec2> points) {
   Path path;
-  path.line = Polyline({{0, 0}, {40, 0}, {40, 40}});
+  path.line = Polyline(std::move(points));
   path.stretches.push_back({});
   path.stretches.back().to = path.line.length();
+  return path;
+}
+
+TEST(RoundCorners, TurnsARightAngleAboutTheRadiusAskedFor) {
+  Path path = path_of({{0, 0}, {40, 0}, {40, 40}});
   path.stops.push_back({40.0, 1.0});
   const double before = path.line.length();
   round_corners({2.5}, path);
@@ -360,10 +366,7 @@ TEST(RoundCorners, SmoothsKinksWithoutLeavingTheLine) {
 }
 
 TEST(RoundCorners, DrawsFoldsStraightAndCarriesPlacesOver) {
-  Path path;
-  path.line = Polyline({{0, 0}, {30, 0}, {22, 0.5}, {60, 0.5}});
-  path.stretches.push_back({});
-  path.stretches.back().to = path.line.length();
+  Path path = path_of({{0, 0}, {30, 0}, {22, 0.5}, {60, 0.5}});
   path.links.push_back({kNoConnection, 30.0, 38.0, 30.0, 30.0});
   round_corners({4.0}, path);
   for (double s = 0.5; s < path.line.length(); s += 0.5)
@@ -374,10 +377,7 @@ TEST(RoundCorners, DrawsFoldsStraightAndCarriesPlacesOver) {
 }
 
 TEST(RoundCorners, WhoTurnsRoundStillTurnsRound) {
-  Path path;
-  path.line = Polyline({{0, 0}, {30, 0}, {30, 3}, {0, 3}});
-  path.stretches.push_back({});
-  path.stretches.back().to = path.line.length();
+  Path path = path_of({{0, 0}, {30, 0}, {30, 3}, {0, 3}});
   round_corners({4.0}, path);
   EXPECT_EQ(path.line.points().back(), Vec2(0, 3));
   EXPECT_LT(path.line.direction_at(path.line.length() - 5).x(), -0.9);
@@ -388,10 +388,7 @@ TEST(RoundCorners, WhoTurnsRoundStillTurnsRound) {
 // way, and round on the spot.
 TEST(RoundCorners, WhoIsNarrowTurnsBeforeTheTipOfAnAcuteAngle) {
   const auto farthest = [](const Cornering& cornering) {
-    Path path;
-    path.line = Polyline({{0, 0}, {40, 0}, {10, 15}});
-    path.stretches.push_back({});
-    path.stretches.back().to = path.line.length();
+    Path path = path_of({{0, 0}, {40, 0}, {10, 15}});
     round_corners(cornering, path);
     EXPECT_NEAR((path.line.points().back() - Vec2(10, 15)).norm(), 0.0, 1e-9);
     double most = 0;
@@ -418,10 +415,7 @@ double tightest(const Polyline& line, double from, double to) {
 // over 2 m a right angle seems as wide as a bicycle turns: it was left as sharp as it was drawn
 TEST(RoundCorners, ABicycleTurnsWithItsRadius) {
   for (const double angle : {60.0, 90.0, 140.0}) {
-    Path path;
-    path.line = Polyline({{0, 0}, {20, 0}, Vec2(20, 0) + 20 * direction_of(radians(angle))});
-    path.stretches.push_back({});
-    path.stretches.back().to = path.line.length();
+    Path path = path_of({{0, 0}, {20, 0}, Vec2(20, 0) + 20 * direction_of(radians(angle))});
     const Polyline drawn = path.line;
     round_corners({1.15, 1.6, 0.65}, path);
     EXPECT_GT(tightest(path.line, 15, path.line.length() - 15), 0.7) << angle;
@@ -432,10 +426,7 @@ TEST(RoundCorners, ABicycleTurnsWithItsRadius) {
 
 // samples lie closer to each other on the piece that is drawn anew: its corners got hardly a window
 TEST(RoundCorners, ThePieceAcrossAnAcuteAngleHasRoundCornersToo) {
-  Path path;
-  path.line = Polyline({{0, 0}, {40, 0}, {10, 9}});
-  path.stretches.push_back({});
-  path.stretches.back().to = path.line.length();
+  Path path = path_of({{0, 0}, {40, 0}, {10, 9}});
   path.links.push_back({kNoConnection, 20.0, 36.0, 20.0, 20.0});
   const Vec2 line_at = path.line.point_at(20.0);
   round_corners({1.15, 1.6, 0.65}, path);
@@ -445,10 +436,7 @@ TEST(RoundCorners, ThePieceAcrossAnAcuteAngleHasRoundCornersToo) {
 
 TEST(SpeedProfile, ABicycleSlowsDownToTurn) {
   const auto slowest = [](double turning_radius) {
-    Path path;
-    path.line = Polyline({{0, 0}, {30, 0}, {30, 30}});
-    path.stretches.push_back({});
-    path.stretches.back().to = path.line.length();
+    Path path = path_of({{0, 0}, {30, 0}, {30, 30}});
     path.stretches.back().speed_limit = 6;
     PathRequest request;
     request.max_lateral_acceleration = 2.0;
@@ -577,10 +565,7 @@ Path along_arc(double radius) {
     points.push_back(
         {radius * std::sin(radians(degrees)), radius - radius * std::cos(radians(degrees))});
   points.push_back({radius, radius + 180});
-  Path path;
-  path.line = Polyline(points);
-  path.stretches.push_back({});
-  path.stretches.back().to = path.line.length();
+  Path path = path_of(points);
   path.stretches.back().speed_limit = 25;
   return path;
 }
@@ -623,10 +608,7 @@ TEST(SpeedProfile, TakesAnArcAtTheComfortLimit) {
 
 /// Speed that the bends of a line leave, halfway along it [m/s].
 double speed_halfway(std::vector<Vec2> points) {
-  Path path;
-  path.line = Polyline(std::move(points));
-  path.stretches.push_back({});
-  path.stretches.back().to = path.line.length();
+  Path path = path_of(std::move(points));
   path.stretches.back().speed_limit = 25;
   PathRequest request;
   request.max_lateral_acceleration = 2.0;
