@@ -36,6 +36,27 @@ double end_of_road(const Course& course, const PathLink& link) {
   return next != course.path.links.end() ? std::min(next->stop_line, farthest) : farthest;
 }
 
+/// From where on a body that stands on a link's junction, or behind it, leaves the junction clear
+/// [m along the path]. From the junction's end on; where a light follows at once, though, from the
+/// last place on where others cross: who joins the same road there waits for that light anyway.
+double clear_from(const RoadView& view, const Course& course, const PathLink& link) {
+  constexpr double kAtOnce = 8.0;  // [m]
+  const auto& [model, road, scene, grid, approaches] = view;
+  const auto next = course.path.link_after(link.stop_line);
+  if (next == course.path.links.end() || next->stop_line > link.end + kAtOnce ||
+      model.road.connection(next->connection).signal == kNoSignal ||
+      model.road.connection(link.connection).signal != kNoSignal)
+    return link.end;
+  const auto road_behind = [&](ConnectionId id) {
+    return model.road.lane(model.road.connection(id).to).edge;
+  };
+  double clear = link.stop_line;
+  for (const ConflictZone& zone : model.conflicts[index_of(link.connection)])
+    if (road_behind(zone.foe) != road_behind(link.connection))
+      clear = std::max(clear, link.stop_line + zone.end);
+  return std::min(clear, link.end);
+}
+
 /// Calls `visit` for everybody who has halted at its line, to give way to the row for the lane that
 /// `link` leads into, and isn't past the place that both need.
 template <typename Visit>
@@ -110,8 +131,8 @@ std::int64_t blocks_exit(const RoadView& view, DrivingAhead& ahead, const Course
   }
   if (rest == kNever) return -1;
   const double joining = waits_to_join(view, course, link);
-  const double needed = link.end + 2.0 * course.half_length + course.type.min_gap + 0.3 +
-                        (joining > 0.0 ? joining + kClosedUp : 0.0);
+  const double needed = clear_from(view, course, link) + 2.0 * course.half_length +
+                        course.type.min_gap + 0.3 + (joining > 0.0 ? joining + kClosedUp : 0.0);
   return rest < needed ? (end - 1)->id : -1;
 }
 
@@ -131,7 +152,7 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
   const Connection& here = view.model.road.connection(link.connection);
   const bool for_cars = (view.model.road.lane(here.to).allowed & vehicle_class::kPassenger) != 0;
   const bool waits_for_light = for_cars && here.signal == kNoSignal;
-  double room_from = link.end;
+  double room_from = clear_from(view, course, link);
   for (PathLink next : course.path.links) {
     // who waits with its rear on a junction already goes as far as it can
     if (next.stop_line < link.stop_line && next.end > link.halt - kStopMargin - traveller.length)
@@ -144,7 +165,7 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
     if (next.halt - kStopMargin - traveller.length > room_from || !(near || no_room)) break;
     const LinkDecision decision = decide_link(view, traveller, next);
     if (decision.must_stop && (near || decision.reason == LimitReason::Signal)) return decision;
-    room_from = next.end;
+    room_from = clear_from(view, course, next);
   }
   return {};
 }
