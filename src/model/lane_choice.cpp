@@ -27,6 +27,9 @@ constexpr double kNearlyAsWell = 2.0;  ///< lane changes more, later on
 // people on foot look as far ahead for others and for walls, and aside of their way [m]
 constexpr double kSidewalk = 8.0, kWalls = 4.0, kAside = 4.5;
 
+/// Way over which lanes are changed at some speed [m].
+double way_of_change(double speed) { return std::max(kChangeTime * speed, kShortest); }
+
 double look_ahead(const Scene& scene, std::size_t row) {
   return std::min(30.0 + 3.0 * scene.speed[row], 100.0);
 }
@@ -52,7 +55,7 @@ bool run_together_soon(const Model& model, const Path& path, double along, LaneI
 LaneId better_lane(const Model& model, const LaneQueues& queues, const Path& path,
                    const Scene& scene, const Surroundings& around, std::size_t row) {
   const PathStretch& here = path.stretch_at(around.along);
-  const double distance = std::max(kChangeTime * around.speed, kShortest);
+  const double distance = way_of_change(around.speed);
   const Lane& lane = model.road.lane(here.lane);
   if (lane.kind != LaneKind::Normal || here.changing || around.speed < kSlowest ||
       std::abs(around.offset) > 1.2 || here.to - around.along < distance + 2.0 ||
@@ -111,6 +114,7 @@ bool filters(const Scene& scene, const Surroundings& around, std::size_t row) {
 void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
                   const Surroundings& around, std::size_t row, LaneIntent& intent) {
   constexpr double kPressed = 3.0, kCreeps = 3.0;  // [m/s^2], [m/s]
+  constexpr double kTooLong = 1.3;
   const PathStretch& here = path.stretch_at(around.along);
   if (here.changing) {
     // who goes on between the lanes is in no lane's way until it has got past
@@ -130,16 +134,21 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   intent.merge_to = change->lane;
   const LaneBeside beside{shift_to(model, from, to), change->from, change->to};
   const double braking = speed < 2.0 ? kPressed : kSafeBraking;
+  const bool due = change->from - around.along < 2.0 + 1.2 * speed;
   if (!is_contested(scene, around, row, change->lane, beside) &&
-      is_gap(scene, around, row, beside, braking))
+      is_gap(scene, around, row, beside, braking)) {
+    // planned over the way that it takes at full speed: in a queue, that long over two lanes
+    if (due && change->to - change->from > kTooLong * way_of_change(speed))
+      intent.wanted = change->lane;
     return;
+  }
   // who is let in doesn't drive on past the gap
   if (speed < kCreeps && is_let_in(scene, around, row, beside)) {
     intent.gate = around.along;
     return;
   }
   intent.gate = change->from;
-  intent.postpone = change->from - around.along < 2.0 + 1.2 * speed;
+  intent.postpone = due;
 }
 
 /// Moves the place aimed at within the lane, at walking pace, towards where it should be; swiftly
@@ -182,8 +191,8 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
         if (path->trip) {
           intent.entered = free_entry(model, road, work.queues, *path, around);
           wait_for_gap(model, *path, scene, around, row, intent);
-          if (scene.stop_left[row] <= 0.0 && !std::isfinite(intent.gate) &&
-              !filters(scene, around, row))
+          if (intent.wanted == kNoLane && scene.stop_left[row] <= 0.0 &&
+              !std::isfinite(intent.gate) && !filters(scene, around, row))
             intent.wanted = better_lane(model, work.queues, *path, scene, around, row);
         }
       }
@@ -205,9 +214,9 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
     auto changed =
         intent.abort      ? back_to_lane(model.road, path, along, kBack)
         : intent.postpone ? stay_in_lane(model.road, path, along, std::max(speed, 3.0), kBack)
-        : intent.entered != kNoLane ? enter_beside(model.road, path, along, intent.entered, kBack)
-                                    : change_lane(model.road, path, along, intent.wanted,
-                                                  std::max(kChangeTime * speed, kShortest), kBack);
+        : intent.entered != kNoLane
+            ? enter_beside(model.road, path, along, intent.entered, kBack)
+            : change_lane(model.road, path, along, intent.wanted, way_of_change(speed), kBack);
     // no room left to change in: who gets on by its own lane nearly as well doesn't wait for a gap
     if (!changed && intent.postpone) {
       changed = keep_lane(model.road, path, along, kNearlyAsWell, kBack);
