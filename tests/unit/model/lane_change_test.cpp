@@ -128,6 +128,46 @@ RoadNetwork left_lane_leads_on() {
   return testing::read_plain_net(net);
 }
 
+// The way that a change takes at full speed was planned: in a queue vehicles stood over two lanes.
+class NeededChange : public ::testing::Test {
+ protected:
+  /// The stretch over which the lanes are changed, as everybody has looked.
+  const PathStretch* change() {
+    here_.update();
+    let_all_look(here_);
+    const auto& stretches = here_.path(own_).stretches;
+    const auto found = std::find_if(stretches.begin(), stretches.end(),
+                                    [](const PathStretch& stretch) { return stretch.changing; });
+    return found == stretches.end() ? nullptr : &*found;
+  }
+  RoadScene here_{left_lane_leads_on()};
+  std::size_t own_ = here_.add("car", {"WM", "ME"}, 19, 3, 0, -1, "WM_0");
+};
+
+TEST_F(NeededChange, IsAsLongAsItsSpeedAsksFor) {
+  const PathStretch& planned = here_.path(own_).stretches.at(1);
+  ASSERT_TRUE(planned.changing);
+  ASSERT_GT(planned.to - planned.from, 40.0);
+  const PathStretch* changed = change();
+  ASSERT_TRUE(changed);
+  EXPECT_LT(changed->from, here_.scene.path_along[own_] + 1.0) << "it goes over now";
+  EXPECT_LT(changed->to - changed->from, 15.0);
+}
+
+TEST_F(NeededChange, BeginsNotBehindATailThatItDoesNotGetPast) {
+  for (const double ahead : {15.0, 7.0}) {
+    SCOPED_TRACE(ahead);
+    here_ = RoadScene{left_lane_leads_on()};
+    own_ = here_.add("car", {"WM", "ME"}, 19, 3, 0, -1, "WM_0");
+    // six metres of bus behind its middle
+    here_.add("bus", {"WM", "ME"}, 0, 0, 19 + 2.25 + ahead + 6.0, -1, "WM_0");
+    const PathStretch* changed = change();
+    ASSERT_TRUE(changed);
+    const bool begins = changed->from < here_.scene.path_along[own_] + 1.0;
+    EXPECT_EQ(begins, ahead > 10.0);
+  }
+}
+
 // it stood over two lanes through a green when it wanted back into the queue on its own
 TEST(BetterLane, TheOneThatATurnNeedsIsKeptFrom150MetresOn) {
   const RoadNetwork network = left_lane_leads_on();

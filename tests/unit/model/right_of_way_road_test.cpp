@@ -603,6 +603,37 @@ TEST(JunctionsThatFollowClosely,
   }
 }
 
+// Those who turn in right before a light queued for it twenty metres back, before those who come
+// along the road that they turn into, and hardly got there while it was green.
+TEST(JunctionsThatFollowClosely, WhoHoldsUpOnlyWhoJoinsGoesUpToTheLight) {
+  for (const bool crossed : {false, true}) {
+    SCOPED_TRACE(crossed);
+    testing::PlainNet plain;
+    plain.nodes =
+        "<node id='W' x='-100' y='0'/><node id='A' x='0' y='0' type='priority'/>"
+        "<node id='NA' x='30' y='100'/><node id='SA' x='0' y='-100'/>"
+        "<node id='B' x='8' y='0' type='traffic_light'/><node id='E' x='120' y='0'/>"
+        "<node id='N' x='8' y='-100'/><node id='S' x='8' y='100'/>";
+    plain.edges =
+        "<edge id='WA' from='W' to='A' priority='1' speed='13'/>"
+        "<edge id='AB' from='A' to='B' priority='9' speed='13'/>"
+        "<edge id='BE' from='B' to='E' priority='9' speed='13'/>"
+        "<edge id='NAA' from='NA' to='A' priority='9' speed='13'/>"
+        "<edge id='NB' from='N' to='B' speed='13'/><edge id='BS' from='B' to='S' speed='13'/>";
+    if (crossed) plain.edges += "<edge id='ASA' from='A' to='SA' priority='1' speed='13'/>";
+    RoadScene here(read_plain_net(plain));
+    const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
+    const std::vector<PathLink> links = here.path(own).links;
+    ASSERT_LT(links.at(1).stop_line - links.at(0).end, 1.0) << "no room between the two";
+    ASSERT_TRUE(has_crossing_traffic(here.model, links[0].connection)) << "somebody joins";
+    std::string& state = here.road.signal_states.at(0);
+    state.assign(here.model.road.signals.at(0).size, 'r');
+    here.move(own, links[0].halt - 2.25 - 0.6);
+    here.update();
+    EXPECT_EQ(here.context(own).allowed_speed > 0.3, !crossed);
+  }
+}
+
 // In Monaco whoever had a red light seven metres behind a zebra stood on the zebra, for 20 s each:
 // there is room for a car behind it, but the line is drawn for the buses that turn in.
 TEST(JunctionsThatFollowClosely, WhoseLineAtALightIsDrawnOnTheJunctionBeforeWaitsBeforeThatOne) {

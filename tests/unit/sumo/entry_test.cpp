@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sumo/sumo_agents.h"
 #include "support/road_scene.h"
 #include "support/small_net.h"
 
@@ -49,6 +50,37 @@ TEST(Entry, NobodyStartsInsideAHouse) {
   agent.position = {0, 2};
   EXPECT_TRUE(is_walled_off(model, agent, {0, 0}));
   EXPECT_FALSE(is_walled_off(model, agent, {0, 3})) << "as in a station";
+}
+
+// Who found its lane full began on the one beside it, 256 m before a light at which that one turned
+// off: half of its queue went straight on, and those who turned waited behind them.
+TEST(Entry, NobodyStartsOnALaneThatEndsBeforeItsWayDoes) {
+  testing::PlainNet net;
+  net.nodes =
+      "<node id='W' x='0' y='0'/><node id='M' x='400' y='0'/><node id='E' x='900' y='0'/>"
+      "<node id='N' x='400' y='300'/>";
+  net.edges =
+      "<edge id='WM' from='W' to='M' numLanes='3' speed='13.89'/>"
+      "<edge id='ME' from='M' to='E' numLanes='2' speed='13.89'/>"
+      "<edge id='MN' from='M' to='N' numLanes='1' speed='13.89'/>";
+  net.connections =
+      "<connection from='WM' to='ME' fromLane='0' toLane='0'/>"
+      "<connection from='WM' to='ME' fromLane='1' toLane='1'/>"
+      "<connection from='WM' to='MN' fromLane='2' toLane='0'/>";
+  Model model;
+  model.types = default_agent_types();
+  model.road = testing::read_plain_net(net);
+  SumoAgentDetails details;
+  details.vehicle_class = "passenger";
+  details.lane = "WM_1";
+  details.route = {"WM", "ME"};
+  const AgentTypeId car = find_agent_type(model.types, "car");
+  std::string why;
+  const auto path = path_of(model, details, car, why);
+  ASSERT_TRUE(path) << why;
+  const auto besides = paths_besides(model, details, car, *path);
+  ASSERT_EQ(besides.size(), 1u);
+  EXPECT_EQ(model.road.lane(besides.front()->stretches.front().lane).name, "WM_0");
 }
 
 class EntryTest : public ::testing::Test {
