@@ -101,7 +101,7 @@ std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& detail
 std::vector<std::shared_ptr<const Path>> paths_besides(const Model& model,
                                                        const SumoAgentDetails& details,
                                                        AgentTypeId type_id, const Path& path) {
-  constexpr double kWorthIt = 3000.0;  // [m]
+  constexpr double kWorthIt = 3000.0;  // as far as SUMO's departLane="best" looks [m]
   std::vector<std::shared_ptr<const Path>> paths;
   const Lane& chosen = model.road.lane(path.stretches.front().lane);
   const std::vector<LaneId>& lanes = model.road.edge(chosen.edge).lanes;

@@ -19,7 +19,7 @@ std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& detail
                               std::string& why);
 
 /// Paths of the same vehicle from the lanes beside the one where `path` starts, nearest first:
-/// those that its trip can start on and that lead on far enough to be worth it.
+/// those that its trip can start on and that lead on as far as this one, or for kilometres.
 std::vector<std::shared_ptr<const Path>> paths_besides(const Model& model,
                                                        const SumoAgentDetails& details,
                                                        AgentTypeId type_id, const Path& path);
