@@ -132,7 +132,7 @@ bool gets_past_tail(const Surroundings& around, const LaneBeside& beside, double
 void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
                   const Surroundings& around, std::size_t row, LaneIntent& intent) {
   constexpr double kPressed = 3.0, kCreeps = 3.0;  // [m/s^2], [m/s]
-  constexpr double kTooLong = 1.3;  // times the way that it takes
+  constexpr double kTooLong = 1.3;                 // times the way that it takes
   const PathStretch& here = path.stretch_at(around.along);
   if (here.changing) {
     // who goes on between the lanes is in no lane's way until it has got past
