@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/smooth_step.h"
 #include "model/free_entry.h"
 #include "model/lane_gap.h"
 #include "model/locate.h"
@@ -110,23 +109,6 @@ bool filters(const Scene& scene, const Surroundings& around, std::size_t row) {
          std::abs(scene.passing_offset[row] - scene.path_offset[row]) > kBeside;
 }
 
-/// Does a body that moves over to the lane beside within `way` [m] from where it is get past
-/// whoever stands ahead in its own? Else it would stand over both.
-bool gets_past_tail(const Surroundings& around, const LaneBeside& beside, double way) {
-  constexpr double kStands = 1.0, kSides = 0.2, kNose = 0.3;  // [m/s], [m], half lengths
-  return std::none_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
-    const double middle = 0.5 * (user.rear + user.front);
-    const double from_own_lane = user.offset - beside.offset_at(middle) + beside.shift;
-    const double needed = around.half_width + user.half_width + kSides;
-    if (user.speed > kStands || user.on_foot || middle < around.along ||
-        std::abs(from_own_lane) > needed)
-      return false;
-    const double nose = user.rear - around.along - kNose * around.half_length;
-    const double moved = smooth_step(std::clamp(nose / way, 0.0, 1.0)) * std::abs(beside.shift);
-    return moved < needed + (beside.shift > 0.0 ? from_own_lane : -from_own_lane);
-  });
-}
-
 /// A lane change that the trip needs waits for its gap: says so to whoever may leave one, and
 /// closes the gate at its begin while there is none.
 void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
@@ -154,8 +136,7 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   const double braking = speed < 2.0 ? kPressed : kSafeBraking;
   const bool due = change->from - around.along < 2.0 + 1.2 * speed;
   if (!is_contested(scene, around, row, change->lane, beside) &&
-      is_gap(scene, around, row, beside, braking) &&
-      (!due || gets_past_tail(around, beside, way_of_change(speed)))) {
+      is_gap(scene, around, row, beside, braking)) {
     // planned over the way that it takes at full speed: in a queue, that long over two lanes
     if (due && change->to - change->from > kTooLong * way_of_change(speed))
       intent.wanted = change->lane;

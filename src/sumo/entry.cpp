@@ -129,7 +129,10 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
     const bool comes_in = scene.lane[row].lane == lane || scene.merge_to[row] == lane;
     const double aside = relative.x() <= 0.0 ? 0.3 : comes_in ? 3.5 : 0.7;
     if (on_foot) continue;
-    if (std::abs(relative.y()) > half_width + other.half.y() + aside) {
+    // a long body ahead, amid a lane change, has its tail further aside than its middle
+    const double across =
+        relative.x() > 0.0 ? half_extent(scene, row, left_of(direction)) : other.half.y();
+    if (std::abs(relative.y()) > half_width + across + aside) {
       // who comes from behind out of a bend is beside the line straight back
       if (relative.x() < 0.0 && comes_over(model, road, scene, row, other, wanted))
         return std::nullopt;

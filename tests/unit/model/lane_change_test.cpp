@@ -154,20 +154,6 @@ TEST_F(NeededChange, IsAsLongAsItsSpeedAsksFor) {
   EXPECT_LT(changed->to - changed->from, 15.0);
 }
 
-TEST_F(NeededChange, BeginsNotBehindATailThatItDoesNotGetPast) {
-  for (const double ahead : {15.0, 7.0}) {
-    SCOPED_TRACE(ahead);
-    here_ = RoadScene{left_lane_leads_on()};
-    own_ = here_.add("car", {"WM", "ME"}, 19, 3, 0, -1, "WM_0");
-    // six metres of bus behind its middle
-    here_.add("bus", {"WM", "ME"}, 0, 0, 19 + 2.25 + ahead + 6.0, -1, "WM_0");
-    const PathStretch* changed = change();
-    ASSERT_TRUE(changed);
-    const bool begins = changed->from < here_.scene.path_along[own_] + 1.0;
-    EXPECT_EQ(begins, ahead > 10.0);
-  }
-}
-
 // it stood over two lanes through a green when it wanted back into the queue on its own
 TEST(BetterLane, TheOneThatATurnNeedsIsKeptFrom150MetresOn) {
   const RoadNetwork network = left_lane_leads_on();

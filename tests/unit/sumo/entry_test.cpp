@@ -182,6 +182,18 @@ TEST_F(EntryTest, NorBesideWhoIsStillTurningIntoTheNextLane) {
   EXPECT_TRUE(may_start(0.0)) << "it drives beside";
 }
 
+// its middle was in the next lane already, and a car began with 8 m/s two metres behind its tail
+TEST_F(EntryTest, NorFastBehindALongBodyWhoseTailIsStillInItsLane) {
+  const std::size_t bus = here_.add("bus", {"in", "out"}, 0, 0);
+  here_.scene.lane[bus] = {};
+  const auto speed_with_it = [&](double turned) {
+    put(bus, Vec2(11.0, 2.9), turned, 1.0);
+    return speed_of_newcomer().value_or(0.0);
+  };
+  EXPECT_LT(speed_with_it(0.28), 2.0);
+  EXPECT_GT(speed_with_it(0.0), 5.0) << "it drives beside";
+}
+
 TEST_F(EntryTest, NobodyOnFootStartsBeforeWhoDrives) {
   const std::size_t walker = here_.add("pedestrian", {"in"}, 10, 0);
   const Polyline& way = here_.path(walker).line;
