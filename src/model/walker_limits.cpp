@@ -80,9 +80,11 @@ void keep_off_red_crossings(const RoadView& view, const Course& course, RoadCont
     Vec2 way = way_onto(crossing, position);
     const double distance = way.norm();
     if (distance == 0.0 || distance > kNear) return;
-    // nor does who goes round others come back onto the one that lies behind it
+    // nor does who goes round others come back onto the one that lies behind it, or get onto its
+    // own from the side, before its way leads there
     const bool crosses = std::any_of(own.begin(), own.end(), [&](const PathStretch& stretch) {
-      return stretch.lane == beside && stretch.to > course.along;
+      return stretch.lane == beside && stretch.to > course.along &&
+             stretch.from < course.along + kNear;
     });
     if (crosses && !waits) return;
     const double extent = half_extent(view.scene, course.row, way / distance);

@@ -4,6 +4,7 @@
 #include "model/gamma_velocity.h"
 #include "model/merging.h"
 #include "model/right_of_way.h"
+#include "road/path_profile.h"
 #include "support/road_scene.h"
 #include "support/small_net.h"
 
@@ -1213,6 +1214,31 @@ TEST_F(WalkersAtRed, WhoSetOutAndGotNoFurtherStepsBack) {
   here_.scene.context[walker] = {};
   EXPECT_FALSE(steps_back(walker, 4.0)) << "amid the road it goes on";
   EXPECT_NE(here_.context(walker).reason, LimitReason::Signal);
+}
+
+// in the crowd of a corner somebody was pressed onto the crossing to which its way leads in the end
+TEST_F(WalkersAtRed, WhoseWayToItsCrossingIsLongIsKeptOffIt) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.1, 195, 5);
+  Path path = here_.path(walker);
+  const double kerb = path.links.at(0).stop_line, turn = kerb - 0.5, round = 6.0;
+  const Vec2 across = path.line.direction_at(kerb);
+  // before the kerb it goes three metres aside and comes back
+  std::vector<Vec2> points;
+  append_span(path.line, 0.0, turn, points);
+  points.push_back(path.line.point_at(turn) + 0.5 * round * left_of(across));
+  append_span(path.line, turn, path.line.length(), points);
+  path.line = Polyline(points);
+  for (PathStretch& stretch : path.stretches) {
+    if (stretch.from > turn) stretch.from += round;
+    if (stretch.to > turn) stretch.to += round;
+  }
+  for (PathLink& link : path.links)
+    for (double* place : {&link.stop_line, &link.halt, &link.inside, &link.end}) *place += round;
+  here_.road.paths[static_cast<std::size_t>(here_.scene.path[walker])] =
+      std::make_shared<const Path>(path);
+  put(walker, turn - 0.1);
+  ASSERT_NE(here_.context(walker).reason, LimitReason::Signal) << "not yet";
+  EXPECT_GT(here_.context(walker).to_red[0].dot(across), 0.0);
 }
 
 // pressed off the crossing again, it shuffled onto it round somebody who stood behind it
