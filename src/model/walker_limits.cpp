@@ -45,8 +45,10 @@ void follow_on_foot(const RoadView& view, const Course& course, RoadContext& con
   });
 }
 
-/// The shortest way onto a crossing [m]; zero for who is on it.
+/// The shortest way onto a crossing [m]; for who is on its rim a bit of the way on, zero further
+/// on.
 Vec2 way_onto(const Lane& crossing, const Vec2& place) {
+  constexpr double kRim = 1.0;  // [m]
   const auto& points = crossing.centerline.points();
   const Vec2 along = points.back() - points.front();
   const double length = along.norm();
@@ -56,7 +58,13 @@ Vec2 way_onto(const Lane& crossing, const Vec2& place) {
   const double half_width = 0.5 * crossing.width;
   const Vec2 nearest(std::clamp(here.x(), 0.0, length),
                      std::clamp(here.y(), -half_width, half_width));
-  return from_body(nearest - here, forward);
+  if (nearest != here) return from_body(nearest - here, forward);
+  const double from_end = std::min(here.x(), length - here.x());
+  const double from_side = half_width - std::abs(here.y());
+  if (std::min(from_end, from_side) > kRim) return Vec2::Zero();
+  return from_end < from_side
+             ? Vec2(here.x() < 0.5 * length ? kLeastWay * forward : -kLeastWay * forward)
+             : Vec2((here.y() < 0.0 ? kLeastWay : -kLeastWay) * left_of(forward));
 }
 
 /// Is a crossing red? One of its two directions has the light.

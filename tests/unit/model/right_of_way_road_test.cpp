@@ -1239,6 +1239,10 @@ TEST_F(WalkersAtRed, WhoseWayToItsCrossingIsLongIsKeptOffIt) {
   put(walker, turn - 0.1);
   ASSERT_NE(here_.context(walker).reason, LimitReason::Signal) << "not yet";
   EXPECT_GT(here_.context(walker).to_red[0].dot(across), 0.0);
+  // on its rim when the light changed: no further on
+  here_.scene.position[walker] = path.line.point_at(turn) + 0.8 * across + 0.9 * left_of(across);
+  here_.update();
+  EXPECT_GT(here_.context(walker).to_red[0].dot(across), 0.0);
 }
 
 // pressed off the crossing again, it shuffled onto it round somebody who stood behind it
