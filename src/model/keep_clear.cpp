@@ -41,17 +41,17 @@ double end_of_road(const Course& course, const PathLink& link) {
 /// last place on where others cross: who joins the same road there waits for that light anyway.
 double clear_from(const RoadView& view, const Course& course, const PathLink& link) {
   constexpr double kAtOnce = 8.0;  // [m]
-  const auto& [model, road, scene, grid, approaches] = view;
+  const RoadNetwork& network = view.model.road;
   const auto next = course.path.link_after(link.stop_line);
   if (next == course.path.links.end() || next->stop_line > link.end + kAtOnce ||
-      model.road.connection(next->connection).signal == kNoSignal ||
-      model.road.connection(link.connection).signal != kNoSignal)
+      network.connection(next->connection).signal == kNoSignal ||
+      network.connection(link.connection).signal != kNoSignal)
     return link.end;
   const auto road_behind = [&](ConnectionId id) {
-    return model.road.lane(model.road.connection(id).to).edge;
+    return network.lane(network.connection(id).to).edge;
   };
   double clear = link.stop_line;
-  for (const ConflictZone& zone : model.conflicts[index_of(link.connection)])
+  for (const ConflictZone& zone : view.model.conflicts[index_of(link.connection)])
     if (road_behind(zone.foe) != road_behind(link.connection))
       clear = std::max(clear, link.stop_line + zone.end);
   return std::min(clear, link.end);

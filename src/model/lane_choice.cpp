@@ -109,8 +109,8 @@ bool filters(const Scene& scene, const Surroundings& around, std::size_t row) {
          std::abs(scene.passing_offset[row] - scene.path_offset[row]) > kBeside;
 }
 
-/// A lane change that the trip needs waits for its gap: says so to whoever may leave one, and
-/// closes the gate at its begin while there is none.
+/// A lane change that the trip needs waits for its gap: says so to whoever may leave one, closes
+/// the gate at its begin while there is none, and begins it over the way that its speed asks for.
 void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
                   const Surroundings& around, std::size_t row, LaneIntent& intent) {
   constexpr double kPressed = 3.0, kCreeps = 3.0;  // [m/s^2], [m/s]

@@ -13,7 +13,7 @@ struct LaneIntent {
   bool fresh = false;         ///< it has looked at this tick
   bool postpone = false;      ///< a planned change is due and finds no gap yet
   bool abort = false;         ///< a change that was begun does not get on
-  LaneId wanted = kNoLane;    ///< lane where it would be better off
+  LaneId wanted = kNoLane;    ///< lane to go over to now: where it would be better off, or has to
   LaneId entered = kNoLane;   ///< free lane beside the one that its link leads to
   LaneId merge_to = kNoLane;  ///< see Scene
   double gate = std::numeric_limits<double>::infinity();  ///< see Scene

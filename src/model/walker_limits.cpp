@@ -59,12 +59,12 @@ Vec2 way_onto(const Lane& crossing, const Vec2& place) {
   const Vec2 nearest(std::clamp(here.x(), 0.0, length),
                      std::clamp(here.y(), -half_width, half_width));
   if (nearest != here) return from_body(nearest - here, forward);
-  const double from_end = std::min(here.x(), length - here.x());
-  const double from_side = half_width - std::abs(here.y());
-  if (std::min(from_end, from_side) > kRim) return Vec2::Zero();
-  return from_end < from_side
-             ? Vec2(here.x() < 0.5 * length ? kLeastWay * forward : -kLeastWay * forward)
-             : Vec2((here.y() < 0.0 ? kLeastWay : -kLeastWay) * left_of(forward));
+  const Vec2 from_middle = here - Vec2(0.5 * length, 0.0);
+  const Vec2 depth = Vec2(0.5 * length, half_width) - from_middle.cwiseAbs();
+  if (depth.minCoeff() > kRim) return Vec2::Zero();
+  const Vec2 inwards = depth.x() < depth.y() ? Vec2(std::copysign(1.0, -from_middle.x()), 0.0)
+                                             : Vec2(0.0, std::copysign(1.0, -from_middle.y()));
+  return from_body(kLeastWay * inwards, forward);
 }
 
 /// Is a crossing red? One of its two directions has the light.
@@ -74,8 +74,8 @@ bool is_red_for_walkers(const RoadView& view, const Lane& crossing) {
   });
 }
 
-/// Who makes way for others beside a crossing doesn't step onto it while it is red, its own only
-/// where it waits for it.
+/// Who makes way for others beside a crossing, or on its rim, doesn't step further onto it while it
+/// is red; its own counts where it waits for it, and before its way leads there.
 void keep_off_red_crossings(const RoadView& view, const Course& course, RoadContext& context) {
   constexpr double kNear = 2.0;  // [m]
   const RoadNetwork& network = view.model.road;

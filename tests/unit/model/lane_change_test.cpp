@@ -129,28 +129,19 @@ RoadNetwork left_lane_leads_on() {
 }
 
 // The way that a change takes at full speed was planned: in a queue vehicles stood over two lanes.
-class NeededChange : public ::testing::Test {
- protected:
-  /// The stretch over which the lanes are changed, as everybody has looked.
-  const PathStretch* change() {
-    here_.update();
-    let_all_look(here_);
-    const auto& stretches = here_.path(own_).stretches;
-    const auto found = std::find_if(stretches.begin(), stretches.end(),
-                                    [](const PathStretch& stretch) { return stretch.changing; });
-    return found == stretches.end() ? nullptr : &*found;
-  }
-  RoadScene here_{left_lane_leads_on()};
-  std::size_t own_ = here_.add("car", {"WM", "ME"}, 19, 3, 0, -1, "WM_0");
-};
-
-TEST_F(NeededChange, IsAsLongAsItsSpeedAsksFor) {
-  const PathStretch& planned = here_.path(own_).stretches.at(1);
+TEST(NeededChange, IsAsLongAsItsSpeedAsksFor) {
+  RoadScene here{left_lane_leads_on()};
+  const std::size_t own = here.add("car", {"WM", "ME"}, 19, 3, 0, -1, "WM_0");
+  const PathStretch& planned = here.path(own).stretches.at(1);
   ASSERT_TRUE(planned.changing);
   ASSERT_GT(planned.to - planned.from, 40.0);
-  const PathStretch* changed = change();
-  ASSERT_TRUE(changed);
-  EXPECT_LT(changed->from, here_.scene.path_along[own_] + 1.0) << "it goes over now";
+  here.update();
+  let_all_look(here);
+  const auto& stretches = here.path(own).stretches;
+  const auto changed = std::find_if(stretches.begin(), stretches.end(),
+                                    [](const PathStretch& stretch) { return stretch.changing; });
+  ASSERT_NE(changed, stretches.end());
+  EXPECT_LT(changed->from, here.scene.path_along[own] + 1.0) << "it goes over now";
   EXPECT_LT(changed->to - changed->from, 15.0);
 }
 
