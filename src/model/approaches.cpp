@@ -37,7 +37,7 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
     for (; link != path->links.end() && link->stop_line < along + half_length + reach; ++link) {
       approaches_.push_back({link->connection, static_cast<std::uint32_t>(row),
                              along + half_length - link->stop_line, 2.0 * half_length, speed,
-                             speed < 0.5});
+                             speed < kStandsBelow});
     }
   }
   std::sort(approaches_.begin(), approaches_.end(), [](const Approach& a, const Approach& b) {

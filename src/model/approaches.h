@@ -8,6 +8,9 @@
 
 namespace sumogamma {
 
+/// An agent that approaches a link stands below this speed [m/s].
+inline constexpr double kStandsBelow = 0.5;
+
 /// Somebody on the way to, or on, a junction link.
 struct Approach {
   ConnectionId connection = kNoConnection;

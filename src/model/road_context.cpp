@@ -178,6 +178,13 @@ void set_allowed_speed(const RoadView& view, const Course& course, double dt,
     limit(halting, decision.reason, decision.foe, binding, context);
     break;
   }
+  if (course.path.arrival < front + looked_at) {
+    const LinkDecision room = leave_room_at_end(view, course, traveller);
+    const double gap = room.stop_at - traveller.front + type.min_gap;
+    if (room.must_stop)
+      limit(following_acceleration(type, course.speed, free_speed, gap, 0.0), room.reason, room.foe,
+            binding, context);
+  }
   if (std::isfinite(scene.gate[course.row])) {
     // some way before it: who rolled over it by a hair had begun its change, whoever was beside
     constexpr double kBefore = 0.3;  // [m]

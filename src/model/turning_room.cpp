@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/following.h"
+#include "model/keep_clear.h"
 #include "model/occupation.h"
 #include "model/rule_breaking.h"
 #include "scene/storey.h"
@@ -27,11 +28,12 @@ bool moves_line(const Model& model, const PathLink& link, const SweptWay& way) {
   return way.begin > -kDrawn && model.road.connection(link.connection).signal != kNoSignal;
 }
 
-/// Does somebody get there first where the two would be in each other's way?
-bool comes_first(const Occupation& theirs, const Occupation& ours, bool there, bool smaller_id) {
+/// Does a foe get there first where the two would be in each other's way? It does where it is there
+/// or on its way while one stands oneself: it doesn't reckon with who stands.
+bool comes_first(const Occupation& theirs, const Occupation& ours, bool surely, bool smaller_id) {
   constexpr double kMargin = 0.5;  // [s]
   if (ours.begin > theirs.end + kMargin || theirs.begin > ours.end + kMargin) return false;
-  return there || theirs.begin < ours.begin || (theirs.begin == ours.begin && smaller_id);
+  return surely || theirs.begin < ours.begin || (theirs.begin == ours.begin && smaller_id);
 }
 
 }  // namespace
@@ -88,7 +90,9 @@ LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller
         deceleration_to_stop(traveller.speed, line + kStopMargin - traveller.front) >
             0.8 * type.max_deceleration;
     if (too_late || (decision.must_stop && line >= decision.stop_at)) continue;
-    const Occupation ours = occupation(view, approach_of(traveller, link), way.begin, way.end);
+    // whose trip ends at the line is gone from there on
+    const double last = link.end > link.stop_line ? way.end : -traveller.length;
+    const Occupation ours = occupation(view, approach_of(traveller, link), way.begin, last);
     for (const Approach& foe : approaches.of(way.foe)) {
       if (foe.row == traveller.row || (way.foe_sweeps && turning_body(foe.length) != way.body))
         continue;
@@ -105,11 +109,29 @@ LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller
       // who waits there for something doesn't leave by itself
       if (there && approaches.rest_of(foe) - foe.length < way.foe_end)
         theirs.end = Occupation::kNever;
-      if (!comes_first(theirs, ours, there, scene.id[foe.row] < scene.id[traveller.row])) continue;
+      const bool surely = there || (traveller.speed < kStandsBelow && !foe.stands);
+      if (!comes_first(theirs, ours, surely, scene.id[foe.row] < scene.id[traveller.row])) continue;
       decision = {true, line, LimitReason::TurningRoom,
                   static_cast<std::int64_t>(scene.id[foe.row].value)};
       break;
     }
+  }
+  return decision;
+}
+
+LinkDecision leave_room_at_end(const RoadView& view, const Course& course,
+                               const Traveller& traveller) {
+  constexpr double kAtEnd = 2.0;  // [m]
+  LinkDecision decision;
+  const Path& path = course.path;
+  const Lane& lane = view.model.road.lane(path.stretches.back().lane);
+  const Vec2 lane_end = lane.centerline.point_at(lane.centerline.length());
+  if ((path.line.point_at(path.arrival) - lane_end).norm() > kAtEnd) return decision;
+  for (const ConnectionId id : lane.outgoing) {
+    const PathLink end{id, path.arrival, path.arrival, path.arrival};
+    if (takes_turning_room(view, course, end)) continue;
+    const LinkDecision room = leave_turning_room(view, traveller, end);
+    if (room.must_stop && (!decision.must_stop || room.stop_at < decision.stop_at)) decision = room;
   }
   return decision;
 }

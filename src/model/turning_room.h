@@ -1,5 +1,6 @@
 #pragma once
 
+#include "model/course.h"
 #include "model/right_of_way.h"
 
 namespace sumogamma {
@@ -17,5 +18,10 @@ double halt_for_long_bodies(const RoadView& view, const Traveller& traveller, co
 /// served).
 LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller,
                                 const PathLink& link);
+
+/// The same for somebody whose trip ends at the end of a lane: it takes no link there, but what
+/// long bodies sweep of the lane on their ways over the junction behind it is theirs all the same.
+LinkDecision leave_room_at_end(const RoadView& view, const Course& course,
+                               const Traveller& traveller);
 
 }  // namespace sumogamma

@@ -112,6 +112,39 @@ TEST_F(TurningRoomTest, ABusThatHasLetOthersPastForLongGoesOnForAWhile) {
   EXPECT_GT(waited, 40.0);
 }
 
+// each reckoned to be there first: the bus with who drives, the car with its own 20 cm, and they
+// stood nose to nose for minutes
+TEST_F(TurningRoomTest, WhoStandsBeforeThePlaceLetsABusPastThatDrives) {
+  const std::size_t bus = add_bus();
+  const std::size_t car = add_waiting(25.0, 0.0);
+  const SweptWay* way = shared_way(car, bus, true);
+  ASSERT_NE(way, nullptr);
+  const PathLink& link = here_.path(car).links.front();
+  here_.move(car, link.stop_line + way->begin - 0.2 - 2.25);
+  here_.move(bus, here_.path(bus).links.front().stop_line + way->foe_begin - 4.0 - 6.0);
+  const auto is_held_by_bus_at = [&](double speed) {
+    here_.set_speed(bus, speed);
+    here_.update();
+    const Traveller traveller{car, here_.scene.path_along[car] + 2.25, 4.5, 0.0};
+    return leave_turning_room(here_.view(), traveller, link).must_stop;
+  };
+  EXPECT_TRUE(is_held_by_bus_at(3.5));
+  EXPECT_FALSE(is_held_by_bus_at(0.0)) << "a bus that stands there waits for it";
+}
+
+// its trip ended at the end of the lane, so that it looked at no link, and met a bus there
+TEST_F(TurningRoomTest, WhoseTripEndsAtTheLineLeavesRoomAllTheSame) {
+  const std::size_t car = here_.add("car", {"SC"}, 0, 5);
+  here_.move(car, here_.path(car).arrival - 20.0 - 2.25);
+  here_.update();
+  EXPECT_NE(here_.context(car).reason, LimitReason::TurningRoom);
+  const std::size_t bus = add_bus();
+  here_.move(bus, here_.path(bus).links.front().stop_line - 6.0);
+  here_.update();
+  EXPECT_EQ(here_.context(car).reason, LimitReason::TurningRoom);
+  EXPECT_EQ(here_.context(car).foe, here_.scene.id[bus].value);
+}
+
 // a bus found a car at the line whenever it had green, as the car had red, and stood for minutes
 class DrawnLine : public ::testing::Test {
  protected:
