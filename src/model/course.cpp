@@ -38,9 +38,9 @@ Vec2 chord_direction(const Polyline& line, double from, double to) {
 /// Over which a path's direction is taken [m]: half a second and more, so that the corners of a
 /// coarse line don't ask for a jerk of the wheel; less for who is short between its axles and turns
 /// in a hook of a cycle path.
-double bend_window(const Course& course) {
+double bend_window(const AgentType& type, double speed) {
   constexpr double kCar = 2.5;  // wheelbase [m]
-  return std::min(1.0, course.type.wheelbase / kCar) * (1.0 + 0.5 * course.speed);
+  return std::min(1.0, type.wheelbase / kCar) * (1.0 + 0.5 * speed);
 }
 
 /// The tightest bend that a body can turn in [1/m].
@@ -49,7 +49,7 @@ double tightest_bend(const AgentType& type) { return std::tan(type.max_steering)
 /// How the path bends at the body [1/m], positive to the left; no more than the body can.
 double curvature_of(const Course& course) {
   const Polyline& line = course.path.line;
-  const double along = course.along, window = bend_window(course);
+  const double along = course.along, window = bend_window(course.type, course.speed);
   const Vec2 before = chord_direction(line, along - window, along);
   const double turn = heading_of(to_body(chord_direction(line, along, along + window), before));
   const double tightest = tightest_bend(course.type);
@@ -62,8 +62,13 @@ double curvature_of(const Course& course) {
 Vec2 direction_to_steer(const Course& course, double curvature) {
   const AgentType& type = course.type;
   const double to_steer = 0.1 + 0.5 * type.max_steering / type.max_steering_rate;  // [s]
-  const double preview = 0.4 + to_steer * course.speed;
-  const double place = course.along + preview, window = bend_window(course);
+  // as fast as it will be there: who brakes for a corner with the preview of its speed now cuts it.
+  // Long bodies less so: those that begin it late swing out behind it
+  const double there = course.path.profile_at(course.along + 0.4 + to_steer * course.speed);
+  const double share = 2.0 * course.half_length > kLongBody ? 0.5 : 1.0;
+  const double speed = course.speed - share * std::max(course.speed - there, 0.0);
+  const double preview = 0.4 + to_steer * speed;
+  const double place = course.along + preview, window = bend_window(type, speed);
   const Vec2 ahead = chord_direction(course.path.line, place - window, place + window);
   return from_body(ahead, direction_of(-curvature * (preview - steering_lead(type, course.speed))));
 }

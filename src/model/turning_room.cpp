@@ -28,8 +28,7 @@ bool moves_line(const Model& model, const PathLink& link, const SweptWay& way) {
   return way.begin > -kDrawn && model.road.connection(link.connection).signal != kNoSignal;
 }
 
-/// Does a foe get there first where the two would be in each other's way? It does where it is there
-/// or on its way while one stands oneself: it doesn't reckon with who stands.
+/// Does a foe get there first where the two would be in each other's way?
 bool comes_first(const Occupation& theirs, const Occupation& ours, bool surely, bool smaller_id) {
   constexpr double kMargin = 0.5;  // [s]
   if (ours.begin > theirs.end + kMargin || theirs.begin > ours.end + kMargin) return false;
@@ -109,8 +108,11 @@ LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller
       // who waits there for something doesn't leave by itself
       if (there && approaches.rest_of(foe) - foe.length < way.foe_end)
         theirs.end = Occupation::kNever;
-      const bool surely = there || (traveller.speed < kStandsBelow && !foe.stands);
-      if (!comes_first(theirs, ours, surely, scene.id[foe.row] < scene.id[traveller.row])) continue;
+      // a long body on its way doesn't reckon with who stands. Not the other way round: where one
+      // comes after the other, it would stand for ever
+      const bool goes_on = way.foe_sweeps && traveller.speed < kStandsBelow && !foe.stands;
+      const bool smaller_id = scene.id[foe.row] < scene.id[traveller.row];
+      if (!comes_first(theirs, ours, there || goes_on, smaller_id)) continue;
       decision = {true, line, LimitReason::TurningRoom,
                   static_cast<std::int64_t>(scene.id[foe.row].value)};
       break;

@@ -273,6 +273,37 @@ TEST_F(BendTest, ASteadyBendIsNotCut) {
   }
 }
 
+// a van that braked from 8 m/s to 4 for a corner began to turn 6 m before it, and drove over the
+// end of the sidewalk
+TEST_F(BendTest, WhoBrakesForACornerBeginsItAsLateAsItsSpeedThere) {
+  constexpr double kSlow = 3.5, kBraking = 2.5, kCorner = 30.0, kTight = 5.0;
+  const auto begins_at = [&](double top) {
+    std::vector<Vec2> points = {{0, 0}};
+    for (int degrees = 0; degrees <= 90; degrees += 5)
+      points.push_back(Vec2(kCorner, -kTight) + kTight * direction_of(radians(90 - degrees)));
+    points.push_back({kCorner + kTight, -kTight - 20.0});
+    const std::size_t own = add_on(points, "van", "in_1", 3.0, 10.0, top);
+    Path path = *here_.road.path(here_.scene.path[own]);
+    path.speed_profile.assign(60, kSlow);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kCorner); ++i) {
+      const double left = kCorner - static_cast<double>(i);
+      path.speed_profile[i] = std::min(top, std::sqrt(kSlow * kSlow + 2.0 * kBraking * left));
+    }
+    here_.road.paths[static_cast<std::size_t>(here_.scene.path[own])] =
+        std::make_shared<const Path>(path);
+    for (double along = 10.0; along < kCorner; along += 0.1) {
+      here_.move(own, along, 0.0);
+      here_.set_speed(own, path.profile_at(along));
+      here_.update();
+      if (here_.context(own).tangent.y() < -0.05) return along;
+    }
+    return kCorner;
+  };
+  const double slowly = begins_at(kSlow);
+  EXPECT_GT(slowly, kCorner - 6.0);
+  EXPECT_GT(begins_at(8.0), slowly - 1.5);
+}
+
 // asked for a velocity aside, of which it makes what lies along its heading, everybody lost some
 // speed with every step in a bend, the more the shorter the steps were
 TEST_F(BendTest, TheSpeedIsKeptWhileTheBodyTurns) {
