@@ -202,7 +202,7 @@ bool StoppingGuard::clear_at(Foe& foe, std::size_t instant, const Pose& pose) co
   // no closer than by braking now is as good as braking
   if (gap >= room.gap - kSame) return true;
   // deeper by a hair is what it takes to roll out of each other side by side
-  if (foe.overlaps) return gap >= room.gap - kHair && (!own.on_wheels || gap > -kDeepest);
+  if (foe.overlaps) return gap >= room.gap - kHair && gap > -kDeepest;
   // closer than the margin already: half of what is left may be used, so that bodies side by side
   // can turn apart
   const double least = in_lane() ? kLeastGap : 0.0;

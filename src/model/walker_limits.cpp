@@ -10,6 +10,7 @@ namespace sumogamma {
 
 namespace {
 
+constexpr double kRim = 1.0;        ///< of a crossing, from which one gets off it [m]
 constexpr double kLeastWay = 1e-4;  ///< that has a direction: nobody creeps on over it [m]
 
 /// People who walk the same way one behind the other keep a distance that grows with their speed,
@@ -48,7 +49,6 @@ void follow_on_foot(const RoadView& view, const Course& course, RoadContext& con
 /// The shortest way onto a crossing [m]; for who is on its rim a bit of the way on, zero further
 /// on.
 Vec2 way_onto(const Lane& crossing, const Vec2& place) {
-  constexpr double kRim = 1.0;  // [m]
   const auto& points = crossing.centerline.points();
   const Vec2 along = points.back() - points.front();
   const double length = along.norm();
@@ -89,9 +89,10 @@ void keep_off_red_crossings(const RoadView& view, const Course& course, RoadCont
     const double distance = way.norm();
     if (distance == 0.0 || distance > kNear) return;
     // nor does who goes round others come back onto the one that lies behind it, or get onto its
-    // own from the side, before its way leads there
+    // own from the side, before its way leads there; nor back onto the one that it is about to
+    // leave
     const bool crosses = std::any_of(own.begin(), own.end(), [&](const PathStretch& stretch) {
-      return stretch.lane == beside && stretch.to > course.along &&
+      return stretch.lane == beside && stretch.to > course.along + kRim &&
              stretch.from < course.along + kNear;
     });
     if (crosses && !waits) return;

@@ -1299,11 +1299,16 @@ TEST_F(WalkersAtRed, WhoHasCrossedIsKeptOffTheCrossingBehindIt) {
   here_.scene.position[walker] = far_end + 0.6 * across;
   here_.update();
   EXPECT_LT((here_.context(walker).to_red[0] + 0.4 * across).norm(), 0.15);
-  here_.move(walker, crossing->to - 0.6);
-  here_.scene.position[walker] = far_end - 0.6 * across;
-  here_.update();
-  for (const Vec2& way : here_.context(walker).to_red)
-    EXPECT_GE(way.dot(across), -1e-9) << "it is on it";
+  const auto is_kept_off_at = [&](double before) {
+    here_.move(walker, crossing->to - before);
+    here_.scene.position[walker] = far_end - before * across;
+    here_.update();
+    const auto& ways = here_.context(walker).to_red;
+    return std::any_of(ways.begin(), ways.end(),
+                       [&](const Vec2& way) { return way.dot(across) < 0.0; });
+  };
+  EXPECT_FALSE(is_kept_off_at(1.5)) << "it is on it";
+  EXPECT_TRUE(is_kept_off_at(0.6)) << "about to leave it: one went back onto it round a bicycle";
 }
 
 TEST_F(WalkersAtRed, OnANarrowIslandPeopleStandInItsMiddle) {
