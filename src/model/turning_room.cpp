@@ -35,6 +35,59 @@ bool comes_first(const Occupation& theirs, const Occupation& ours, bool surely, 
   return surely || theirs.begin < ours.begin || (theirs.begin == ours.begin && smaller_id);
 }
 
+/// See leave_turning_room; of somebody whose trip `ends` at the line, who is gone from there on.
+LinkDecision leave_room(const RoadView& view, const Traveller& traveller, const PathLink& link,
+                        bool ends) {
+  const auto& [model, road, scene, grid, approaches] = view;
+  LinkDecision decision;
+  const AgentType& type = type_of(model.types, scene.type[traveller.row]);
+  const double front = traveller.front - link.stop_line;
+  for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
+    if (ends && (!way.foe_sweeps || way.begin >= 0.0)) continue;
+    // who is on its way goes on, a long body where it is in nobody's way yet may still halt
+    const bool before_line = !way.foe_sweeps && front <= 0.2;
+    const bool may_halt = before_line || front <= way.begin;
+    if (!may_halt || (!way.foe_sweeps && turning_body(traveller.length) != way.body)) continue;
+    const double line =
+        (before_line ? std::min(link.halt, link.stop_line) : link.stop_line + way.begin) -
+        kStopMargin;
+    // who rolls out a little beyond its place has halted there all the same
+    const bool too_late =
+        traveller.speed > 1.0 &&
+        deceleration_to_stop(traveller.speed, line + kStopMargin - traveller.front) >
+            0.8 * type.max_deceleration;
+    if (too_late || (decision.must_stop && line >= decision.stop_at)) continue;
+    const Occupation ours = occupation(view, approach_of(traveller, link), way.begin,
+                                       ends ? -traveller.length : way.end);
+    for (const Approach& foe : approaches.of(way.foe)) {
+      if (foe.row == traveller.row || (way.foe_sweeps && turning_body(foe.length) != way.body))
+        continue;
+      if (foe.front - foe.length >= way.foe_end) continue;
+      if (!is_for(way, scene, way.foe_sweeps ? traveller.row : foe.row)) continue;
+      // it waits before its line, or before the place that is swept; whom bodies hold isn't coming;
+      // who waits there with its body off the way can be passed
+      const bool there = foe.front > way.foe_begin;
+      if (foe.stands && (!there || approaches.waiting(foe.row).blocked ||
+                         (traveller.length <= kLongBody &&
+                          stands_beside(view, traveller, link, way.begin, way.end, foe))))
+        continue;
+      Occupation theirs = occupation(view, foe, way.foe_begin, way.foe_end);
+      // who waits there for something doesn't leave by itself
+      if (there && approaches.rest_of(foe) - foe.length < way.foe_end)
+        theirs.end = Occupation::kNever;
+      // a long body on its way doesn't reckon with who stands. Not the other way round: where one
+      // comes after the other, it would stand for ever
+      const bool goes_on = way.foe_sweeps && traveller.speed < kStandsBelow && !foe.stands;
+      const bool smaller_id = scene.id[foe.row] < scene.id[traveller.row];
+      if (!comes_first(theirs, ours, there || goes_on, smaller_id)) continue;
+      decision = {true, line, LimitReason::TurningRoom,
+                  static_cast<std::int64_t>(scene.id[foe.row].value)};
+      break;
+    }
+  }
+  return decision;
+}
+
 }  // namespace
 
 double drawn_line(const RoadView& view, const Traveller& traveller, const PathLink& link) {
@@ -71,54 +124,7 @@ double halt_for_long_bodies(const RoadView& view, const Traveller& traveller,
 
 LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller,
                                 const PathLink& link) {
-  const auto& [model, road, scene, grid, approaches] = view;
-  LinkDecision decision;
-  const AgentType& type = type_of(model.types, scene.type[traveller.row]);
-  const double front = traveller.front - link.stop_line;
-  for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
-    // who is on its way goes on, a long body where it is in nobody's way yet may still halt
-    const bool before_line = !way.foe_sweeps && front <= 0.2;
-    const bool may_halt = before_line || front <= way.begin;
-    if (!may_halt || (!way.foe_sweeps && turning_body(traveller.length) != way.body)) continue;
-    const double line =
-        (before_line ? std::min(link.halt, link.stop_line) : link.stop_line + way.begin) -
-        kStopMargin;
-    // who rolls out a little beyond its place has halted there all the same
-    const bool too_late =
-        traveller.speed > 1.0 &&
-        deceleration_to_stop(traveller.speed, line + kStopMargin - traveller.front) >
-            0.8 * type.max_deceleration;
-    if (too_late || (decision.must_stop && line >= decision.stop_at)) continue;
-    // whose trip ends at the line is gone from there on
-    const double last = link.end > link.stop_line ? way.end : -traveller.length;
-    const Occupation ours = occupation(view, approach_of(traveller, link), way.begin, last);
-    for (const Approach& foe : approaches.of(way.foe)) {
-      if (foe.row == traveller.row || (way.foe_sweeps && turning_body(foe.length) != way.body))
-        continue;
-      if (foe.front - foe.length >= way.foe_end) continue;
-      if (!is_for(way, scene, way.foe_sweeps ? traveller.row : foe.row)) continue;
-      // it waits before its line, or before the place that is swept; whom bodies hold isn't coming;
-      // who waits there with its body off the way can be passed
-      const bool there = foe.front > way.foe_begin;
-      if (foe.stands && (!there || approaches.waiting(foe.row).blocked ||
-                         (traveller.length <= kLongBody &&
-                          stands_beside(view, traveller, link, way.begin, way.end, foe))))
-        continue;
-      Occupation theirs = occupation(view, foe, way.foe_begin, way.foe_end);
-      // who waits there for something doesn't leave by itself
-      if (there && approaches.rest_of(foe) - foe.length < way.foe_end)
-        theirs.end = Occupation::kNever;
-      // a long body on its way doesn't reckon with who stands. Not the other way round: where one
-      // comes after the other, it would stand for ever
-      const bool goes_on = way.foe_sweeps && traveller.speed < kStandsBelow && !foe.stands;
-      const bool smaller_id = scene.id[foe.row] < scene.id[traveller.row];
-      if (!comes_first(theirs, ours, there || goes_on, smaller_id)) continue;
-      decision = {true, line, LimitReason::TurningRoom,
-                  static_cast<std::int64_t>(scene.id[foe.row].value)};
-      break;
-    }
-  }
-  return decision;
+  return leave_room(view, traveller, link, false);
 }
 
 LinkDecision leave_room_at_end(const RoadView& view, const Course& course,
@@ -132,7 +138,7 @@ LinkDecision leave_room_at_end(const RoadView& view, const Course& course,
   for (const ConnectionId id : lane.outgoing) {
     const PathLink end{id, path.arrival, path.arrival, path.arrival};
     if (takes_turning_room(view, course, end)) continue;
-    const LinkDecision room = leave_turning_room(view, traveller, end);
+    const LinkDecision room = leave_room(view, traveller, end, true);
     if (room.must_stop && (!decision.must_stop || room.stop_at < decision.stop_at)) decision = room;
   }
   return decision;

@@ -145,6 +145,14 @@ TEST_F(TurningRoomTest, WhoseTripEndsAtTheLineLeavesRoomAllTheSame) {
   EXPECT_EQ(here_.context(car).foe, here_.scene.id[bus].value);
 }
 
+TEST_F(TurningRoomTest, ABusWhoseTripEndsAtTheLineSweepsNothingBehindIt) {
+  const std::size_t bus = here_.add("bus", {"WC"}, 0, 4);
+  here_.move(bus, here_.path(bus).arrival - 12.0);
+  add_waiting(0.6, 0.0);
+  here_.update();
+  EXPECT_NE(here_.context(bus).reason, LimitReason::TurningRoom);
+}
+
 // a bus found a car at the line whenever it had green, as the car had red, and stood for minutes
 class DrawnLine : public ::testing::Test {
  protected:
