@@ -133,8 +133,8 @@ LinkDecision leave_room_at_end(const RoadView& view, const Course& course,
   LinkDecision decision;
   const Path& path = course.path;
   const Lane& lane = view.model.road.lane(path.stretches.back().lane);
-  const Vec2 lane_end = lane.centerline.point_at(lane.centerline.length());
-  if ((path.line.point_at(path.arrival) - lane_end).norm() > kAtEnd) return decision;
+  const Vec2 before_end = lane.centerline.points().back() - path.line.point_at(path.arrival);
+  if (before_end.norm() > kAtEnd) return decision;
   for (const ConnectionId id : lane.outgoing) {
     const PathLink end{id, path.arrival, path.arrival, path.arrival};
     if (takes_turning_room(view, course, end)) continue;

@@ -15,7 +15,7 @@ double halt_for_long_bodies(const RoadView& view, const Traveller& traveller, co
 
 /// Does an agent halt for the room that long bodies need where they turn? A long one lets those
 /// past first who stand where it will sweep, and others don't drive into its way (first come, first
-/// served).
+/// served; a long one that drives comes before who stands at its edge).
 LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller,
                                 const PathLink& link);
 
