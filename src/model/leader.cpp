@@ -86,12 +86,13 @@ bool changes_into_way(const Path& path, const Scene& scene, std::size_t row, std
 }
 
 /// Does who is beside the tail of somebody that waits for long for a gap let its nose in, as who is
-/// behind it does? In a dense queue beside a long body nobody is ever behind it. `to_nose`: from
-/// the own nose to the way that the other's needs [m].
+/// behind it does? In a dense queue beside a long body nobody is ever behind it. There is an end to
+/// that, also for who has rolled on by a step meanwhile. `to_nose`: from the own nose to the way
+/// that the other's needs [m].
 bool lets_nose_in(const Scene& scene, std::size_t row, std::size_t other, double to_nose) {
   constexpr double kHolds = 20.0;  // [s]
   return to_nose > 0.0 && (waits_long(scene, other) || creeps_long(scene, other)) &&
-         scene.standing_time[row] < kHolds;
+         scene.standing_time[row] < kHolds && scene.waiting_time[row] < 2.0 * kHolds;
 }
 
 /// Remembers the nearest of those ahead who wait for a gap in this lane or are on their way into

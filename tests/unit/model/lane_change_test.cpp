@@ -375,6 +375,9 @@ TEST_F(LongWait, WhoIsBesideTheTailLetsTheNoseIn) {
   here_.scene.standing_time[bus_] = 12;
   here_.scene.standing_time[car] = 30;
   EXPECT_FALSE(lets_in(car)) << "there is an end to courtesy";
+  here_.scene.standing_time[car] = 0;
+  here_.scene.waiting_time[car] = 50;
+  EXPECT_FALSE(lets_in(car)) << "nor does it begin anew with a step";
 }
 TEST_F(LongWait, WhoseNoseIsNearTheNoseGoesOn) { EXPECT_FALSE(lets_in(add_car(1.0, 1.0))); }
 
