@@ -138,8 +138,7 @@ std::int64_t blocks_exit(const RoadView& view, DrivingAhead& ahead, const Course
 
 /// Keep clear of junctions that follow each other closely: who would have to wait before the next
 /// one with its rear still on this one waits here already, for some time, and for a light before
-/// which there is no room at all for cars as long as it takes, unless one here may end meanwhile.
-/// (Bicycles on a path of their own get over it one by one then.)
+/// which there is no room at all as long as it takes, unless one here may end meanwhile.
 LinkDecision decide_beyond(const RoadView& view, const Course& course, const Traveller& traveller,
                            const PathLink& link) {
   constexpr double kPatience = 20.0;  // [s]
@@ -150,8 +149,7 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
   if (traveller.front > link.halt + kSetOut && link.stop_line > link.halt + kSetOut) return {};
   const bool patient = view.scene.waiting_time[course.row] <= kPatience;
   const Connection& here = view.model.road.connection(link.connection);
-  const bool for_cars = (view.model.road.lane(here.to).allowed & vehicle_class::kPassenger) != 0;
-  const bool waits_for_light = for_cars && here.signal == kNoSignal;
+  const bool waits_for_light = here.signal == kNoSignal;
   double room_from = clear_from(view, course, link);
   for (PathLink next : course.path.links) {
     // who waits with its rear on a junction already goes as far as it can
