@@ -66,7 +66,7 @@ bool has_waited_longer(const Scene& scene, std::size_t row, std::size_t other) {
 /// for this very agent, or it came later. Of two that wait for each other exactly one goes: who is
 /// on foot, else who has stood longer.
 bool lets_go_first(const Model& model, const Scene& scene, const ApproachTable& approaches,
-                   const Approach& foe, std::size_t row, bool both_on_junction) {
+                   const Approach& foe, std::size_t row, bool both_on_junction, bool has_set_out) {
   if (!foe.stands || (both_on_junction && foe.speed > kCreeps)) return false;
   const Waiting& waiting = approaches.waiting(foe.row);
   switch (waiting.reason) {
@@ -91,7 +91,8 @@ bool lets_go_first(const Model& model, const Scene& scene, const ApproachTable& 
   if (waiting.foe == scene.id[row].value && on_foot(row) != on_foot(foe.row)) return on_foot(row);
   const double own = scene.waiting_time[row], other = scene.waiting_time[foe.row];
   // it has waited long for a third one and isn't about to go
-  if (waiting.foe != scene.id[row].value && other > kPatience && own > kLooks) return true;
+  if (waiting.foe != scene.id[row].value && other > kPatience && (own > kLooks || has_set_out))
+    return true;
   return has_waited_longer(scene, row, foe.row);
 }
 
@@ -145,7 +146,9 @@ struct Judge : RoadView {
 
     Occupation theirs = occupation(*this, foe, zone.foe_begin, zone.foe_end);
     if (theirs.begin == Occupation::kNever) return Verdict::Free;
-    if (rests_in(zone, foe)) theirs.end = Occupation::kNever;
+    // nobody on foot counts on a vehicle that stands to have passed by the time that it gets there
+    if (rests_in(zone, foe) || (foe.stands && on_foot(traveller.row)))
+      theirs.end = Occupation::kNever;
     const Approach own = approach_of(traveller, link);
     const Occupation ours = occupation(*this, own, zone.begin, zone.end);
     const double margin = zone.yields
@@ -229,9 +232,18 @@ struct Judge : RoadView {
   bool on_foot(std::size_t row) const {
     return type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic;
   }
+  /// Is the traveller on foot, free to go a tick ago and past the place where it would wait? Who
+  /// has looked and set out needn't look again.
+  bool has_set_out() const {
+    constexpr double kPast = 0.1;  // [m]
+    const RoadContext& before = scene.context[traveller.row];
+    return on_foot(traveller.row) && before.active &&
+           (before.reason == LimitReason::None || before.reason == LimitReason::Leader) &&
+           traveller.front > link.halt + kPast;
+  }
   bool waits_behind(const Approach& foe) const {
     return lets_go_first(model, scene, approaches, foe, traveller.row,
-                         foe.front > 0.0 && on_junction());
+                         foe.front > 0.0 && on_junction(), has_set_out());
   }
   /// Somebody who hasn't stepped on an unsignalled crossing, where the traveller doesn't let people
   /// go first.

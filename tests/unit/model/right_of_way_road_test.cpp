@@ -583,24 +583,30 @@ TEST(JunctionsThatFollowClosely, AHaltBeforeTheFirstCountsForTheStopSignOfTheSec
 // Queues that waited for a light stood on the junction before it, across the ways of others.
 TEST(JunctionsThatFollowClosely,
      WhoHasNoRoomBeforeALightWaitsForItBeforeTheJunctionThatItWouldBlock) {
-  RoadScene here(two_junctions(8, "traffic_light"));  // netconvert leaves nothing of AB
-  const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
-  const std::vector<PathLink> links = here.path(own).links;
-  ASSERT_LT(links.at(1).stop_line - links.at(0).end, 1.0) << "no room between the two";
-  here.move(own, links[0].halt - 2.25 - 0.6);
-  const auto show = [&](char letter) {
-    std::string& state = here.road.signal_states.at(0);
-    state.assign(here.model.road.signals.at(0).size, letter);
-  };
-  for (const double waited : {0.0, 60.0}) {
-    here.scene.standing_time[own] = here.scene.waiting_time[own] = waited;
-    show('r');
-    here.update();
-    EXPECT_EQ(here.context(own).reason, LimitReason::Signal) << "after " << waited << " s";
-    EXPECT_LT(here.context(own).allowed_speed, 0.3);
-    show('G');
-    here.update();
-    EXPECT_GT(here.context(own).allowed_speed, 0.3) << "after " << waited << " s";
+  for (const bool cycle_path : {false, true}) {
+    SCOPED_TRACE(cycle_path);
+    RoadScene here(two_junctions(8, "traffic_light"));  // netconvert leaves nothing of AB
+    const std::size_t own = here.add(cycle_path ? "bicycle" : "car", {"WA", "AB", "BE"}, 0, 0);
+    const std::vector<PathLink> links = here.path(own).links;
+    ASSERT_LT(links.at(1).stop_line - links.at(0).end, 1.0) << "no room between the two";
+    if (cycle_path)
+      here.model.road.lanes[index_of(here.model.road.connection(links[0].connection).to)].allowed =
+          vehicle_class::kBicycle;
+    here.move(own, links[0].halt - 0.6 - half_extent(here.scene, own, Vec2(1, 0)));
+    const auto show = [&](char letter) {
+      std::string& state = here.road.signal_states.at(0);
+      state.assign(here.model.road.signals.at(0).size, letter);
+    };
+    for (const double waited : {0.0, 60.0}) {
+      here.scene.standing_time[own] = here.scene.waiting_time[own] = waited;
+      show('r');
+      here.update();
+      EXPECT_EQ(here.context(own).reason, LimitReason::Signal) << "after " << waited << " s";
+      EXPECT_LT(here.context(own).allowed_speed, 0.3);
+      show('G');
+      here.update();
+      EXPECT_GT(here.context(own).allowed_speed, 0.3) << "after " << waited << " s";
+    }
   }
 }
 
@@ -1447,6 +1453,48 @@ TEST_F(CrossingTest, WhoHasSetOutGoesOnAndDriversHaltForIt) {
   here_.scene.waiting_time[walker] = 35;
   here_.update();
   EXPECT_NE(here_.context(driver).foe, here_.scene.id[walker].value) << "it has waited long enough";
+}
+
+// A car that stood to give way would have been past by the time that somebody got there who hardly
+// walked, not who walked: that one stepped forth and back at the kerb five times a second.
+class StandingDriver : public CrossingTest {
+ protected:
+  /// At its line before the crossing over the west arm, where it gives way to `third`.
+  StandingDriver()
+      : walker_(here_.add("pedestrian", {"CW", "WC"}, 0, 0, 5, 195)),
+        driver_(here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_1")),
+        third_(here_.add("car", {"SC", "CN"}, 20, 0)) {
+    here_.move(driver_, here_.path(driver_).links.at(0).stop_line - 2.25 - 0.6);
+  }
+  /// Does somebody on foot wait for it, so far past the place to wait at, at such a speed, and held
+  /// by a rule or free a tick ago?
+  bool waits(double past, double speed, double driver_waits, bool held) {
+    const PathLink& link = here_.path(walker_).links.at(0);
+    here_.set_speed(walker_, speed);
+    here_.move(walker_, link.halt + past - 0.2);
+    here_.scene.context[driver_].active = true;
+    here_.scene.context[driver_].reason = LimitReason::Yield;
+    here_.scene.context[driver_].foe = static_cast<std::int64_t>(here_.scene.id[third_].value);
+    here_.scene.context[walker_].active = true;
+    here_.scene.context[walker_].reason = held ? LimitReason::Yield : LimitReason::None;
+    here_.scene.waiting_time[driver_] = driver_waits;
+    here_.update();
+    return here_.context(walker_).foe == here_.scene.id[driver_].value;
+  }
+  std::size_t walker_, driver_, third_;
+};
+
+TEST_F(StandingDriver, IsWaitedForAtAnySpeed) {
+  for (const double speed : {0.0, 0.1, 0.2, 0.4, 0.8, 1.2})
+    EXPECT_TRUE(waits(-0.6, speed, 2.0, true)) << speed << " m/s";
+}
+
+TEST_F(StandingDriver, WhoHasLookedAndSetOutNeedNotLookAgain) {
+  here_.scene.waiting_time[walker_] = 3.0;
+  EXPECT_FALSE(waits(-0.6, 0.0, 6.0, true)) << "it waits for somebody else and isn't about to go";
+  here_.scene.waiting_time[walker_] = 0.0;  // forgotten with the first step
+  EXPECT_FALSE(waits(0.3, 0.8, 6.0, false));
+  EXPECT_TRUE(waits(0.3, 0.8, 6.0, true)) << "it was held there";
 }
 
 TEST_F(CrossingTest, WalkersDoNotStepInFrontOfWhoCanNotStop) {
