@@ -29,7 +29,7 @@ Vec2 within_turning(const Vec2& preferred, double heading) {
 /// second: a turn of up to a right angle and more, drawn from id and time alone.
 Vec2 around(const Vec2& preferred, const Scene& scene, std::size_t row) {
   constexpr double kPatience = 2.0;  // [s]
-  if (scene.standing_time[row] < kPatience || scene.context[row].reason != LimitReason::None)
+  if (scene.blocked_time[row] < kPatience || scene.context[row].reason != LimitReason::None)
     return preferred;
   const double turn = random_uniform(0, scene.id[row].value, static_cast<std::uint64_t>(scene.time),
                                      Draw::Intention, -2.2, 2.2);

@@ -387,6 +387,28 @@ TEST_F(ContextTest, ThePathIsPreferredAtTheRoadsSpeed) {
   EXPECT_NEAR(preferred.y(), 0.0, 1e-9);
 }
 
+// whoever had waited at a kerb was sent a random way round, once the road was free
+TEST_F(ContextTest, WhoIsFreeToGoAfterAWaitGoesAhead) {
+  const std::size_t own = add_on({Vec2(0, 0), Vec2(10, 0)}, "pedestrian", "in_0", 5.0, 5.0, 0.7);
+  here_.update();
+  ASSERT_EQ(here_.context(own).reason, LimitReason::None);
+  here_.scene.standing_time[own] = 20.0;
+  const auto times_turned = [&](double blocked) {
+    here_.scene.blocked_time[own] = blocked;
+    const Vec2 ahead = here_.context(own).sub_goal - here_.scene.position[own];
+    int turned = 0;
+    for (int second = 0; second < 10; ++second) {
+      here_.scene.time = second;
+      const Vec2 preferred =
+          preferred_velocity(here_.model, here_.scene, own, here_.scene.behavior[own].intention);
+      turned += std::abs(cross(preferred, ahead)) > 0.05 * preferred.norm() * ahead.norm();
+    }
+    return turned;
+  };
+  EXPECT_EQ(times_turned(0.5), 0) << "a rule held it so far";
+  EXPECT_GT(times_turned(5.0), 5) << "bodies hold it";
+}
+
 TEST_F(ContextTest, IntentionsAreWhatTheySay) {
   const std::size_t own = here_.add("car", {"in", "out"}, 40, 10);
   here_.update();
