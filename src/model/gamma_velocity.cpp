@@ -21,13 +21,14 @@ constexpr double kLookAside = 1.0;  // [rad]
 /// differs from the paper: who is held up turns its preferred velocity to the passing side, the
 /// more the longer it stands. In a crowd that meets head-on this starts the roundabout that
 /// resolves it, the same way for all and without a draw.
-Vec2 look_aside(const ModelOptions& options, const AgentGeometry& agent, const Vec2& preferred) {
+Vec2 look_aside(const ModelOptions& options, const Scene& scene, std::size_t row,
+                const AgentGeometry& agent, const Vec2& preferred) {
   const double wish = preferred.squaredNorm();
   if (agent.on_wheels || !options.look_aside || wish < 1e-12) return preferred;
   const double made = agent.velocity.dot(preferred) / wish;
   if (made >= kHeldShare) return preferred;
   const double held = std::min(1.0 - made / kHeldShare, 1.0);
-  return from_body(rotation((options.keep_left ? kLookAside : -kLookAside) * held), preferred);
+  return from_body(rotation(side_to_pass(options, scene, row) * kLookAside * held), preferred);
 }
 
 /// Fastest that Eq. 7 may answer [m/s].
@@ -98,7 +99,7 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
   append_geometric_constraints(model, scene, geometry, row, {behavior, work.preferred},
                                work.neighbours.attended, constraints);  // G, III-B
 
-  const Vec2 target = look_aside(model.options, geometry.agent[row], work.preferred);
+  const Vec2 target = look_aside(model.options, scene, row, geometry.agent[row], work.preferred);
   const double fastest = speed_limit(type, scene, geometry.agent[row], row, work.preferred);
   work.result =
       closest_point(constraints.planes, constraints.hard_count, target, fastest, work.program);

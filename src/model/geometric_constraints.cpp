@@ -30,12 +30,16 @@ constexpr double kLeader = 0.7;    ///< horizon towards who is followed [s]
 /// differs from the paper: who follows a lane bends with it, so that straight lines over the whole
 /// horizon see collisions with oncoming traffic in every curve; leaders, signals and right of way
 /// look far ahead instead (C). Avoidance is what is left: the near term. People on foot who look
-/// far ahead on a full sidewalk meet face to face and stop, all of them.
+/// far ahead on a full sidewalk meet face to face and stop, all of them; so they do round a bicycle
+/// that stands among them.
 double road_horizon(const RoadContext& context, const AgentGeometry& own,
                     const AgentGeometry& other, std::int64_t foe, double horizon) {
   constexpr double kLanes = kBendTime, kSidewalk = 1.2;
-  if (!context.active || own.on_wheels != other.on_wheels) return horizon;
-  if (!own.on_wheels) return std::min(horizon, kSidewalk);
+  constexpr double kCrawls = 1.0;  // whatever is no faster is walked round [m/s]
+  if (!context.active) return horizon;
+  if (!own.on_wheels && (!other.on_wheels || other.speed < kCrawls))
+    return std::min(horizon, kSidewalk);
+  if (own.on_wheels != other.on_wheels) return horizon;
   const bool leader = context.reason == LimitReason::Leader && context.foe == foe;
   return std::min(horizon, leader ? kLeader : kLanes);
 }

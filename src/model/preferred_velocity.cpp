@@ -80,4 +80,12 @@ Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row,
   return Vec2::Zero();
 }
 
+double side_to_pass(const ModelOptions& options, const Scene& scene, std::size_t row) {
+  constexpr double kAside = 0.1;  // [m]
+  const double aside =
+      scene.context[row].active ? scene.lateral_aim[row] - scene.path_offset[row] : 0.0;
+  if (std::abs(aside) > kAside) return std::copysign(1.0, aside);
+  return options.keep_left ? 1.0 : -1.0;
+}
+
 }  // namespace sumogamma

@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "geometry/rotation.h"
+#include "model/preferred_velocity.h"
 #include "model/way_round.h"
 
 namespace sumogamma {
@@ -295,8 +296,9 @@ std::optional<Vec2> creep_round(StoppingGuard& guard, const Model& model, const 
                                 std::span<const HalfPlane> hard) {
   const double passing = model.options.keep_left ? 1.0 : -1.0;
   const Vec2 ahead = own.on_wheels ? own.forward : Vec2(preferred.normalized());
-  const auto creeps = own.on_wheels ? wheeled_creeps(own, type_of(model.types, own.type), passing)
-                                    : walking_creeps(scene, row, passing);
+  const auto creeps = own.on_wheels
+                          ? wheeled_creeps(own, type_of(model.types, own.type), passing)
+                          : walking_creeps(scene, row, side_to_pass(model.options, scene, row));
   // on a road whoever is ahead is waited for: a vehicle that creeps out of its lane gets wedged
   const RoadContext& context = scene.context[row];
   const bool on_road = own.on_wheels && context.active;

@@ -32,10 +32,12 @@ Meeting meeting_with(const Scene& scene, const RoadUser& user) {
 
 /// Speed that can be hoped for at a place: of those ahead there, the slower and the nearer the
 /// less. Who comes the other way counts for less than nothing, so that streams part.
-double hoped_pace(const Surroundings& around, double place, double free_speed) {
+double hoped_pace(const Scene& scene, const Surroundings& around, double place, double free_speed) {
   constexpr double kOutlook = 4.0;     // [s]
   constexpr double kBeside = 0.3;      // [m/s]
   constexpr double kWallMargin = 0.2;  // [m]
+  constexpr double kAtEase = 0.3;    // from a vehicle that stands; closer by one squeezes past [m]
+  constexpr double kSqueezes = 0.5;  // of the speed
   const double front = around.along + around.half_length;
   const double rear = around.along - around.half_length;
   double hoped = free_speed;
@@ -45,7 +47,12 @@ double hoped_pace(const Surroundings& around, double place, double free_speed) {
     const double gap = user.rear - front;
     hoped = std::min(hoped, user.speed + (gap > 0.0 ? gap / kOutlook : -kBeside));
   };
-  for (const RoadUser& user : around.users) meet(user, kMargin);
+  for (const RoadUser& user : around.users) {
+    meet(user, kMargin);
+    if (meeting_with(scene, user) == Meeting::StandsInTheWay && user.front > rear &&
+        std::abs(user.offset - place) < user.half_width + around.half_width + kAtEase)
+      hoped = std::min(hoped, kSqueezes * free_speed);
+  }
   for (const RoadUser& wall : around.walls) meet(wall, kWallMargin);
   return hoped;
 }
@@ -84,10 +91,10 @@ double walking_place(const Path& path, const Scene& scene, Surroundings& around,
   keep_to_waiting_room(path, around.along, most_left, most_right);
   const double liked = std::clamp(scene.path_offset[row], most_right, most_left);
   const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
-  if (hoped_pace(around, liked, free_speed) > kFree * free_speed) return liked;
+  if (hoped_pace(scene, around, liked, free_speed) > kFree * free_speed) return liked;
   auto worth = [&](double place) {
-    return hoped_pace(around, place, free_speed) - kStepCost * std::abs(place - around.offset) -
-           kLikeCost * std::abs(place - liked);
+    return hoped_pace(scene, around, place, free_speed) -
+           kStepCost * std::abs(place - around.offset) - kLikeCost * std::abs(place - liked);
   };
   double best = std::clamp(scene.passing_offset[row], most_right, most_left);
   double most = worth(best) + kKeeps;

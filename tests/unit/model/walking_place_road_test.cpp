@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include "model/gamma_velocity.h"
+#include "model/tracking.h"
 #include "model/walking_place.h"
+#include "support/lane_looks.h"
 #include "support/road_scene.h"
 
 namespace sumogamma {
@@ -174,6 +177,30 @@ TEST_F(WalkingPlaceTest, WhoFollowsKeepsADistanceThatGrowsWithItsSpeed) {
   here_.scene.heading[ahead] = kPi;
   here_.update();
   EXPECT_EQ(here_.context(own).reason, LimitReason::None);
+}
+
+// a person crept up to a bicycle that stood across the sidewalk and never got past: the place that
+// it chose was too near to that to get there, and held up it turned to the other side
+TEST_F(WalkingPlaceTest, WhoComesUpToABicycleThatStandsInTheWayWalksRoundIt) {
+  for (const double across : {-0.6, -0.4}) {  // 1.25 and 1.05 m are left
+    here_ = RoadScene(sidewalk());
+    const std::size_t own = walker(10, 0, 1.3);
+    const std::size_t bicycle = walker(15, across, 0.0);
+    here_.scene.path[bicycle] = kNoPath;
+    here_.scene.type[bicycle] = find_agent_type(here_.model.types, "bicycle");
+    here_.scene.footprint[bicycle] = box_footprint(1.7, 0.65);
+    here_.scene.heading[bicycle] = 0.5 * kPi;
+    Workspace work;
+    double time = 0;
+    for (; time < 20 && here_.scene.position[own].x() < 17; time += 0.05) {
+      testing::let_all_look(here_);
+      here_.update();
+      const Vec2 asked = gamma_velocity(here_.model, here_.scene, here_.geometry, own,
+                                        here_.scene.behavior[own], work);
+      place_body(track_velocity(here_.model, here_.scene, own, asked, 0.05), here_.scene, own);
+    }
+    EXPECT_LT(time, 7.0) << across;
+  }
 }
 
 }  // namespace
