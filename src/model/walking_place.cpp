@@ -31,7 +31,8 @@ Meeting meeting_with(const Scene& scene, const RoadUser& user) {
 }
 
 /// Speed that can be hoped for at a place: of those ahead there, the slower and the nearer the
-/// less. Who comes the other way counts for less than nothing, so that streams part.
+/// less. Who comes the other way counts for less than nothing, so that streams part. Close past a
+/// vehicle that stands it is half: avoidance keeps more from it than there is between the bodies.
 double hoped_pace(const Scene& scene, const Surroundings& around, double place, double free_speed) {
   constexpr double kOutlook = 4.0;     // [s]
   constexpr double kBeside = 0.3;      // [m/s]
