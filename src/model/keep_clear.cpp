@@ -148,8 +148,7 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
   // who has set out from a place short of the line doesn't halt again
   if (traveller.front > link.halt + kSetOut && link.stop_line > link.halt + kSetOut) return {};
   const bool patient = view.scene.waiting_time[course.row] <= kPatience;
-  const Connection& here = view.model.road.connection(link.connection);
-  const bool waits_for_light = here.signal == kNoSignal;
+  const bool waits_for_light = view.model.road.connection(link.connection).signal == kNoSignal;
   double room_from = clear_from(view, course, link);
   for (PathLink next : course.path.links) {
     // who waits with its rear on a junction already goes as far as it can

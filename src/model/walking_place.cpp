@@ -42,16 +42,18 @@ double hoped_pace(const Scene& scene, const Surroundings& around, double place, 
   const double front = around.along + around.half_length;
   const double rear = around.along - around.half_length;
   double hoped = free_speed;
+  auto is_near = [&](const RoadUser& user, double margin) {
+    return user.front >= rear &&
+           std::abs(user.offset - place) <= user.half_width + around.half_width + margin;
+  };
   auto meet = [&](const RoadUser& user, double margin) {
-    if (user.front < rear) return;
-    if (std::abs(user.offset - place) > user.half_width + around.half_width + margin) return;
+    if (!is_near(user, margin)) return;
     const double gap = user.rear - front;
     hoped = std::min(hoped, user.speed + (gap > 0.0 ? gap / kOutlook : -kBeside));
   };
   for (const RoadUser& user : around.users) {
     meet(user, kMargin);
-    if (meeting_with(scene, user) == Meeting::StandsInTheWay && user.front > rear &&
-        std::abs(user.offset - place) < user.half_width + around.half_width + kAtEase)
+    if (is_near(user, kAtEase) && meeting_with(scene, user) == Meeting::StandsInTheWay)
       hoped = std::min(hoped, kSqueezes * free_speed);
   }
   for (const RoadUser& wall : around.walls) meet(wall, kWallMargin);
