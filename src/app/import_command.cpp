@@ -133,6 +133,7 @@ int run_import(const ImportOptions& options, const CommonOptions& common) {
   scenario.north = built.box.north;
   scenario.left_hand = built.left_hand;
   scenario.agents = agents;
+  scenario.on_foot = std::round(1000.0 * made.on_foot) / 1000.0;
   scenario.duration = duration;
   write_scenario_files(folder.path(), scenario, default_agent_types());
   nlohmann::ordered_json report = osm::import_report(built, scenario.map);

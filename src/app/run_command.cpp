@@ -20,7 +20,7 @@ CommandRunner add_run_command(CLI::App& parent) {
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--agents", options->agents,
-                   "most vehicles on the road at once; people on foot come on top, as with SUMO")
+                   "most agents alive at once, people on foot included")
       ->check(CLI::Range(1L, 1000000L));
   command
       ->add_option("--control", options->control,

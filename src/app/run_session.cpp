@@ -52,9 +52,17 @@ struct RunPlan {
   ScenarioConfig config;
   ControlChoice control;
   double step = 0.05, duration = 0;
-  std::size_t agents = 0;
+  std::size_t vehicles = 0;  ///< at once, at the most; 0: as many as the demand has
   std::string control_text;
 };
+
+/// Of `agents` alive at the most, 0 for no bound, how many may be vehicles. SUMO can hold back
+/// vehicles alone: people come as the demand has them, and leave the vehicles their share.
+std::size_t most_vehicles(long agents, double on_foot) {
+  if (agents <= 0) return 0;
+  const long vehicles = std::lround(static_cast<double>(agents) * (1.0 - on_foot));
+  return static_cast<std::size_t>(std::max(vehicles, 1L));
+}
 
 ControlChoice control_choice(const RunOptions& options, const std::string& from_config,
                              std::string& text) {
@@ -98,7 +106,7 @@ RunPlan make_plan(const RunOptions& options, const CommonOptions& common) {
   // the cap of scenario.toml belongs to imported demand; a user's own .sumocfg brings as many as it
   // likes
   const long cap = options.agents.value_or(plan.input.settings.empty() ? 0 : plan.config.agents);
-  plan.agents = static_cast<std::size_t>(std::max(cap, 0L));
+  plan.vehicles = most_vehicles(cap, plan.config.on_foot);
   plan.control = control_choice(options, plan.config.control, plan.control_text);
   return plan;
 }
@@ -130,8 +138,8 @@ std::unique_ptr<SumoBackend> start_backend(const RunPlan& plan, std::uint64_t se
   wish.gui = plan.options.gui;
   wish.plain = !plan.control.any();
   wish.own = {"--seed", std::to_string(seed % 2147483647u)};
-  if (wish.plain && plan.agents > 0)
-    wish.own.insert(wish.own.end(), {"--max-num-vehicles", std::to_string(plan.agents)});
+  if (wish.plain && plan.vehicles > 0)
+    wish.own.insert(wish.own.end(), {"--max-num-vehicles", std::to_string(plan.vehicles)});
   wish.user = split_options(plan.options.sumo_options);
   start.arguments = sumo_arguments(wish);
   if (!plan.options.connect.empty()) {
@@ -357,7 +365,7 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
 
   SumoWorldOptions world_options;
   world_options.control = plan.control;
-  world_options.max_vehicles = plan.control.any() ? plan.agents : 0;
+  world_options.max_vehicles = plan.control.any() ? plan.vehicles : 0;
   world_options.seed = common.seed;
   world_options.dt = plan.step;
   SumoWorld world(sim->model, *backend, world_options);

@@ -13,12 +13,12 @@ namespace sumogamma {
 struct RunOptions {
   std::filesystem::path scenario, output;
   std::optional<double> step, duration;  ///< [s]
-  std::optional<long> agents;  ///< cap on vehicles on the road at once; people on foot come on top
-  std::vector<std::string> control;    ///< all | none | types and ids
-  std::vector<double> region;          ///< x0,y0,x1,y1 of --region [m]
-  std::optional<std::string> backend;  ///< traci | libsumo
-  std::optional<std::string> preset;   ///< compliant | observed
-  std::string connect;                 ///< HOST:PORT of a SUMO that the user started
+  std::optional<long> agents;            ///< most alive at once
+  std::vector<std::string> control;      ///< all | none | types and ids
+  std::vector<double> region;            ///< x0,y0,x1,y1 of --region [m]
+  std::optional<std::string> backend;    ///< traci | libsumo
+  std::optional<std::string> preset;     ///< compliant | observed
+  std::string connect;                   ///< HOST:PORT of a SUMO that the user started
   std::string sumo_options;
   bool gui = false, replay = false;
   bool predict = false;  ///< predict everybody and score it against what then happens

@@ -122,10 +122,15 @@ void bind_preset(BehaviorPreset& preset, std::vector<Binding>& bindings) {
 
 std::vector<Binding> bind_all(ScenarioConfig& config) {
   std::vector<Binding> bindings{
-      {"scenario.name", &config.name},     {"scenario.map", &config.map},
-      {"scenario.bbox", &config.bbox},     {"scenario.attribution", &config.attribution},
-      {"run.agents", &config.agents, 1},   {"run.duration", &config.duration, 0, true},
-      {"run.step", &config.step, 0, true}, {"run.control", &config.control},
+      {"scenario.name", &config.name},
+      {"scenario.map", &config.map},
+      {"scenario.bbox", &config.bbox},
+      {"scenario.attribution", &config.attribution},
+      {"run.agents", &config.agents, 1},
+      {"run.on_foot", &config.on_foot, 0, false, 1},
+      {"run.duration", &config.duration, 0, true},
+      {"run.step", &config.step, 0, true},
+      {"run.control", &config.control},
       {"run.backend", &config.backend},
   };
   bind_preset(config.preset, bindings);

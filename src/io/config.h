@@ -16,7 +16,8 @@ struct ScenarioConfig {
   // [scenario]: what the importer notes about the place, for people and reports
   std::string name, map, bbox, attribution;
   // [run]: defaults of `sumo-gamma run`; its options win
-  int agents = 100;       ///< cap on vehicles on the road at once; people on foot come on top
+  int agents = 100;       ///< most agents alive at once
+  double on_foot = 0;     ///< share of people on foot among them, who come as the demand has them
   double duration = 600;  ///< [s]
   double step = 0.05;     ///< [s]
   std::string control = "all";

@@ -670,7 +670,10 @@ DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& type
   const std::vector<Departure> departures = schedule(road, request, works, report);
   write_routes(road, request, works, departures);
   report.departures = static_cast<long>(departures.size());
-  for (const TypeWork& work : works) report.types.push_back(work.report);
+  for (const TypeWork& work : works) {
+    report.types.push_back(work.report);
+    if (work.walks) report.on_foot += work.report.share;
+  }
   return report;
 }
 

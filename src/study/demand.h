@@ -51,6 +51,7 @@ struct DemandByType {
 
 struct DemandReport {
   std::vector<DemandByType> types;
+  double on_foot = 0;  ///< share of people on foot among the agents alive
   long departures = 0;
   long initial = 0;      ///< of these, in the warm-up, started in the middle of their trips
   bool stopped = false;  ///< should_stop ended it; nothing was written

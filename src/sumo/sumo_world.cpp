@@ -223,7 +223,7 @@ void SumoWorld::insert_pending(Scene& scene, RoadState& road) {
   std::size_t vehicles = 0;
   for (const AgentId id : scene.id) vehicles += known_[id.value].is_person ? 0 : 1;
   for (auto pending = pending_.begin(); pending != pending_.end();) {
-    // as SUMO's --max-num-vehicles: whoever walks comes on top
+    // as SUMO's --max-num-vehicles, which holds back nobody who walks
     if (options_.max_vehicles > 0 && !pending->details.is_person &&
         vehicles >= options_.max_vehicles) {
       ++pending;

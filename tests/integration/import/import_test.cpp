@@ -103,6 +103,7 @@ TEST_F(ImportTest, MakesAWholeScenario) {
                                    "obstacles.add.xml", "scenario.sumocfg", "scenario.toml"}));
   // the configuration that `run` reads, the report, and SUMO itself accept it
   EXPECT_EQ(read_config(out() / "scenario.toml").agents, 30);
+  EXPECT_DOUBLE_EQ(read_config(out() / "scenario.toml").on_foot, 0.23);
   const auto report = nlohmann::json::parse(content(out() / "import.json"));
   EXPECT_EQ(report["built"]["signals"], 1);
   EXPECT_EQ(report["demand"]["agents"], 30);

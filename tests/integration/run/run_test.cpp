@@ -210,6 +210,21 @@ TEST_F(RunTest, TheSameStateWhateverTheThreadsTheBackEndAndTheRun) {
   EXPECT_EQ(threads["threads"], 2);
 }
 
+TEST_F(RunTest, AsManyAsAskedForAreAliveAtTheMost) {
+  import(kMaps / "monaco.osm.pbf", "60");
+  // 23 % of the demand walk: of 20 alive 15 are vehicles, whoever drives them
+  for (const std::string control : {"all", "none"}) {
+    const json run =
+        results_of(control, {"--agents", "20", "--duration", "40", "--control", control});
+    int vehicles = 0;
+    for (const auto& [type, counts] : run["agents"]["by_type"].items())
+      if (type != "pedestrian")
+        vehicles += counts["inserted"].get<int>() - counts["arrived"].get<int>();
+    EXPECT_LE(vehicles, 15) << control;
+    EXPECT_GE(vehicles, 14) << control;
+  }
+}
+
 TEST_F(RunTest, WhoIsDrivenIsAChoice) {
   import(kMaps / "monaco.osm.pbf", "60");
   const json all = results_of("all", {"--duration", "20"});

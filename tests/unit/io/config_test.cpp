@@ -98,6 +98,7 @@ TEST_F(Config, WrongValuesAreRefused) {
   EXPECT_NE(complaint("[run]\nagents = \"many\"").find("whole number"), std::string::npos);
   EXPECT_NE(complaint("[run]\nagents = 0").find("at least 1"), std::string::npos);
   EXPECT_NE(complaint("[run]\nstep = 0").find("above 0"), std::string::npos);
+  EXPECT_NE(complaint("[run]\non_foot = 1.2").find("from 0 to 1"), std::string::npos);
   EXPECT_NE(complaint("[run]\nstep = nan").find("above 0"), std::string::npos);
   EXPECT_NE(complaint("[run]\nstep = inf").find("above 0"), std::string::npos);
   EXPECT_NE(complaint("[model]\nuse_polygons = 1").find("true or false"), std::string::npos);
