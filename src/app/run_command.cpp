@@ -20,7 +20,7 @@ CommandRunner add_run_command(CLI::App& parent) {
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--agents", options->agents,
-                   "most agents alive at once, people on foot included")
+                   "agents to keep alive, people on foot included; at the most a tenth more")
       ->check(CLI::Range(1L, 1000000L));
   command
       ->add_option("--control", options->control,

@@ -56,11 +56,14 @@ struct RunPlan {
   std::string control_text;
 };
 
-/// Of `agents` alive at the most, 0 for no bound, how many may be vehicles. SUMO can hold back
-/// vehicles alone: people come as the demand has them, and leave the vehicles their share.
+/// Where `agents` are to be alive, 0 for as many as the demand has, how many may be vehicles. SUMO
+/// can hold back vehicles alone: people come as the demand has them, and leave the vehicles their
+/// share. A tenth more gets in: a bound at the mean would cut off every fluctuation, and who drives
+/// more slowly would get less of the same demand.
 std::size_t most_vehicles(long agents, double on_foot) {
+  constexpr double kSlack = 1.1;
   if (agents <= 0) return 0;
-  const long vehicles = std::lround(static_cast<double>(agents) * (1.0 - on_foot));
+  const long vehicles = std::lround(kSlack * static_cast<double>(agents) * (1.0 - on_foot));
   return static_cast<std::size_t>(std::max(vehicles, 1L));
 }
 

@@ -13,7 +13,7 @@ namespace sumogamma {
 struct RunOptions {
   std::filesystem::path scenario, output;
   std::optional<double> step, duration;  ///< [s]
-  std::optional<long> agents;            ///< most alive at once
+  std::optional<long> agents;            ///< to be alive, a tenth more at the most
   std::vector<std::string> control;      ///< all | none | types and ids
   std::vector<double> region;            ///< x0,y0,x1,y1 of --region [m]
   std::optional<std::string> backend;    ///< traci | libsumo

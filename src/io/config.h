@@ -16,7 +16,7 @@ struct ScenarioConfig {
   // [scenario]: what the importer notes about the place, for people and reports
   std::string name, map, bbox, attribution;
   // [run]: defaults of `sumo-gamma run`; its options win
-  int agents = 100;       ///< most agents alive at once
+  int agents = 100;       ///< to be alive; a tenth more at the most
   double on_foot = 0;     ///< share of people on foot among them, who come as the demand has them
   double duration = 600;  ///< [s]
   double step = 0.05;     ///< [s]

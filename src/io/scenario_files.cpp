@@ -43,7 +43,7 @@ std::string toml_text(const ScenarioFiles& scenario, const AgentTypeTable& types
        << (scenario.left_hand ? "left" : "right") << "\n"
        << "attribution = \"(c) OpenStreetMap contributors, ODbL 1.0\"\n\n"
        << "[run]\n"
-       << "agents = " << scenario.agents << "  # alive at once, at the most\n"
+       << "agents = " << scenario.agents << "  # to be alive\n"
        << "on_foot = " << plain(scenario.on_foot)
        << "  # share of people on foot among them, in this demand\n"
        << "duration = " << plain(scenario.duration) << "  # [s], for which demand was written\n"

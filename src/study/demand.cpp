@@ -577,7 +577,7 @@ std::vector<Departure> schedule(const RoadNetwork& road, const DemandRequest& re
       departures.push_back(departure);
     }
     report.initial += initial;
-    const double interval = work.report.mean_duration / (alive * request.surplus);
+    const double interval = work.report.mean_duration / alive;
     double time = interval * draws.uniform();
     for (std::size_t k = 0; time < request.duration; ++k) {
       departures.push_back({time, i, draws.index(work.routed.size()), 0, false, draws.uniform()});

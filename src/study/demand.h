@@ -33,7 +33,6 @@ struct DemandRequest {
   double warm_up = 30.0;  ///< [s] within which the first `agents` depart, spread over the network
   double min_distance = 150.0;  ///< [m] of a trip, where the map allows
   double slowness = 1.3;        ///< mean trip duration over that of the empty road
-  double surplus = 1.15;        ///< departures over those that would just sustain `agents`
   std::function<bool()> should_stop;
 };
 
@@ -60,12 +59,12 @@ struct DemandReport {
 
 /// Draws trips, has SUMO's duarouter route them, and writes demand that keeps `agents` alive: first
 /// `agents` departures on the way (so that the mix of trip ages is that of a running city, not a
-/// wave that ends all at once), then each type at agents * share / mean duration * surplus. Trips
-/// run between the edges of the network's rim where it has one, are drawn by edge length, are at
-/// least min_distance long (less where no such trip exists), and stay on one edge only where that
-/// stands alone or a type has no other trips. Deterministic in the seed. A type that no edge lets
-/// travel is left out and reported, its share going to the others. Throws Error where nothing at
-/// all can travel, where the router is missing or fails, or where writing fails.
+/// wave that ends all at once), then each type at agents * share / mean duration (Little's law).
+/// Trips run between the edges of the network's rim where it has one, are drawn by edge length, are
+/// at least min_distance long (less where no such trip exists), and stay on one edge only where
+/// that stands alone or a type has no other trips. Deterministic in the seed. A type that no edge
+/// lets travel is left out and reported, its share going to the others. Throws Error where nothing
+/// at all can travel, where the router is missing or fails, or where writing fails.
 DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& types,
                              const DemandRequest& request);
 

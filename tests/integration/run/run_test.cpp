@@ -210,9 +210,9 @@ TEST_F(RunTest, TheSameStateWhateverTheThreadsTheBackEndAndTheRun) {
   EXPECT_EQ(threads["threads"], 2);
 }
 
-TEST_F(RunTest, AsManyAsAskedForAreAliveAtTheMost) {
+TEST_F(RunTest, AsManyAsAskedForAreAlive) {
   import(kMaps / "monaco.osm.pbf", "60");
-  // 23 % of the demand walk: of 20 alive 15 are vehicles, whoever drives them
+  // 23 % of the demand walk: of 20 alive 15 are vehicles, a tenth more at the most, whoever drives
   for (const std::string control : {"all", "none"}) {
     const json run =
         results_of(control, {"--agents", "20", "--duration", "40", "--control", control});
@@ -220,8 +220,8 @@ TEST_F(RunTest, AsManyAsAskedForAreAliveAtTheMost) {
     for (const auto& [type, counts] : run["agents"]["by_type"].items())
       if (type != "pedestrian")
         vehicles += counts["inserted"].get<int>() - counts["arrived"].get<int>();
-    EXPECT_LE(vehicles, 15) << control;
-    EXPECT_GE(vehicles, 14) << control;
+    EXPECT_LE(vehicles, 17) << control;
+    EXPECT_GE(vehicles, 15) << control;
   }
 }
 
