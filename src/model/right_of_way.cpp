@@ -469,8 +469,10 @@ SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& 
     return needed < most || stands ? SignalDuty::Stop : SignalDuty::None;
   }
   if (!is_red(signal)) return SignalDuty::None;
+  // a step on foot is taken back
+  const bool steps_back = on_foot && to_line > -0.5;
   const bool can_stop =
-      to_line > -1.0 && (needed < type.max_deceleration || traveller.speed < kCrawl);
+      to_line > -1.0 && (steps_back || needed < type.max_deceleration || traveller.speed < kCrawl);
   const bool has_halted = scene.halted_for[traveller.row] == link.connection;
   if ((can_stop || has_halted || on_foot) &&
       goes_at_red(model, scene, traveller.row, link.connection))

@@ -1168,6 +1168,7 @@ TEST_F(WalkersAtRed, WhoIsAtTheKerbHaltsThoughNotAtEaseAndWhoIsOnTheCrossingGoes
   EXPECT_TRUE(is_held(-1.0));
   EXPECT_TRUE(is_held(-0.1));
   EXPECT_TRUE(is_held(0.15));  // a foot on it
+  EXPECT_TRUE(is_held(0.45));  // at full pace
   EXPECT_FALSE(is_held(1.0));
 }
 
