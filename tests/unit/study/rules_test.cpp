@@ -275,6 +275,19 @@ TEST_F(Rules, WhoIsPressedOffACrossingAndComesBackIsStillOnIt) {
   EXPECT_EQ(counts().red_light_crossings, 1u);
 }
 
+TEST_F(Rules, WhoGoesRoundAVanThatStandsOverACrossingIsStillOnIt) {
+  road_.signal_states = {"rG"};
+  add("pedestrian", {101, 2.6}, {0, -1.3});
+  scene_.lane[0].lane = net_.lane_by_name.at(":C_c0_0");
+  run(3);
+  road_.signal_states = {"rr"};
+  for (const double sideways : {1.0, 0.0, -1.0}) {
+    scene_.velocity[0] = Vec2(sideways, 0);
+    run(sideways == 0.0 ? 12 : 3);
+  }
+  EXPECT_EQ(counts().red_light_crossings, 0u);
+}
+
 TEST_F(Rules, PedestrianGrazingTheCornerOfACrossing) {
   add("pedestrian", {98, 1.8}, {1.3, 0});
   run(4);
