@@ -469,8 +469,8 @@ SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& 
     return needed < most || stands ? SignalDuty::Stop : SignalDuty::None;
   }
   if (!is_red(signal)) return SignalDuty::None;
-  // a step on foot is taken back
-  const bool steps_back = on_foot && to_line > -0.5;
+  constexpr double kStep = 0.5;  // on foot, which is taken back [m]
+  const bool steps_back = on_foot && to_line > -kStep;
   const bool can_stop =
       to_line > -1.0 && (steps_back || needed < type.max_deceleration || traveller.speed < kCrawl);
   const bool has_halted = scene.halted_for[traveller.row] == link.connection;

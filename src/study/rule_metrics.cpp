@@ -386,8 +386,7 @@ void RuleMonitor::judge_crossing(const Row& agent, State& state, const RoadState
   }
   // who has gone aside amid the road, be it round somebody who stands over the crossing, for as
   // long as its way leads over it
-  const bool crosses =
-      state.on_crossing != kNoLane && agent.scene.lane[agent.row].lane == state.on_crossing;
+  const bool crosses = agent.scene.lane[agent.row].lane == state.on_crossing;
   const bool beside = on == kNoLane && state.amid && (crosses || now - state.last_on <= kAside);
   if (!beside) state.on_crossing = on;
   if (on == kNoLane && stands) note_waiting(state, road);
