@@ -92,6 +92,29 @@ double beside_lane(const Model& model, const Course& course) {
   return beside ? kEarlier : 0.0;
 }
 
+/// Who rides wholly in the lane beside its own, past a queue, drives over that lane's line: at red
+/// it halts there, though its own lane be free to go.
+LinkDecision decide_beside(const RoadView& view, const Course& course, const Traveller& traveller,
+                           const PathLink& link) {
+  const RoadNetwork& network = view.model.road;
+  const LaneId own = course.path.stretch_at(course.along).lane;
+  const Lane& lane = network.lane(own);
+  const double over = std::abs(course.offset) - 0.5 * course.type.width - 0.5 * lane.width;
+  if (over < 0.0 || network.connection(link.connection).from != own) return {};
+  const bool to_inner = (course.offset > 0.0) != network.left_hand;
+  const LaneId beside = to_inner ? lane.inner : lane.outer;
+  if (beside == kNoLane || network.lane(beside).outgoing.empty()) return {};
+  const auto& links = network.lane(beside).outgoing;
+  const bool red = std::all_of(links.begin(), links.end(), [&](ConnectionId id) {
+    return is_red(view.road.signal(network.connection(id)));
+  });
+  const double left = link.halt - traveller.front;
+  if (!red || left < -1.0 ||
+      deceleration_to_stop(traveller.speed, left) > course.type.max_deceleration)
+    return {};
+  return {true, link.halt - kStopMargin, LimitReason::Signal, -1};
+}
+
 /// Who has to be aside within `way` aims at a sub-goal no further ahead.
 void aim_sooner(const Scene& scene, const Course& course, double way, RoadContext& context) {
   constexpr double kNearest = 1.2;   // [m]
@@ -158,6 +181,7 @@ void set_allowed_speed(const RoadView& view, const Course& course, double dt,
       const LinkDecision held = decide_link(view, own, link);
       if (held.must_stop && held.reason == LimitReason::Signal) decision = held;
     }
+    if (!decision.must_stop) decision = decide_beside(view, course, traveller, link);
     if (first) context.at_red = decision.must_stop && decision.reason == LimitReason::Signal;
     first = false;
     if (!decision.must_stop) decision = keep_clear(view, course, traveller, link, ahead);
