@@ -75,6 +75,34 @@ TEST_F(SignalTest, WhoCrawlsBeforeTheLineLateAtAmberStands) {
   EXPECT_FALSE(is_held(0.1, 0.1)) << "it will be over the line in time";
 }
 
+// A bicycle that had a green arrow rode past the queue before it in the lane beside, which was red,
+// and over that lane's line.
+TEST(SignalBeside, WhoRidesWhollyInTheLaneBesideGoesByItsLight) {
+  RoadScene here{testing::read_plain_net(testing::crossroads("traffic_light"))};
+  const std::size_t own = here.add("bicycle", {"WC", "CE"}, 20, 3, 0, -1, "WC_1");
+  const RoadNetwork& road = here.model.road;
+  auto show = [&](const char* from, char letter) {
+    for (const ConnectionId id : road.lane(road.lane_by_name.at(from)).outgoing) {
+      const Connection& link = road.connection(id);
+      if (link.signal == kNoSignal) continue;
+      std::string& letters = here.road.signal_states[index_of(link.signal)];
+      letters.resize(std::max(letters.size(), static_cast<std::size_t>(link.signal_link) + 1), 'r');
+      letters[static_cast<std::size_t>(link.signal_link)] = letter;
+    }
+  };
+  auto is_held = [&](double aside, char beside) {
+    show("WC_1", 'G');
+    show("WC_0", beside);
+    here.move(own, here.path(own).links.front().stop_line - 4.0, -aside);
+    here.update();
+    return here.context(own).reason == LimitReason::Signal;
+  };
+  EXPECT_TRUE(is_held(3.2, 'r'));
+  EXPECT_FALSE(is_held(3.2, 'G'));
+  EXPECT_FALSE(is_held(0.0, 'r')) << "its own lane has green";
+  EXPECT_FALSE(is_held(1.5, 'r')) << "on the edge of its lane";
+}
+
 TEST_F(SignalTest, WhoStandsDownTheQueueKnowsThatItIsRed) {
   const std::size_t own = here_.add("car", {"in", "out"}, 30, 0);
   here_.scene.standing_time[own] = 5.0;
