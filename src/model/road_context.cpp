@@ -10,6 +10,7 @@
 #include "model/passing.h"
 #include "model/right_of_way.h"
 #include "model/road_view.h"
+#include "model/rule_breaking.h"
 #include "model/turning_room.h"
 #include "model/walker_limits.h"
 
@@ -109,7 +110,7 @@ LinkDecision decide_beside(const RoadView& view, const Course& course, const Tra
     return is_red(view.road.signal(network.connection(id)));
   });
   const double left = link.halt - traveller.front;
-  if (!red || left < -1.0 ||
+  if (!red || left < -1.0 || goes_at_red(view.model, view.scene, course.row, link.connection) ||
       deceleration_to_stop(traveller.speed, left) > course.type.max_deceleration)
     return {};
   return {true, link.halt - kStopMargin, LimitReason::Signal, -1};
