@@ -102,8 +102,7 @@ LinkDecision decide_beside(const RoadView& view, const Course& course, const Tra
   const Lane& lane = network.lane(own);
   const double over = std::abs(course.offset) - 0.5 * course.type.width - 0.5 * lane.width;
   if (over < 0.0 || network.connection(link.connection).from != own) return {};
-  const bool to_inner = (course.offset > 0.0) != network.left_hand;
-  const LaneId beside = to_inner ? lane.inner : lane.outer;
+  const LaneId beside = lane_beside(network, lane, course.offset);
   if (beside == kNoLane || network.lane(beside).outgoing.empty()) return {};
   const auto& links = network.lane(beside).outgoing;
   const bool red = std::all_of(links.begin(), links.end(), [&](ConnectionId id) {
@@ -182,7 +181,8 @@ void set_allowed_speed(const RoadView& view, const Course& course, double dt,
       const LinkDecision held = decide_link(view, own, link);
       if (held.must_stop && held.reason == LimitReason::Signal) decision = held;
     }
-    if (!decision.must_stop) decision = decide_beside(view, course, traveller, link);
+    if (!decision.must_stop && traveller.front > front)
+      decision = decide_beside(view, course, traveller, link);
     if (first) context.at_red = decision.must_stop && decision.reason == LimitReason::Signal;
     first = false;
     if (!decision.must_stop) decision = keep_clear(view, course, traveller, link, ahead);

@@ -200,4 +200,10 @@ inline bool may_stop_inside(const RoadNetwork& network, const Connection& connec
   return link < requests.size() && requests[link].may_stop_inside;
 }
 
+/// The lane beside `lane` of the same edge, to its left (side > 0) or right; kNoLane where there is
+/// none.
+inline LaneId lane_beside(const RoadNetwork& network, const Lane& lane, double side) {
+  return (side > 0) != network.left_hand ? lane.inner : lane.outer;
+}
+
 }  // namespace sumogamma

@@ -41,11 +41,6 @@ bool leads_over(const RoadNetwork& network, LaneId own, const Lane& lane) {
          });
 }
 
-/// The lane beside `lane`, to its left (side > 0) or right; kNoLane where there is none.
-LaneId lane_beside(const RoadNetwork& network, const Lane& lane, double side) {
-  return (side > 0) != network.left_hand ? lane.inner : lane.outer;
-}
-
 /// How far past a lane's stop line a point in the frame of the lane's end is [m]. The line runs
 /// through the ends of the lanes side by side, askew where one is longer than the other.
 double past_line(const RoadNetwork& network, const Lane& lane, const Vec2& point) {
