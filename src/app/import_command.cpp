@@ -88,6 +88,11 @@ void print_summary(const osm::BuildResult& built, const DemandReport& demand,
     else
       std::printf("  %-12s left out: %s\n", type.type.c_str(), type.problem.c_str());
   }
+  if (demand.busiest_load > 1)
+    std::printf(
+        "  warning: so many agents are more than these roads carry: %.1f times as many as lane %s "
+        "lets out; expect queues, ask for fewer agents or import more of the city\n",
+        demand.busiest_load, demand.busiest_lane.c_str());
   for (const auto& [kind, issue] : built.log.issues())
     if (issue.severity == osm::Severity::Warning)
       std::printf("  warning: %s (%ld)\n", issue.what.c_str(), issue.count);

@@ -93,6 +93,7 @@ nlohmann::ordered_json demand_report(const DemandReport& report, const DemandReq
   json["seed"] = request.seed;
   json["departures"] = report.departures;
   json["departures_on_the_way"] = report.initial;
+  json["busiest_lane"] = {{"lane", report.busiest_lane}, {"load", report.busiest_load}};
   for (const DemandByType& type : report.types)
     json["by_type"][type.type] = {{"share", type.share},
                                   {"trips_asked", type.trips_drawn},

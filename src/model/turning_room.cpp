@@ -35,6 +35,14 @@ bool comes_first(const Occupation& theirs, const Occupation& ours, bool surely, 
   return surely || theirs.begin < ours.begin || (theirs.begin == ours.begin && smaller_id);
 }
 
+/// Has a long body stood for long before those who come through the room that it needs? A queue
+/// that creeps on is never over.
+bool has_long_wanted(const RoadView& view, std::size_t row) {
+  constexpr double kLong = 10.0;  // [s]
+  return view.scene.standing_time[row] > kLong &&
+         view.approaches.waiting(row).reason == LimitReason::TurningRoom;
+}
+
 /// See leave_turning_room; of somebody whose trip `ends` at the line, who is gone from there on.
 LinkDecision leave_room(const RoadView& view, const Traveller& traveller, const PathLink& link,
                         bool ends) {
@@ -67,9 +75,11 @@ LinkDecision leave_room(const RoadView& view, const Traveller& traveller, const 
       // it waits before its line, or before the place that is swept; whom bodies hold isn't coming;
       // who waits there with its body off the way can be passed
       const bool there = foe.front > way.foe_begin;
-      if (foe.stands && (!there || approaches.waiting(foe.row).blocked ||
-                         (traveller.length <= kLongBody &&
-                          stands_beside(view, traveller, link, way.begin, way.end, foe))))
+      const bool is_owed = way.foe_sweeps && foe.stands && has_long_wanted(view, foe.row);
+      if (foe.stands && !is_owed &&
+          (!there || approaches.waiting(foe.row).blocked ||
+           (traveller.length <= kLongBody &&
+            stands_beside(view, traveller, link, way.begin, way.end, foe))))
         continue;
       Occupation theirs = occupation(view, foe, way.foe_begin, way.foe_end);
       // who waits there for something doesn't leave by itself
@@ -79,7 +89,7 @@ LinkDecision leave_room(const RoadView& view, const Traveller& traveller, const 
       // comes after the other, it would stand for ever
       const bool goes_on = way.foe_sweeps && traveller.speed < kStandsBelow && !foe.stands;
       const bool smaller_id = scene.id[foe.row] < scene.id[traveller.row];
-      if (!comes_first(theirs, ours, there || goes_on, smaller_id)) continue;
+      if (!is_owed && !comes_first(theirs, ours, there || goes_on, smaller_id)) continue;
       decision = {true, line, LimitReason::TurningRoom,
                   static_cast<std::int64_t>(scene.id[foe.row].value)};
       break;

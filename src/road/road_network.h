@@ -122,10 +122,16 @@ struct Junction {
   bool in_roundabout = false;
 };
 
+struct SignalPhase {
+  double duration = 0;  ///< [s]
+  std::string state;    ///< by link: r, y, g, G, ... (SUMO page Simulation/Traffic_Lights)
+};
+
 /// A signal program as the network file gives it; the live state comes from SUMO.
 struct Signal {
   std::string name;
-  std::size_t size = 0;  ///< number of links = length of its state string
+  std::size_t size = 0;             ///< number of links = length of its state string
+  std::vector<SignalPhase> phases;  ///< of the first program in the file
 };
 
 enum class ObstacleKind : std::uint8_t { Building, Barrier, Furniture };

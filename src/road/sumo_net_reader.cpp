@@ -317,7 +317,7 @@ class NetBuilder {
   SignalId signal_named(const std::string& name) {
     const auto [entry, added] =
         net_.signal_by_name.emplace(name, SignalId(static_cast<int>(net_.signals.size())));
-    if (added) net_.signals.push_back({name, 0});
+    if (added) net_.signals.push_back({name, 0, {}});
     return entry->second;
   }
 
@@ -328,8 +328,13 @@ class NetBuilder {
 
   void add_signal(pugi::xml_node node) {
     const SignalId id = signal_named(std::string(required(node, "id")));
-    for (const pugi::xml_node phase : node.children("phase"))
-      grow_signal(id, std::string_view(phase.attribute("state").value()).size());
+    const bool first = net_.signals[index_of(id)].phases.empty();
+    for (const pugi::xml_node phase : node.children("phase")) {
+      const std::string state = phase.attribute("state").value();
+      grow_signal(id, state.size());
+      if (first)
+        net_.signals[index_of(id)].phases.push_back({required_number(phase, "duration"), state});
+    }
   }
 
   LaneId lane_of(pugi::xml_node node, const char* edge_attribute,

@@ -16,6 +16,7 @@
 #include "base/subprocess.h"
 #include "base/units.h"
 #include "scene/sumo_defaults.h"
+#include "study/trip_weights.h"
 
 namespace sumogamma {
 namespace {
@@ -164,11 +165,9 @@ std::vector<double> distances_from(const ClassGraph& graph, std::size_t origin) 
   return distance;
 }
 
-/// A trip, then its route.
+/// Edges between which somebody travels.
 struct Trip {
   std::size_t from = 0, to = 0;
-  std::vector<std::string> edges;   ///< empty until routed
-  double length = 0, duration = 0;  ///< [m], [s] on the empty road
 };
 
 /// Everything about one type while demand is made.
@@ -176,7 +175,8 @@ struct TypeWork {
   const AgentType* type = nullptr;
   bool walks = false;
   ClassGraph graph;
-  std::vector<Trip> drawn, routed;
+  std::vector<Trip> drawn;
+  TripPool pool;  ///< of those that the router found ways for
   DemandByType report;
 };
 
@@ -212,7 +212,7 @@ class TripDraw {
   bool empty() const { return origins_.empty(); }
   Trip draw() {
     const Origin& origin = origins_[draws_.index(origins_.size())];
-    return {origin.edge, origin.targets[draws_.weighted(origin.cumulative)], {}, 0, 0};
+    return {origin.edge, origin.targets[draws_.weighted(origin.cumulative)]};
   }
 
  private:
@@ -332,16 +332,35 @@ double junction_delay(const RoadNetwork& road, const Edge& from, const Edge& to,
   return 0;
 }
 
-/// Length of a route, and how long it takes with nobody else on the road.
-void measure(const RoadNetwork& road, const TypeWork& work, Trip& trip) {
+/// Ways from edge to edge that a class may take, one a lane.
+std::vector<ConnectionId> ways_between(const RoadNetwork& road, const Edge& from, const Edge& to,
+                                       VehicleClassMask mask) {
+  std::vector<ConnectionId> ways;
+  for (const LaneId lane : from.lanes) {
+    const auto& outgoing = road.lane(lane).outgoing;
+    const auto found = std::find_if(outgoing.begin(), outgoing.end(), [&](ConnectionId id) {
+      const Lane& target = road.lane(road.connection(id).to);
+      return target.edge == road.lane(to.lanes[0]).edge &&
+             (target.allowed & road.lane(lane).allowed & mask) != 0;
+    });
+    if (found != outgoing.end()) ways.push_back(*found);
+  }
+  return ways;
+}
+
+/// Length of a route, how long it takes with nobody else on the road, and the ways over its
+/// junctions.
+void measure(const RoadNetwork& road, const TypeWork& work, RoutedTrip& trip) {
   const VehicleClassMask mask = vehicle_class_from_name(work.type->sumo_class);
   const Edge* before = nullptr;
   for (const std::string& name : trip.edges) {
     const std::size_t edge = index_of(road.edge_by_name.at(name));
     trip.length += work.graph.length[edge];
     trip.duration += edge_duration(work, edge);
-    if (before && !work.walks)
+    if (before && !work.walks) {
       trip.duration += junction_delay(road, *before, road.edges[edge], mask);
+      trip.steps.push_back(ways_between(road, *before, road.edges[edge], mask));
+    }
     before = &road.edges[edge];
   }
 }
@@ -395,7 +414,8 @@ void take_routes(const RoadNetwork& road, const std::filesystem::path& file,
     // a person whose trip has more than one stage, or none, did not simply walk
     const pugi::xml_node route = element.child(work.walks ? "walk" : "route");
     if (!route || (work.walks && route.next_sibling("walk"))) continue;
-    Trip trip{0, 0, words(route.attribute("edges").value()), 0, 0};
+    RoutedTrip trip;
+    trip.edges = words(route.attribute("edges").value());
     const bool known =
         std::all_of(trip.edges.begin(), trip.edges.end(), [&](const std::string& name) {
           const auto edge = road.edge_by_name.find(name);
@@ -406,7 +426,7 @@ void take_routes(const RoadNetwork& road, const std::filesystem::path& file,
     if (turns_back(road, trip.edges)) continue;
     if (!work.walks && !turns_suit(road, trip.edges, work.type->length)) continue;
     measure(road, work, trip);
-    work.routed.push_back(std::move(trip));
+    work.pool.trips.push_back(std::move(trip));
   }
 }
 
@@ -486,7 +506,7 @@ std::vector<TypeWork> type_works(const RoadNetwork& road, const AgentTypeTable& 
 std::vector<Trip> draw_type(const TypeWork& work, std::uint64_t seed, std::uint64_t stream,
                             double min_distance, long count) {
   std::vector<Trip> trips;
-  const bool refused = work.report.trips_drawn > 0 && work.routed.empty();
+  const bool refused = work.report.trips_drawn > 0 && work.pool.trips.empty();
   for (double distance = min_distance; distance > 5.0; distance /= 2)
     for (const bool within_edge : {refused, true}) {
       TripDraw draw(work, seed, stream, distance, within_edge);
@@ -504,7 +524,7 @@ void draw_trips(const DemandRequest& request, std::vector<TypeWork>& works, int 
     TypeWork& work = works[i];
     const long wanted = std::max(
         kPoolLeast, std::lround(static_cast<double>(kPoolTotal) * work.report.share / total));
-    const long missing = wanted - static_cast<long>(work.routed.size());
+    const long missing = wanted - static_cast<long>(work.pool.trips.size());
     work.drawn = draw_type(work, request.seed, static_cast<std::uint64_t>(round) * 100 + i,
                            request.min_distance, std::max(missing, 0L));
     work.report.trips_drawn += static_cast<long>(work.drawn.size());
@@ -522,7 +542,7 @@ struct Departure {
 
 /// The edge on which a traveller is after a share of its trip's duration, among those long enough
 /// to appear on.
-std::size_t edge_on_the_way(const RoadNetwork& road, const TypeWork& work, const Trip& trip,
+std::size_t edge_on_the_way(const RoadNetwork& road, const TypeWork& work, const RoutedTrip& trip,
                             double share) {
   double seconds = share * trip.duration, left = trip.length;
   std::size_t best = 0;
@@ -537,35 +557,58 @@ std::size_t edge_on_the_way(const RoadNetwork& road, const TypeWork& work, const
   return best;
 }
 
-void measure_mean(const DemandRequest& request, TypeWork& work) {
-  // those who keep their own pace lose little to others
-  const double slowness =
-      has_own_pace(*work.type) ? 1 + (request.slowness - 1) / 3 : request.slowness;
-  for (const Trip& trip : work.routed) {
-    work.report.mean_length += trip.length / static_cast<double>(work.routed.size());
-    work.report.mean_duration += trip.duration * slowness / static_cast<double>(work.routed.size());
+/// What a vehicle takes of a lane's end, in cars.
+double car_units(const AgentType& type) {
+  if (has_own_pace(type)) return 0.4;
+  if (type.sumo_class == "motorcycle") return 0.5;
+  return type.length > 7.0 ? 2.0 : 1.0;
+}
+
+/// How many of each type are to be alive, and how often each of its trips is driven.
+BusiestLane weigh(const RoadNetwork& road, const DemandRequest& request,
+                  std::vector<TypeWork>& works) {
+  double total_share = 0;
+  for (const TypeWork& work : works) total_share += work.report.share;
+  std::vector<TripPool> pools;
+  for (TypeWork& work : works) {
+    work.report.share /= total_share;
+    work.pool.agents = static_cast<double>(request.agents) * work.report.share;
+    // those who keep their own pace lose little to others
+    work.pool.slowness =
+        has_own_pace(*work.type) ? 1 + (request.slowness - 1) / 3 : request.slowness;
+    work.pool.car_units = car_units(*work.type);
+    pools.push_back(std::move(work.pool));
   }
+  const BusiestLane busiest = weigh_trips(road, pools);
+  for (std::size_t i = 0; i < works.size(); ++i) {
+    TypeWork& work = works[i];
+    work.pool = std::move(pools[i]);
+    work.report.mean_duration = mean_duration(work.pool);
+    double total = 0;
+    for (const RoutedTrip& trip : work.pool.trips) total += trip.weight;
+    for (const RoutedTrip& trip : work.pool.trips)
+      work.report.mean_length += trip.length * trip.weight / total;
+  }
+  return busiest;
 }
 
 std::vector<Departure> schedule(const RoadNetwork& road, const DemandRequest& request,
                                 std::vector<TypeWork>& works, DemandReport& report) {
-  double total_share = 0;
-  for (const TypeWork& work : works) total_share += work.report.share;
   std::vector<Departure> departures;
   double owed = 0;  // carries the fraction of an agent from type to type, so that the sum is exact
   for (std::size_t i = 0; i < works.size(); ++i) {
     TypeWork& work = works[i];
     Draws draws(request.seed, 1000 + i);
-    work.report.share /= total_share;
-    const double alive = static_cast<double>(request.agents) * work.report.share;
-    owed += alive;
+    owed += work.pool.agents;
     const long initial = std::lround(std::floor(owed + 1e-9));
     owed -= static_cast<double>(initial);
-    measure_mean(request, work);
     // a running city holds long trips more often than short ones: by duration, uniformly along it
-    std::vector<double> by_duration;
-    for (const Trip& trip : work.routed)
-      by_duration.push_back((by_duration.empty() ? 0.0 : by_duration.back()) + trip.duration);
+    std::vector<double> by_weight, by_duration;
+    double weights = 0, durations = 0;
+    for (const RoutedTrip& trip : work.pool.trips) {
+      by_weight.push_back(weights += trip.weight);
+      by_duration.push_back(durations += trip.weight * trip.duration);
+    }
     for (long k = 0; k < initial; ++k) {
       Departure departure{draws.uniform(0, request.warm_up),
                           i,
@@ -573,14 +616,15 @@ std::vector<Departure> schedule(const RoadNetwork& road, const DemandRequest& re
                           0,
                           true,
                           draws.uniform()};
-      departure.first = edge_on_the_way(road, work, work.routed[departure.trip], draws.uniform());
+      departure.first =
+          edge_on_the_way(road, work, work.pool.trips[departure.trip], draws.uniform());
       departures.push_back(departure);
     }
     report.initial += initial;
-    const double interval = work.report.mean_duration / alive;
+    const double interval = work.report.mean_duration / work.pool.agents;
     double time = interval * draws.uniform();
     for (std::size_t k = 0; time < request.duration; ++k) {
-      departures.push_back({time, i, draws.index(work.routed.size()), 0, false, draws.uniform()});
+      departures.push_back({time, i, draws.weighted(by_weight), 0, false, draws.uniform()});
       time += interval * draws.uniform(0.5, 1.5);
     }
   }
@@ -591,7 +635,7 @@ std::vector<Departure> schedule(const RoadNetwork& road, const DemandRequest& re
 
 void append_departure(pugi::xml_node root, const RoadNetwork& road, const TypeWork& work,
                       const Departure& departure, const std::string& id) {
-  const Trip& trip = work.routed[departure.trip];
+  const RoutedTrip& trip = work.pool.trips[departure.trip];
   const std::span<const std::string> edges = std::span(trip.edges).subspan(departure.first);
   std::string names;
   for (const std::string& edge : edges) names += (names.empty() ? "" : " ") + edge;
@@ -657,16 +701,19 @@ DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& type
     }
   }
   for (TypeWork& work : works) {
-    work.report.trips_routable = static_cast<long>(work.routed.size());
-    if (!work.routed.empty()) continue;
+    work.report.trips_routable = static_cast<long>(work.pool.trips.size());
+    if (!work.pool.trips.empty()) continue;
     work.report.problem = "no trip of it can be routed: its edges do not join";
     report.types.push_back(work.report);
   }
-  std::erase_if(works, [](const TypeWork& work) { return work.routed.empty(); });
+  std::erase_if(works, [](const TypeWork& work) { return work.pool.trips.empty(); });
   if (works.empty())
     throw Error(request.network.string(),
                 "nothing can travel on this network: no class has two joined edges");
 
+  const BusiestLane busiest = weigh(road, request, works);
+  if (busiest.lane != kNoLane) report.busiest_lane = road.lane(busiest.lane).name;
+  report.busiest_load = busiest.load;
   const std::vector<Departure> departures = schedule(road, request, works, report);
   write_routes(road, request, works, departures);
   report.departures = static_cast<long>(departures.size());

@@ -50,7 +50,9 @@ struct DemandByType {
 
 struct DemandReport {
   std::vector<DemandByType> types;
-  double on_foot = 0;  ///< share of people on foot among the agents alive
+  double on_foot = 0;        ///< share of people on foot among the agents alive
+  std::string busiest_lane;  ///< the one asked for most of what it carries; empty: none is
+  double busiest_load = 0;   ///< what it is asked for, by what it carries
   long departures = 0;
   long initial = 0;      ///< of these, in the warm-up, started in the middle of their trips
   bool stopped = false;  ///< should_stop ended it; nothing was written
@@ -62,9 +64,11 @@ struct DemandReport {
 /// wave that ends all at once), then each type at agents * share / mean duration (Little's law).
 /// Trips run between the edges of the network's rim where it has one, are drawn by edge length, are
 /// at least min_distance long (less where no such trip exists), and stay on one edge only where
-/// that stands alone or a type has no other trips. Deterministic in the seed. A type that no edge
-/// lets travel is left out and reported, its share going to the others. Throws Error where nothing
-/// at all can travel, where the router is missing or fails, or where writing fails.
+/// that stands alone or a type has no other trips. How often each is driven weigh_trips() decides,
+/// so that no lane is asked for more than it carries, where it can. Deterministic in the seed. A
+/// type that no edge lets travel is left out and reported, its share going to the others. Throws
+/// Error where nothing at all can travel, where the router is missing or fails, or where writing
+/// fails.
 DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& types,
                              const DemandRequest& request);
 

@@ -107,6 +107,7 @@ TEST_F(ImportTest, MakesAWholeScenario) {
   const auto report = nlohmann::json::parse(content(out() / "import.json"));
   EXPECT_EQ(report["built"]["signals"], 1);
   EXPECT_EQ(report["demand"]["agents"], 30);
+  EXPECT_GT(report["demand"]["busiest_lane"]["load"], 0.0);
   EXPECT_EQ(simulate("120").exit_code, 0);
   // no path of this machine in what a user may pass on
   for (const std::string& name : names)

@@ -112,6 +112,27 @@ TEST_F(TurningRoomTest, ABusThatHasLetOthersPastForLongGoesOnForAWhile) {
   EXPECT_GT(waited, 40.0);
 }
 
+// a queue that crept past over its corner held buses for minutes
+TEST_F(TurningRoomTest, WhoCreepsUpToThePlaceLetsABusPastThatHasStoodForLong) {
+  const std::size_t bus = add_bus();
+  here_.move(bus, here_.path(bus).links.front().stop_line - 6.0 - 0.7);
+  here_.set_speed(bus, 0.0);
+  add_waiting(0.6, 0.0);
+  const std::size_t next = add_waiting(30.0, 2.0);
+  const SweptWay* way = shared_way(next, bus, true);
+  ASSERT_NE(way, nullptr);
+  const PathLink& link = here_.path(next).links.front();
+  here_.move(next, link.stop_line + way->begin - 2.0 - 2.25);
+  const auto is_held = [&](double stood) {
+    here_.scene.standing_time[bus] = stood;
+    here_.update(2);
+    const Traveller traveller{next, here_.scene.path_along[next] + 2.25, 4.5, 2.0};
+    return leave_turning_room(here_.view(), traveller, link).must_stop;
+  };
+  EXPECT_FALSE(is_held(5.0));
+  EXPECT_TRUE(is_held(12.0));
+}
+
 // each reckoned to be there first: the bus with who drives, the car with its own 20 cm, and they
 // stood nose to nose for minutes
 TEST_F(TurningRoomTest, WhoStandsBeforeThePlaceLetsABusPastThatDrives) {

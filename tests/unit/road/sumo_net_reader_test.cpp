@@ -138,7 +138,11 @@ TEST_F(SumoNetReader, NumbersLinksAsSumoDoes) {
   EXPECT_EQ(walk.to, net.lane_by_name.at(":C_c0_0"));
   EXPECT_EQ(walk.junction_link, 1);
   EXPECT_EQ(walk.signal_link, 1);
-  EXPECT_EQ(net.signals.at(index_of(walk.signal)).size, 2u);
+  const Signal& signal = net.signals.at(index_of(walk.signal));
+  EXPECT_EQ(signal.size, 2u);
+  ASSERT_EQ(signal.phases.size(), 1u);
+  EXPECT_EQ(signal.phases[0].duration, 30.0);
+  EXPECT_EQ(signal.phases[0].state, "Gr");
   // the sidewalk's link onto the walking area has no right of way
   EXPECT_EQ(net.connection(net.lane(net.lane_by_name.at("in_0")).outgoing.at(0)).junction_link, -1);
 }
