@@ -9,12 +9,12 @@
 #include "app/command.h"
 #include "base/error.h"
 #include "base/staged_folder.h"
+#include "demand/demand.h"
 #include "io/output_file.h"
 #include "io/scenario_files.h"
 #include "osm/build_network.h"
 #include "osm/import_report.h"
 #include "scene/agent_type.h"
-#include "study/demand.h"
 
 namespace sumogamma {
 namespace {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "demand/demand.h"
 #include "scene/agent_type.h"
-#include "study/demand.h"
 
 namespace sumogamma {
 

@@ -35,7 +35,7 @@ RoadNetwork row_of_signals(const std::vector<double>& lengths) {
       road.lanes.back().outgoing.push_back(id);
       lane.incoming.push_back(id);
       road.connections.push_back(link);
-      road.signals.push_back({"s" + std::to_string(i - 1), 1});
+      road.signals.push_back({"s" + std::to_string(i - 1), 1, {}});
     }
     road.lanes.push_back(lane);
   }

@@ -1,10 +1,10 @@
-#include "study/trip_weights.h"
+#include "demand/trip_weights.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "study/lane_load.h"
+#include "demand/lane_load.h"
 
 namespace sumogamma {
 namespace {

@@ -1,4 +1,4 @@
-#include "study/lane_load.h"
+#include "demand/lane_load.h"
 
 #include <gtest/gtest.h>
 

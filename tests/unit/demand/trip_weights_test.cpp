@@ -1,4 +1,4 @@
-#include "study/trip_weights.h"
+#include "demand/trip_weights.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,232 @@
+#include "demand/demand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <pugixml.hpp>
+#include <span>
+
+#include "base/error.h"
+#include "demand/draws.h"
+#include "demand/trip_draw.h"
+#include "demand/trip_routing.h"
+#include "demand/trip_weights.h"
+#include "demand/vehicle_type_xml.h"
+
+namespace sumogamma {
+namespace {
+
+std::vector<TypeDemand> type_demands(const RoadNetwork& road, const AgentTypeTable& types,
+                                     const DemandRequest& request, DemandReport& report) {
+  std::vector<TypeDemand> demands;
+  for (const DemandShare& share : request.mix) {
+    if (!(share.share > 0)) continue;
+    TypeDemand demand;
+    demand.type = &type_of(types, find_agent_type(types, share.type));
+    demand.walks = demand.type->sumo_class == "pedestrian";
+    demand.report.type = share.type;
+    demand.report.share = share.share;
+    demand.graph = class_graph(road, vehicle_class_from_name(demand.type->sumo_class));
+    if (demand.graph.edges.empty()) {
+      demand.report.problem = "no edge of the network lets it travel";
+      report.types.push_back(demand.report);
+      continue;
+    }
+    demands.push_back(std::move(demand));
+  }
+  return demands;
+}
+
+struct Departure {
+  double time = 0;
+  std::size_t demand = 0;  ///< row of the type
+  std::size_t trip = 0;    ///< row of its routed trip
+  std::size_t first = 0;   ///< edge of the route that it starts on
+  bool on_the_way = false;
+  double share_of_edge = 0;  ///< where on the first and last edge a person starts and ends
+};
+
+/// The edge on which a traveller is after a share of its trip's duration, among those long enough
+/// to appear on.
+std::size_t edge_on_the_way(const RoadNetwork& road, const TypeDemand& demand,
+                            const RoutedTrip& trip, double share) {
+  double seconds = share * trip.duration, left = trip.length;
+  std::size_t best = 0;
+  for (std::size_t i = 0; i + 1 < trip.edges.size(); ++i) {
+    const std::size_t edge = index_of(road.edge_by_name.at(trip.edges[i]));
+    if (left < 60.0 && i > 0) break;  // it should stay for a while
+    if (demand.graph.length[edge] >= demand.type->length + 8.0 || demand.walks) best = i;
+    seconds -= edge_duration(demand, edge);
+    left -= demand.graph.length[edge];
+    if (seconds < 0) break;
+  }
+  return best;
+}
+
+/// What a vehicle takes of a lane's end, in cars.
+double car_units(const AgentType& type) {
+  if (has_own_pace(type)) return 0.4;
+  if (type.sumo_class == "motorcycle") return 0.5;
+  return type.length > 7.0 ? 2.0 : 1.0;
+}
+
+/// How many of each type are to be alive, and how often each of its trips is driven.
+BusiestLane weigh(const RoadNetwork& road, const DemandRequest& request,
+                  std::vector<TypeDemand>& demands) {
+  double total_share = 0;
+  for (const TypeDemand& demand : demands) total_share += demand.report.share;
+  std::vector<TripPool> pools;
+  for (TypeDemand& demand : demands) {
+    demand.report.share /= total_share;
+    demand.pool.agents = static_cast<double>(request.agents) * demand.report.share;
+    // those who keep their own pace lose little to others
+    demand.pool.slowness =
+        has_own_pace(*demand.type) ? 1 + (request.slowness - 1) / 3 : request.slowness;
+    demand.pool.car_units = car_units(*demand.type);
+    pools.push_back(std::move(demand.pool));
+  }
+  const BusiestLane busiest = weigh_trips(road, pools);
+  for (std::size_t i = 0; i < demands.size(); ++i) {
+    TypeDemand& demand = demands[i];
+    demand.pool = std::move(pools[i]);
+    demand.report.mean_duration = mean_duration(demand.pool);
+    double total = 0;
+    for (const RoutedTrip& trip : demand.pool.trips) total += trip.weight;
+    for (const RoutedTrip& trip : demand.pool.trips)
+      demand.report.mean_length += trip.length * trip.weight / total;
+  }
+  return busiest;
+}
+
+std::vector<Departure> schedule(const RoadNetwork& road, const DemandRequest& request,
+                                std::vector<TypeDemand>& demands, DemandReport& report) {
+  std::vector<Departure> departures;
+  double owed = 0;  // carries the fraction of an agent from type to type, so that the sum is exact
+  for (std::size_t i = 0; i < demands.size(); ++i) {
+    TypeDemand& demand = demands[i];
+    DemandDraws draws(request.seed, 1000 + i);
+    owed += demand.pool.agents;
+    const long initial = std::lround(std::floor(owed + 1e-9));
+    owed -= static_cast<double>(initial);
+    // a running city holds long trips more often than short ones: by duration, uniformly along it
+    std::vector<double> by_weight, by_duration;
+    double weights = 0, durations = 0;
+    for (const RoutedTrip& trip : demand.pool.trips) {
+      by_weight.push_back(weights += trip.weight);
+      by_duration.push_back(durations += trip.weight * trip.duration);
+    }
+    for (long k = 0; k < initial; ++k) {
+      Departure departure{draws.uniform(0, request.warm_up),
+                          i,
+                          draws.weighted(by_duration),
+                          0,
+                          true,
+                          draws.uniform()};
+      departure.first =
+          edge_on_the_way(road, demand, demand.pool.trips[departure.trip], draws.uniform());
+      departures.push_back(departure);
+    }
+    report.initial += initial;
+    const double interval = demand.report.mean_duration / demand.pool.agents;
+    double time = interval * draws.uniform();
+    for (std::size_t k = 0; time < request.duration; ++k) {
+      departures.push_back({time, i, draws.weighted(by_weight), 0, false, draws.uniform()});
+      time += interval * draws.uniform(0.5, 1.5);
+    }
+  }
+  std::stable_sort(departures.begin(), departures.end(),
+                   [](const Departure& a, const Departure& b) { return a.time < b.time; });
+  return departures;
+}
+
+void append_departure(pugi::xml_node root, const RoadNetwork& road, const TypeDemand& demand,
+                      const Departure& departure, const std::string& id) {
+  const RoutedTrip& trip = demand.pool.trips[departure.trip];
+  const std::span<const std::string> edges = std::span(trip.edges).subspan(departure.first);
+  std::string names;
+  for (const std::string& edge : edges) names += (names.empty() ? "" : " ") + edge;
+  pugi::xml_node element = root.append_child(demand.walks ? "person" : "vehicle");
+  auto set = [](pugi::xml_node node, const char* key, const std::string& value) {
+    node.append_attribute(key) = value.c_str();
+  };
+  set(element, "id", id);
+  set(element, "type", demand.type->name);
+  set(element, "depart", fixed(departure.time));
+  if (demand.walks) {
+    const auto at = [&](const std::string& edge) {
+      return fixed(departure.share_of_edge *
+                   demand.graph.length[index_of(road.edge_by_name.at(edge))]);
+    };
+    set(element, "departPos", at(edges.front()));
+    pugi::xml_node walk = element.append_child("walk");
+    set(walk, "edges", names);
+    set(walk, "arrivalPos", at(edges.back()));
+    return;
+  }
+  set(element, "departLane", "best");
+  set(element, "departPos", departure.on_the_way ? "random_free" : "base");
+  set(element, "departSpeed", "max");
+  set(element.append_child("route"), "edges", names);
+}
+
+void write_routes(const RoadNetwork& road, const DemandRequest& request,
+                  std::vector<TypeDemand>& demands, const std::vector<Departure>& departures) {
+  pugi::xml_document document;
+  pugi::xml_node root = document.append_child("routes");
+  for (const TypeDemand& demand : demands) append_vehicle_type(root, *demand.type);
+  for (const Departure& departure : departures) {
+    TypeDemand& demand = demands[departure.demand];
+    append_departure(root, road, demand, departure,
+                     demand.type->name + "." + std::to_string(demand.report.departures));
+    ++demand.report.departures;
+  }
+  if (!document.save_file(request.routes.c_str(), "  "))
+    throw Error(request.routes.string(), "cannot be written: is the disk full?");
+}
+
+}  // namespace
+
+std::vector<DemandShare> default_demand_mix() {
+  return {{"car", 0.40},        {"van", 0.06},     {"bus", 0.04},       {"truck", 0.05},
+          {"motorcycle", 0.10}, {"bicycle", 0.12}, {"pedestrian", 0.23}};
+}
+
+DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& types,
+                             const DemandRequest& request) {
+  constexpr int kRounds = 3;  // what the router refuses is drawn again
+  DemandReport report;
+  std::vector<TypeDemand> demands = type_demands(road, types, request, report);
+  for (int round = 0; round < kRounds; ++round) {
+    draw_trips(demands, request.seed, request.min_distance, round);
+    const bool any = std::any_of(demands.begin(), demands.end(),
+                                 [](const TypeDemand& w) { return !w.drawn.empty(); });
+    if (!any) break;
+    if (!route_trips(road, request, demands, report)) {
+      report.stopped = true;
+      return report;
+    }
+  }
+  for (TypeDemand& demand : demands) {
+    demand.report.trips_routable = static_cast<long>(demand.pool.trips.size());
+    if (!demand.pool.trips.empty()) continue;
+    demand.report.problem = "no trip of it can be routed: its edges do not join";
+    report.types.push_back(demand.report);
+  }
+  std::erase_if(demands, [](const TypeDemand& demand) { return demand.pool.trips.empty(); });
+  if (demands.empty())
+    throw Error(request.network.string(),
+                "nothing can travel on this network: no class has two joined edges");
+
+  const BusiestLane busiest = weigh(road, request, demands);
+  if (busiest.lane != kNoLane) report.busiest_lane = road.lane(busiest.lane).name;
+  report.busiest_load = busiest.load;
+  const std::vector<Departure> departures = schedule(road, request, demands, report);
+  write_routes(road, request, demands, departures);
+  report.departures = static_cast<long>(departures.size());
+  for (const TypeDemand& demand : demands) {
+    report.types.push_back(demand.report);
+    if (demand.walks) report.on_foot += demand.report.share;
+  }
+  return report;
+}
+
+}  // namespace sumogamma
