@@ -89,10 +89,7 @@ BusiestLane weigh(const RoadNetwork& road, const DemandRequest& request,
     TypeDemand& demand = demands[i];
     demand.pool = std::move(pools[i]);
     demand.report.mean_duration = mean_duration(demand.pool);
-    double total = 0;
-    for (const RoutedTrip& trip : demand.pool.trips) total += trip.weight;
-    for (const RoutedTrip& trip : demand.pool.trips)
-      demand.report.mean_length += trip.length * trip.weight / total;
+    demand.report.mean_length = mean_length(demand.pool);
   }
   return busiest;
 }
@@ -198,7 +195,7 @@ DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& type
   for (int round = 0; round < kRounds; ++round) {
     draw_trips(demands, request.seed, request.min_distance, round);
     const bool any = std::any_of(demands.begin(), demands.end(),
-                                 [](const TypeDemand& w) { return !w.drawn.empty(); });
+                                 [](const TypeDemand& demand) { return !demand.drawn.empty(); });
     if (!any) break;
     if (!route_trips(road, request, demands, report)) {
       report.stopped = true;

@@ -31,8 +31,7 @@ std::vector<double> flows(const RoadNetwork& road, const std::vector<TripPool>& 
                           const std::vector<double>& load) {
   std::vector<double> flow(road.connections.size());
   for (const TripPool& pool : pools) {
-    double total = 0;
-    for (const RoutedTrip& trip : pool.trips) total += trip.weight;
+    const double total = total_weight(pool);
     const double rate = pool.agents * pool.car_units / mean_duration(pool);
     for (const RoutedTrip& trip : pool.trips)
       for (const std::vector<ConnectionId>& step : trip.steps) {
@@ -76,13 +75,23 @@ void restore_lengths(std::vector<RoutedTrip>& trips) {
 
 }  // namespace
 
+double total_weight(const TripPool& pool) {
+  double total = 0;
+  for (const RoutedTrip& trip : pool.trips) total += trip.weight;
+  return total;
+}
+
+double mean_length(const TripPool& pool) {
+  const double total = total_weight(pool);
+  double mean = 0;
+  for (const RoutedTrip& trip : pool.trips) mean += trip.length * trip.weight / total;
+  return mean;
+}
+
 double mean_duration(const TripPool& pool) {
-  double total = 0, seconds = 0;
-  for (const RoutedTrip& trip : pool.trips) {
-    total += trip.weight;
-    seconds += trip.weight * trip.duration * pool.slowness;
-  }
-  return seconds / total;
+  double seconds = 0;
+  for (const RoutedTrip& trip : pool.trips) seconds += trip.weight * trip.duration * pool.slowness;
+  return seconds / total_weight(pool);
 }
 
 BusiestLane weigh_trips(const RoadNetwork& road, std::vector<TripPool>& pools) {

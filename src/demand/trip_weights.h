@@ -24,7 +24,9 @@ struct TripPool {
   std::vector<RoutedTrip> trips;
 };
 
-/// Mean over a pool by weight.
+double total_weight(const TripPool& pool);
+/// Means over a pool by weight [m], [s].
+double mean_length(const TripPool& pool);
 double mean_duration(const TripPool& pool);
 
 /// The lane that is asked for most of what it carries.
