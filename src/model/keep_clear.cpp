@@ -137,10 +137,11 @@ std::int64_t blocks_exit(const RoadView& view, DrivingAhead& ahead, const Course
 }
 
 /// Keep clear of junctions that follow each other closely: who would have to wait before the next
-/// one with its rear still on this one waits here already, for some time, and for a light before
-/// which there is no room at all as long as it takes, unless one here may end meanwhile.
+/// one with its rear still on this one, or has no room behind that one, waits here already, for
+/// some time, and for a light before which there is no room at all as long as it takes, unless one
+/// here may end meanwhile.
 LinkDecision decide_beyond(const RoadView& view, const Course& course, const Traveller& traveller,
-                           const PathLink& link) {
+                           const PathLink& link, DrivingAhead& ahead) {
   constexpr double kPatience = 20.0;  // [s]
   constexpr double kFarthest = 20.0;  // [m]
   constexpr double kNoRoom = 2.0;     // between the two [m]
@@ -162,6 +163,10 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
     if (next.halt - kStopMargin - traveller.length > room_from || !(near || no_room)) break;
     const LinkDecision decision = decide_link(view, traveller, next);
     if (decision.must_stop && (near || decision.reason == LimitReason::Signal)) return decision;
+    const std::int64_t blocker = near && has_crossing_traffic(view.model, next.connection)
+                                     ? blocks_exit(view, ahead, course, next)
+                                     : -1;
+    if (blocker >= 0) return {true, 0.0, LimitReason::BlockedJunction, blocker};
     room_from = clear_from(view, course, next);
   }
   return {};
@@ -180,7 +185,7 @@ LinkDecision keep_clear(const RoadView& view, const Course& course, const Travel
   const std::int64_t blocker = blocks_exit(view, ahead, course, link);
   const LinkDecision decision = blocker >= 0
                                     ? LinkDecision{true, 0.0, LimitReason::BlockedJunction, blocker}
-                                    : decide_beyond(view, course, traveller, link);
+                                    : decide_beyond(view, course, traveller, link, ahead);
   if (!decision.must_stop) return {};
   const double line = link.halt > front              ? link.halt
                       : link.stop_line > front - 0.3 ? link.stop_line
@@ -196,7 +201,7 @@ LinkDecision let_one_in(const RoadView& view, const Course& course, const Travel
   const double waited = view.scene.waiting_time[course.row];
   if (traveller.front > link.stop_line + 0.3 || traveller.front < link.halt - kAtLine ||
       waited < kStands || waited > kPatience || connection.signal != kNoSignal ||
-      view.model.road.lane(connection.to).length < kShort)
+      next_queue_head(view, course, link) < link.end + kShort)
     return {};
   const Waiting& own = view.approaches.waiting(course.row);
   const double came = own.halted_for == link.connection ? own.halted_at : view.scene.time;

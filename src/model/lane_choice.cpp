@@ -135,15 +135,16 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   const LaneBeside beside{shift_to(model, from, to), change->from, change->to};
   const double braking = speed < 2.0 ? kPressed : kSafeBraking;
   const bool due = change->from - around.along < 2.0 + 1.2 * speed;
+  const bool let_in = speed < kCreeps && is_let_in(scene, around, row, beside);
   if (!is_contested(scene, around, row, change->lane, beside) &&
       is_gap(scene, around, row, beside, braking)) {
     // planned over the way that it takes at full speed: in a queue, that long over two lanes
-    if (due && change->to - change->from > kTooLong * way_of_change(speed))
+    if ((due || let_in) && change->to - change->from > kTooLong * way_of_change(speed))
       intent.wanted = change->lane;
     return;
   }
   // who is let in doesn't drive on past the gap
-  if (speed < kCreeps && is_let_in(scene, around, row, beside)) {
+  if (let_in) {
     intent.gate = around.along;
     return;
   }

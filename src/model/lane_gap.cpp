@@ -52,13 +52,12 @@ bool is_gap(const Scene& scene, const Surroundings& around, std::size_t row, con
     if (std::abs(aside_of(user, lane)) > half_width + around.half_width + kSides) continue;
     // who lets us in keeps no headway for it, but brakes no harder than is courteous
     const bool lets_us_in = user.front < front && waits_for_row(scene, user, row);
-    if (user.rear < front && user.front > rear) {
-      // who stands beside our tail and holds, or has stepped back to let others go first, leaves
-      // the way for our nose
-      const bool holds = lets_us_in || scene.gives_way_left[user.row] > 0.0;
-      if (holds && leaves_room_for_nose(around, user) && user.speed < kHolds) continue;
-      return false;
-    }
+    // who stands beside our tail or behind it and holds, or has stepped back to let others go
+    // first, leaves the way for our nose
+    const bool holds = lets_us_in || scene.gives_way_left[user.row] > 0.0;
+    if (user.rear < front && holds && leaves_room_for_nose(around, user) && user.speed < kHolds)
+      continue;
+    if (user.rear < front && user.front > rear) return false;
     const bool ahead = user.rear >= front;
     const double gap = ahead ? user.rear - front : rear - user.front;
     const Vec2 tangent = around.tangent;
@@ -91,8 +90,10 @@ bool is_contested(const Scene& scene, const Surroundings& around, std::size_t ro
 bool is_let_in(const Scene& scene, const Surroundings& around, std::size_t row,
                const LaneBeside& lane) {
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+    const double aside = std::abs(aside_of(user, lane));
+    // who follows in our own lane, be it half in the other, waits for us but leaves no gap there
     return leaves_room_for_nose(around, user) && waits_for_row(scene, user, row) &&
-           std::abs(aside_of(user, lane)) < user.half_width + around.half_width;
+           aside < user.half_width + around.half_width && aside < std::abs(user.offset);
   });
 }
 

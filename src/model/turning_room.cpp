@@ -35,12 +35,13 @@ bool comes_first(const Occupation& theirs, const Occupation& ours, bool surely, 
   return surely || theirs.begin < ours.begin || (theirs.begin == ours.begin && smaller_id);
 }
 
-/// Has a long body stood for long before those who come through the room that it needs? A queue
-/// that creeps on is never over.
-bool has_long_wanted(const RoadView& view, std::size_t row) {
+/// Has a long body waited for long for those who come through the room that it needs, before that
+/// place or amid it, held by bodies? A queue that creeps on is never over.
+bool has_long_wanted(const RoadView& view, const Approach& foe, bool there) {
   constexpr double kLong = 10.0;  // [s]
-  return view.scene.standing_time[row] > kLong &&
-         view.approaches.waiting(row).reason == LimitReason::TurningRoom;
+  const Waiting& waiting = view.approaches.waiting(foe.row);
+  if (there && waiting.blocked) return view.scene.waiting_time[foe.row] > kLong;
+  return view.scene.standing_time[foe.row] > kLong && waiting.reason == LimitReason::TurningRoom;
 }
 
 /// See leave_turning_room; of somebody whose trip `ends` at the line, who is gone from there on.
@@ -75,7 +76,7 @@ LinkDecision leave_room(const RoadView& view, const Traveller& traveller, const 
       // it waits before its line, or before the place that is swept; whom bodies hold isn't coming;
       // who waits there with its body off the way can be passed
       const bool there = foe.front > way.foe_begin;
-      const bool is_owed = way.foe_sweeps && foe.stands && has_long_wanted(view, foe.row);
+      const bool is_owed = way.foe_sweeps && foe.stands && has_long_wanted(view, foe, there);
       if (foe.stands && !is_owed &&
           (!there || approaches.waiting(foe.row).blocked ||
            (traveller.length <= kLongBody &&

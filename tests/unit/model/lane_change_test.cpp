@@ -420,6 +420,26 @@ TEST_F(LongWait, WhoIsLetInStaysWhereTheGapIs) {
   }
 }
 
+// it stood before the begin of its change, and by the time that it got there the gap was gone
+TEST(LetIn, BeginsItsChangeThere) {
+  for (const bool holds : {false, true}) {
+    RoadScene here(testing::read_plain_net(both_lanes_lead_on()));
+    const std::size_t bus = here.add("bus", {"CE", "EL"}, 0, 0, 0, -1, "CE_0");
+    const auto& stretches = here.path(bus).stretches;
+    const auto change = std::find_if(stretches.begin(), stretches.end(),
+                                     [](const PathStretch& stretch) { return stretch.changing; });
+    ASSERT_NE(change, stretches.end());
+    ASSERT_GT(change->to - change->from, 30.0) << "planned for full speed";
+    here.move(bus, change->from - 5.0);
+    const std::size_t car = here.add("car", {"CE", "EL"}, 5, 0, 0, -1, "CE_1");
+    move_to_x(here, car, here.scene.position[bus].x() - 6.0 - 2.0 - 2.25);
+    here.update();
+    here.scene.context[car].foe = holds ? static_cast<std::int64_t>(here.scene.id[bus].value) : -1;
+    let_all_look(here);
+    EXPECT_EQ(here.path(bus).stretch_at(here.scene.path_along[bus] + 1.0).changing, holds);
+  }
+}
+
 /// A road of three lanes, of which the middle one alone leads on.
 PlainNet middle_lane_leads_on() {
   PlainNet net;
@@ -494,6 +514,29 @@ TEST_F(LongWait, IsOverAlsoWhereWhoHoldsHasRolledOnByAHandsBreadth) {
   here_.update();
   here_.scene.context[car].foe = static_cast<std::int64_t>(here_.scene.id[bus_].value);
   EXPECT_FALSE(waits_on());
+}
+
+// a car had halted 20 cm behind the tail to let a truck in: too near for a gap, and neither went
+TEST_F(LongWait, IsOverOnceWhoIsRightBehindTheTailHolds) {
+  const std::size_t car = add_car(12.2, 0.0);
+  here_.update();
+  here_.scene.context[car].foe = -1;
+  EXPECT_TRUE(waits_on()) << "it may drive on";
+  here_.scene.context[car].foe = static_cast<std::int64_t>(here_.scene.id[bus_].value);
+  EXPECT_FALSE(waits_on());
+}
+
+// it stood for two minutes before its gate beside a lane that was free now and again, since the one
+// behind it in its own lane, on its way over, too, waited for it
+TEST_F(LongWait, WhoFollowsInItsOwnLaneLetsNobodyIn) {
+  const std::size_t beside = add_car(4.0, 0.0);
+  const std::size_t follower = here_.add("car", {"CE", "EL"}, 5, 0, 0, -1, "CE_0");
+  here_.scene.position[follower] = here_.scene.position[bus_] + Vec2(-9.75, 1.3);
+  here_.update();
+  here_.scene.context[beside].foe = -1;
+  here_.scene.context[follower].foe = static_cast<std::int64_t>(here_.scene.id[bus_].value);
+  EXPECT_TRUE(waits_on());
+  EXPECT_GT(here_.scene.gate[bus_], here_.scene.path_along[bus_]);
 }
 
 // of two motorcycles abreast that wanted each other's lane one rolled back, and the other stayed

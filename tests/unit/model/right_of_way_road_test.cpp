@@ -590,6 +590,61 @@ TEST(JunctionsThatFollowClosely, AreKeptClearForSomeTimeThoughSomebodyCreeps) {
   }
 }
 
+// A bus waited on the second of two rings of the Magic Roundabout for the queue behind it, its rear
+// in the way of both.
+TEST(JunctionsThatFollowClosely, WhoseRoadBehindTheSecondIsFullWaitsBeforeTheFirst) {
+  RoadScene here(two_junctions(16, "priority"));
+  const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
+  here.move(own, here.path(own).links.at(0).stop_line - 2.25 - 0.6);
+  here.update();
+  EXPECT_GT(here.context(own).allowed_speed, 0.3) << "the road is free";
+  const std::size_t last = here.add("car", {"BE"}, 4, 0);
+  here.scene.standing_time[last] = 5;
+  here.update();
+  EXPECT_EQ(here.context(own).reason, LimitReason::BlockedJunction);
+  EXPECT_EQ(here.context(own).foe, here.scene.id[last].value);
+  EXPECT_LT(here.context(own).allowed_speed, 0.3);
+  here.scene.waiting_time[own] = 25;
+  here.update();
+  EXPECT_GT(here.context(own).allowed_speed, 0.3) << "it has been patient";
+}
+
+// On Meskel Square bicycles waited for three minutes to join a queue: the lane into which it moved
+// on was 3 m long, the same road behind it, though.
+TEST(JunctionsThatFollowClosely, WhoStandsLetsOneInWhereTheRoadGoesOnBehindTheSecond) {
+  for (const bool goes_on : {true, false}) {
+    SCOPED_TRACE(goes_on);
+    const std::string road = goes_on ? "9" : "1", side = goes_on ? "1" : "9";
+    testing::PlainNet plain;
+    plain.nodes =
+        "<node id='W' x='-100' y='0'/><node id='A' x='0' y='0' type='priority'/>"
+        "<node id='B' x='20' y='0' type='priority'/><node id='E' x='150' y='0'/>"
+        "<node id='SA' x='0' y='-100'/><node id='N' x='20' y='100'/>";
+    plain.edges =
+        "<edge id='WA' from='W' to='A' priority='9' speed='13'/>"
+        "<edge id='AB' from='A' to='B' priority='" +
+        road +
+        "' speed='13'/>"
+        "<edge id='BE' from='B' to='E' priority='9' speed='13'/>"
+        "<edge id='SAA' from='SA' to='A' priority='1' speed='13'/>"
+        "<edge id='NB' from='N' to='B' priority='" +
+        side + "' speed='13'/>";
+    RoadScene here(read_plain_net(plain));
+    const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
+    const std::size_t minor = here.add("car", {"SAA", "AB", "BE"}, 0, 0);
+    for (const std::size_t row : {own, minor}) {
+      const PathLink& link = here.path(row).links.front();
+      here.move(row, link.halt - 2.25 - 0.6);
+      here.scene.halted_for[row] = link.connection;
+    }
+    here.scene.time = 100;
+    here.scene.halted_at = {60, 50};
+    here.scene.waiting_time = {3.0, 5.0};
+    here.update(2);
+    EXPECT_EQ(here.context(own).reason == LimitReason::LetsIn, goes_on);
+  }
+}
+
 // Two motorcycles stood for 82 s at a stop sign right behind a line where they had priority: their
 // halt counted for that line.
 TEST(JunctionsThatFollowClosely, AHaltBeforeTheFirstCountsForTheStopSignOfTheSecond) {

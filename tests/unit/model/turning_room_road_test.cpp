@@ -133,6 +133,27 @@ TEST_F(TurningRoomTest, WhoCreepsUpToThePlaceLetsABusPastThatHasStoodForLong) {
   EXPECT_TRUE(is_held(12.0));
 }
 
+// a truck wedged amid its turn shuffled for minutes, since the queue crept on past it
+TEST_F(TurningRoomTest, WhoCreepsUpToThePlaceLetsABusOutThatBodiesHaveHeldForLong) {
+  const std::size_t bus = add_bus();
+  here_.set_speed(bus, 0.0);
+  const std::size_t next = add_waiting(30.0, 2.0);
+  const SweptWay* way = shared_way(next, bus, true);
+  ASSERT_NE(way, nullptr);
+  const PathLink& link = here_.path(next).links.front();
+  here_.move(next, link.stop_line + way->begin - 2.0 - 2.25);
+  here_.move(bus, here_.path(bus).links.front().stop_line + way->foe_begin + 2.0 - 6.0);
+  const auto is_held = [&](double waited, double blocked) {
+    here_.scene.waiting_time[bus] = waited;
+    here_.scene.blocked_time[bus] = blocked;
+    here_.update();
+    const Traveller traveller{next, here_.scene.path_along[next] + 2.25, 4.5, 2.0};
+    return leave_turning_room(here_.view(), traveller, link).must_stop;
+  };
+  EXPECT_FALSE(is_held(5.0, 4.0));
+  EXPECT_TRUE(is_held(15.0, 4.0)) << "it stands still only since its last shuffle";
+}
+
 // each reckoned to be there first: the bus with who drives, the car with its own 20 cm, and they
 // stood nose to nose for minutes
 TEST_F(TurningRoomTest, WhoStandsBeforeThePlaceLetsABusPastThatDrives) {
