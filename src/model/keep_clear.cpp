@@ -96,9 +96,9 @@ double waits_to_join(const RoadView& view, const Course& course, const PathLink&
 }
 
 /// Keep clear: is there room behind a link for the body, should everybody ahead close up and stop?
-/// Into a full road drivers let one in who has waited for long, and count its body as well. Id of
-/// who takes the room, -1 where there is enough. Sorts `ahead`.
-std::int64_t blocks_exit(const RoadView& view, DrivingAhead& ahead, const Course& course,
+/// Into a full road drivers let one in who has waited for long, and count its body as well. Where
+/// not, for whom it waits; where to halt is left open. Sorts `ahead`.
+LinkDecision decide_exit(const RoadView& view, DrivingAhead& ahead, const Course& course,
                          const PathLink& link) {
   constexpr double kBraking = 3.5;   // [m/s^2]
   constexpr double kDrives = 3.0;    // [m/s]
@@ -109,7 +109,7 @@ std::int64_t blocks_exit(const RoadView& view, DrivingAhead& ahead, const Course
   // 60 m looked as if it went on
   see_queue(view.model, view.road, view.scene, view.grid, course.row, end_of_road(course, link),
             ahead);
-  if (ahead.count == 0) return -1;
+  if (ahead.count == 0) return {};
   const auto begin = ahead.vehicles.begin(), end = begin + static_cast<std::ptrdiff_t>(ahead.count);
   std::sort(begin, end, [](const auto& a, const auto& b) {
     return a.rear != b.rear ? a.rear > b.rear : a.id < b.id;
@@ -129,11 +129,12 @@ std::int64_t blocks_exit(const RoadView& view, DrivingAhead& ahead, const Course
     if (vehicle->front < head) rest = std::min(rest, head + kClosedUp);
     rest = std::min(alone, rest - kClosedUp - (vehicle->front - vehicle->rear));
   }
-  if (rest == kNever) return -1;
+  if (rest == kNever) return {};
   const double joining = waits_to_join(view, course, link);
   const double needed = clear_from(view, course, link) + 2.0 * course.half_length +
                         course.type.min_gap + 0.3 + (joining > 0.0 ? joining + kClosedUp : 0.0);
-  return rest < needed ? (end - 1)->id : -1;
+  if (rest >= needed) return {};
+  return {true, 0.0, LimitReason::BlockedJunction, (end - 1)->id};
 }
 
 /// Keep clear of junctions that follow each other closely: who would have to wait before the next
@@ -163,10 +164,10 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
     if (next.halt - kStopMargin - traveller.length > room_from || !(near || no_room)) break;
     const LinkDecision decision = decide_link(view, traveller, next);
     if (decision.must_stop && (near || decision.reason == LimitReason::Signal)) return decision;
-    const std::int64_t blocker = near && has_crossing_traffic(view.model, next.connection)
-                                     ? blocks_exit(view, ahead, course, next)
-                                     : -1;
-    if (blocker >= 0) return {true, 0.0, LimitReason::BlockedJunction, blocker};
+    if (near && has_crossing_traffic(view.model, next.connection)) {
+      const LinkDecision exit = decide_exit(view, ahead, course, next);
+      if (exit.must_stop) return exit;
+    }
     room_from = clear_from(view, course, next);
   }
   return {};
@@ -182,10 +183,8 @@ LinkDecision keep_clear(const RoadView& view, const Course& course, const Travel
       view.scene.keeps_clear[course.row] > kKeepsClear ||
       !has_crossing_traffic(view.model, link.connection))
     return {};
-  const std::int64_t blocker = blocks_exit(view, ahead, course, link);
-  const LinkDecision decision = blocker >= 0
-                                    ? LinkDecision{true, 0.0, LimitReason::BlockedJunction, blocker}
-                                    : decide_beyond(view, course, traveller, link, ahead);
+  LinkDecision decision = decide_exit(view, ahead, course, link);
+  if (!decision.must_stop) decision = decide_beyond(view, course, traveller, link, ahead);
   if (!decision.must_stop) return {};
   const double line = link.halt > front              ? link.halt
                       : link.stop_line > front - 0.3 ? link.stop_line

@@ -20,6 +20,14 @@ using testing::PlainNet;
 using testing::RoadScene;
 using testing::two_lanes;
 
+/// Where a row's path changes lanes for the first time; null where it doesn't.
+const PathStretch* first_change(RoadScene& here, std::size_t row) {
+  const auto& stretches = here.path(row).stretches;
+  const auto change = std::find_if(stretches.begin(), stretches.end(),
+                                   [](const PathStretch& stretch) { return stretch.changing; });
+  return change != stretches.end() ? &*change : nullptr;
+}
+
 // Somebody changes to the left lane, beside a car there that is a metre ahead.
 class ChangingLanes : public ::testing::Test {
  protected:
@@ -137,10 +145,8 @@ TEST(NeededChange, IsAsLongAsItsSpeedAsksFor) {
   ASSERT_GT(planned.to - planned.from, 40.0);
   here.update();
   let_all_look(here);
-  const auto& stretches = here.path(own).stretches;
-  const auto changed = std::find_if(stretches.begin(), stretches.end(),
-                                    [](const PathStretch& stretch) { return stretch.changing; });
-  ASSERT_NE(changed, stretches.end());
+  const PathStretch* changed = first_change(here, own);
+  ASSERT_NE(changed, nullptr);
   EXPECT_LT(changed->from, here.scene.path_along[own] + 1.0) << "it goes over now";
   EXPECT_LT(changed->to - changed->from, 15.0);
 }
@@ -322,10 +328,8 @@ double wait_at_gate(RoadScene& here, std::size_t row) {
     take_path(std::move(*late), along, row, here.road, here.scene);
     break;
   }
-  const auto& stretches = here.path(row).stretches;
-  const auto change = std::find_if(stretches.begin(), stretches.end(),
-                                   [](const PathStretch& stretch) { return stretch.changing; });
-  if (change == stretches.end()) throw std::runtime_error("the row changes no lane");
+  const PathStretch* change = first_change(here, row);
+  if (change == nullptr) throw std::runtime_error("the row changes no lane");
   here.move(row, change->from - 1.0);
   return change->from;
 }
@@ -425,10 +429,8 @@ TEST(LetIn, BeginsItsChangeThere) {
   for (const bool holds : {false, true}) {
     RoadScene here(testing::read_plain_net(both_lanes_lead_on()));
     const std::size_t bus = here.add("bus", {"CE", "EL"}, 0, 0, 0, -1, "CE_0");
-    const auto& stretches = here.path(bus).stretches;
-    const auto change = std::find_if(stretches.begin(), stretches.end(),
-                                     [](const PathStretch& stretch) { return stretch.changing; });
-    ASSERT_NE(change, stretches.end());
+    const PathStretch* change = first_change(here, bus);
+    ASSERT_NE(change, nullptr);
     ASSERT_GT(change->to - change->from, 30.0) << "planned for full speed";
     here.move(bus, change->from - 5.0);
     const std::size_t car = here.add("car", {"CE", "EL"}, 5, 0, 0, -1, "CE_1");
@@ -499,9 +501,8 @@ TEST_F(IntoTheMiddle, WhomItsPathComesUpToOnlyThereIsFollowed) {
   const std::size_t own = add("car", "WM_0");
   here_.set_speed(own, 6.0);
   const std::size_t other = here_.add("car", {"WM", "ME"}, 60, 0, 0, -1, "WM_1");
-  const auto& stretches = here_.path(own).stretches;
-  const auto change = std::find_if(stretches.begin(), stretches.end(),
-                                   [](const PathStretch& stretch) { return stretch.changing; });
+  const PathStretch* change = first_change(here_, own);
+  ASSERT_NE(change, nullptr);
   move_to_x(here_, other, here_.path(own).line.point_at(change->to + 1.0).x());
   EXPECT_FALSE(waits(own));
   move_to_x(here_, other, here_.path(own).line.point_at(change->to - 3.0).x());
