@@ -12,6 +12,15 @@ double half_extent(const Scene& scene, std::size_t row, const Vec2& direction) {
   return extent;
 }
 
+bool is_wide(const Scene& scene, std::size_t row) {
+  double left = 0.0, right = 0.0;
+  for (const Vec2& vertex : scene.footprint[row].outline()) {
+    left = std::max(left, vertex.y());
+    right = std::min(right, vertex.y());
+  }
+  return left - right > kWideBody;
+}
+
 void ApproachTable::rebuild(const Model& model, const RoadState& road, const Scene& scene) {
   for (const Approach& approach : approaches_) ranges_[index_of(approach.connection)] = {};
   ranges_.resize(model.road.connections.size());

@@ -57,6 +57,9 @@ class ApproachTable {
 /// Half the extent of a row's footprint along a unit direction [m].
 double half_extent(const Scene& scene, std::size_t row, const Vec2& direction);
 
+/// Is a row's footprint wider than kWideBody?
+bool is_wide(const Scene& scene, std::size_t row);
+
 /// Does a row wait, over whom it waits for and so on, for itself?
 bool waits_for_itself(const Scene& scene, const ApproachTable& approaches, std::size_t row);
 

@@ -496,25 +496,26 @@ void keep_zones_free(const Model& model, const RoadState& road, const Scene& sce
                      const PathLink& link, LinkDecision& decision) {
   const Path& path = *road.path(scene.path[traveller.row]);
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
+  const bool wide = is_wide(scene, traveller.row);
   for (bool again = true; again;) {
     again = false;
     for (const ConflictZone& zone : model.conflicts[index_of(link.connection)]) {
-      const Piece piece = as_travelled(path, link.stop_line, zone.begin, zone.end);
-      const double begin = link.stop_line + piece.begin, end = link.stop_line + piece.end;
-      const double line = std::max(begin, link.stop_line) - kStopMargin;
-      if (decision.stop_at <= begin || decision.stop_at - traveller.length >= end) continue;
-      if (line >= decision.stop_at || line < traveller.front) continue;
       if (runs_together(model, link.connection, zone.foe)) continue;
-      if (deceleration_to_stop(traveller.speed, line - traveller.front) >
-          type.comfortable_deceleration)
-        continue;
-      const auto foes = approaches.of(zone.foe);
-      if (std::none_of(foes.begin(), foes.end(), [&](const Approach& foe) {
-            return foe.row != traveller.row && comes_soon(zone, foe);
-          }))
-        continue;
-      decision.stop_at = line;
-      again = true;
+      for (const Approach& foe : approaches.of(zone.foe)) {
+        if (foe.row == traveller.row) continue;
+        const auto theirs = zone_for(zone, wide || is_wide(scene, foe.row));
+        if (!theirs || !comes_soon(*theirs, foe)) continue;
+        const Piece piece = as_travelled(path, link.stop_line, theirs->begin, theirs->end);
+        const double begin = link.stop_line + piece.begin, end = link.stop_line + piece.end;
+        const double line = std::max(begin, link.stop_line) - kStopMargin;
+        if (decision.stop_at <= begin || decision.stop_at - traveller.length >= end) continue;
+        if (line >= decision.stop_at || line < traveller.front) continue;
+        if (deceleration_to_stop(traveller.speed, line - traveller.front) >
+            type.comfortable_deceleration)
+          continue;
+        decision.stop_at = line;
+        again = true;
+      }
     }
   }
 }
@@ -546,23 +547,26 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
     decision = {true, stop_at, at_red ? LimitReason::Signal : LimitReason::Yield, -1};
 
   const bool free_green = signal == 'G';
+  const bool wide = is_wide(scene, traveller.row);
   const Judge judge{view, traveller, link, at_red};
   for (const ConflictZone& zone_of_table : model.conflicts[index_of(link.connection)]) {
-    ConflictZone zone = zone_of_table;
-    const Piece ours_to_cover = as_travelled(own_path, link.stop_line, zone.begin, zone.end);
-    zone.begin = ours_to_cover.begin;
-    zone.end = ours_to_cover.end;
-    if (free_green) zone.yields = false;
-    // at red everybody else comes first
-    if (at_red) {
-      zone.yields = true;
-      zone.unruled = false;
-    }
-    if (runs_together(model, link.connection, zone.foe)) continue;
-    // already in it: go on, avoidance does the rest
-    if (has_entered(-to_line, zone.begin)) continue;
-    const bool at_edge = to_line + zone.begin < kEdge;
-    for (const Approach& foe : approaches.of(zone.foe)) {
+    if (runs_together(model, link.connection, zone_of_table.foe)) continue;
+    for (const Approach& foe : approaches.of(zone_of_table.foe)) {
+      const auto for_both = zone_for(zone_of_table, wide || is_wide(scene, foe.row));
+      if (!for_both) continue;
+      ConflictZone zone = *for_both;
+      const Piece ours_to_cover = as_travelled(own_path, link.stop_line, zone.begin, zone.end);
+      zone.begin = ours_to_cover.begin;
+      zone.end = ours_to_cover.end;
+      if (free_green) zone.yields = false;
+      // at red everybody else comes first
+      if (at_red) {
+        zone.yields = true;
+        zone.unruled = false;
+      }
+      // already in it: go on, avoidance does the rest
+      if (has_entered(-to_line, zone.begin)) continue;
+      const bool at_edge = to_line + zone.begin < kEdge;
       if (at_edge && foe.stands) continue;
       const Verdict verdict = judge.of(zone, foe);
       // who comes behind a vehicle that lets us go can't get past it
@@ -581,7 +585,7 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
       if (deceleration_to_stop(traveller.speed, last - traveller.front) > hardest &&
           traveller.speed > 1.0) {
         // too late to halt there, but not for driving on towards who is in the way already
-        if (own_path.walking || !has_entered(foe.front, zone_of_table.foe_begin)) continue;
+        if (own_path.walking || !has_entered(foe.front, for_both->foe_begin)) continue;
         line = traveller.front + traveller.speed * traveller.speed / (2.0 * hardest);
       }
       if (!decision.must_stop || line < decision.stop_at)
@@ -631,12 +635,15 @@ ZipperLeader find_zipper_leader(const RoadView& view, const Traveller& traveller
                                 const PathLink& link) {
   const auto& [model, road, scene, grid, approaches] = view;
   ZipperLeader leader;
-  for (const ConflictZone& zone : model.conflicts[index_of(link.connection)]) {
-    if (!runs_together(model, link.connection, zone.foe)) continue;
-    const double own_way = link.stop_line + zone.end - traveller.front;
-    if (own_way < 0.0) continue;
-    for (const Approach& foe : approaches.of(zone.foe)) {
-      const double their_way = zone.foe_end - foe.front;
+  const bool wide = is_wide(scene, traveller.row);
+  for (const ConflictZone& zone_of_table : model.conflicts[index_of(link.connection)]) {
+    if (!runs_together(model, link.connection, zone_of_table.foe)) continue;
+    for (const Approach& foe : approaches.of(zone_of_table.foe)) {
+      const auto zone = zone_for(zone_of_table, wide || is_wide(scene, foe.row));
+      if (!zone) continue;
+      const double own_way = link.stop_line + zone->end - traveller.front;
+      if (own_way < 0.0) continue;
+      const double their_way = zone->foe_end - foe.front;
       if (foe.row == traveller.row || their_way < -foe.length) continue;
       const bool first = their_way < own_way ||
                          (their_way == own_way && scene.id[foe.row] < scene.id[traveller.row]);

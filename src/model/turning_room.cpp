@@ -19,8 +19,7 @@ constexpr double kDrawn = 12.0;
 
 /// Is it about who has the width of a row that a way tells?
 bool is_for(const SweptWay& way, const Scene& scene, std::size_t row) {
-  const Vec2 across = left_of(direction_of(scene.heading[row]));
-  return way.for_wide == (2.0 * half_extent(scene, row, across) > kWideBody);
+  return way.for_wide == is_wide(scene, row);
 }
 
 /// Is the line of a link drawn before what is swept there?

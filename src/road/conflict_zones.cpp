@@ -83,8 +83,9 @@ namespace {
 struct LinkShape {
   ConnectionId link = kNoConnection;
   Polyline line;
-  double half_width = 0;
-  std::vector<Vec2> samples;  ///< every kStep
+  double half_width = 0;         ///< of what drives there
+  double half_narrow_width = 0;  ///< of what is no wider than kWideBody
+  std::vector<Vec2> samples;     ///< every kStep
 };
 constexpr double kStep = 1.0;
 
@@ -115,6 +116,9 @@ LinkShape shape_of(const RoadNetwork& network, ConnectionId id) {
   const double widest = is_without_motors(lane) ? kHalfBicycle : kHalfBody;
   shape.half_width =
       lane.kind == LaneKind::Crossing ? 0.5 * lane.width : std::min(0.5 * lane.width, widest);
+  shape.half_narrow_width = lane.kind == LaneKind::Crossing
+                                ? shape.half_width
+                                : std::min(shape.half_width, 0.5 * kWideBody);
   if (shape.line.empty()) return shape;
   const auto count = static_cast<int>(shape.line.length() / kStep) + 1;
   for (int k = 0; k <= count; ++k) shape.samples.push_back(shape.line.point_at(k * kStep));
@@ -137,15 +141,16 @@ std::optional<std::pair<double, double>> near_span(const LinkShape& a, const Lin
   return span;
 }
 
-/// How near two ways must come to be in each other's way [m]. Those that start side by side are not
+/// How near two ways must come to be in each other's way, for two bodies whose half widths are
+/// `bodies` together [m]. Those that start side by side are not
 /// yet, though bodies that swing may come near there: only from where they approach each other. Nor
 /// are one that starts beside the end of the other where the one who has to wait may do so on the
 /// junction, as who turns across those who come towards it, or where they are the two directions of
 /// one road that is narrow.
 double conflict_reach(const RoadNetwork& network, const LinkShape& a, const LinkShape& b,
-                      bool waits_inside) {
+                      double bodies, bool waits_inside) {
   constexpr double kAir = 0.3, kNearer = 0.4, kLeast = 1.5;  // [m]
-  const double bodies = a.half_width + b.half_width, roomy = bodies + kAir;
+  const double roomy = bodies + kAir;
   double reach = roomy;
   const auto from_apart = [&](double apart) {
     reach = std::min(reach, std::max(apart - kNearer, std::min(bodies, kLeast)));
@@ -165,6 +170,12 @@ double conflict_reach(const RoadNetwork& network, const LinkShape& a, const Link
   if (at_begin) beside_each_other((a.samples.front() - b.samples.back()).norm());
   if (at_end) beside_each_other((a.samples.back() - b.samples.front()).norm());
   return reach;
+}
+
+std::optional<SharedStretch> shared_stretch(const LinkShape& a, const LinkShape& b, double reach) {
+  const auto own = near_span(a, b, reach), other = near_span(b, a, reach);
+  if (!own || !other) return {};
+  return SharedStretch{own->first, own->second, other->first, other->second};
 }
 
 /// True where two links start on the same edge, or both are crossings.
@@ -197,26 +208,30 @@ void add_conflicts(const RoadNetwork& network, const Junction& junction, Conflic
       if (!ruled && same_origin(network, junction.links[i], junction.links[k])) continue;
       const bool waits_inside = (yields && request.may_stop_inside) ||
                                 (gives_way(junction, k, i) && junction.requests[k].may_stop_inside);
-      const double reach = conflict_reach(network, shapes[i], shapes[k], waits_inside);
-      const auto own = near_span(shapes[i], shapes[k], reach);
-      const auto other = near_span(shapes[k], shapes[i], reach);
-      if (!own || !other) continue;
-      ConflictZone zone;
-      zone.foe = junction.links[k];
-      zone.begin = own->first;
-      zone.end = own->second;
-      zone.foe_begin = other->first;
-      zone.foe_end = other->second;
-      zone.yields = yields;
-      zone.unruled = !ruled;
-      zone.foe_is_crossing =
-          network.lane(network.connection(zone.foe).to).kind == LaneKind::Crossing;
-      table[index_of(junction.links[i])].push_back(zone);
+      const auto shared = [&](double bodies) {
+        return shared_stretch(shapes[i], shapes[k],
+                              conflict_reach(network, shapes[i], shapes[k], bodies, waits_inside));
+      };
+      const auto stretch = shared(shapes[i].half_width + shapes[k].half_width);
+      if (!stretch) continue;
+      const ConnectionId foe = junction.links[k];
+      const auto of_narrow = shared(shapes[i].half_narrow_width + shapes[k].half_narrow_width);
+      table[index_of(junction.links[i])].push_back(
+          {*stretch, foe, yields, !ruled,
+           network.lane(network.connection(foe).to).kind == LaneKind::Crossing, of_narrow});
     }
   }
 }
 
 }  // namespace
+
+std::optional<ConflictZone> zone_for(const ConflictZone& zone, bool one_is_wide) {
+  if (one_is_wide) return zone;
+  if (!zone.of_narrow) return {};
+  ConflictZone narrow = zone;
+  static_cast<SharedStretch&>(narrow) = *zone.of_narrow;
+  return narrow;
+}
 
 ConflictTable build_conflict_table(const RoadNetwork& network) {
   ConflictTable table(network.connections.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -7,17 +8,31 @@
 
 namespace sumogamma {
 
-/// Where two links of a junction get in each other's way, seen from one of them. Distances [m] run
-/// from where a link begins (its stop line).
-struct ConflictZone {
-  ConnectionId foe = kNoConnection;
+/// Lorries and buses: they need more of their lane than cars [m].
+inline constexpr double kWideBody = 2.1;
+
+/// Where the ways over two links are too near to each other for two bodies. Distances [m] run from
+/// where a link begins (its stop line).
+struct SharedStretch {
   double begin = 0, end = 0;          ///< on this link
   double foe_begin = 0, foe_end = 0;  ///< on the foe
-  bool yields = false;                ///< this link must let the foe pass
+};
+
+/// Where two links of a junction get in each other's way, seen from one of them: for whatever
+/// drives on them.
+struct ConflictZone : SharedStretch {
+  ConnectionId foe = kNoConnection;
+  bool yields = false;  ///< this link must let the foe pass
   bool unruled =
       false;  ///< the matrix knows no conflict, but bodies would meet: first come, first served
   bool foe_is_crossing = false;
+  /// If neither body is wider than kWideBody; none where such two pass each other.
+  std::optional<SharedStretch> of_narrow;
 };
+
+/// The zone as it is for two bodies, one of which is wide, or neither: none where they pass each
+/// other.
+std::optional<ConflictZone> zone_for(const ConflictZone& zone, bool one_is_wide);
 
 /// By connection: its conflicts with the other links of its junction, from the right-of-way matrix
 /// and the geometry of the ways that are driven (corners rounded as for a car, or for a bicycle

@@ -6,9 +6,6 @@
 
 namespace sumogamma {
 
-/// Lorries and buses: they need more of their lane than cars [m].
-inline constexpr double kWideBody = 2.1;
-
 /// Bodies by what they sweep beside their lane where they turn.
 enum class TurningBody { Car, Truck, Bus };
 

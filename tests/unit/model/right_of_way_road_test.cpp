@@ -155,12 +155,12 @@ class PriorityTest : public ::testing::Test {
     here_.move(row, here_.path(row).links.front().stop_line - 2.25 - 0.6);
     return row;
   }
-  /// Where the ways of two over their first links are in each other's.
+  /// Where the ways of two cars over their first links are in each other's.
   ConflictZone conflict_of(std::size_t row, std::size_t other) const {
     const PathLink& link = here_.path(row).links.front();
     const ConnectionId foe = here_.path(other).links.front().connection;
     for (const ConflictZone& zone : here_.model.conflicts[index_of(link.connection)])
-      if (zone.foe == foe) return zone;
+      if (zone.foe == foe && zone.of_narrow) return *zone_for(zone, false);
     ADD_FAILURE() << "their ways don't cross";
     return {};
   }
@@ -293,6 +293,23 @@ TEST_F(PriorityTest, WhoStandsOnTheJunctionHoldsEvenTheMajorRoad) {
   EXPECT_EQ(here_.context(major).reason, LimitReason::Yield);
   EXPECT_EQ(here_.context(major).foe, here_.scene.id[blocker].value);
   EXPECT_LT(here_.context(major).allowed_speed, 12.0);
+}
+
+// zones drawn for buses held cars where there was room for two of them
+TEST_F(PriorityTest, WhereACarGetsPastABusIsHeld) {
+  auto reason_for = [](const std::string& type) {
+    RoadScene here{net()};
+    const std::size_t own = here.add(type, {"WC", "CE"}, 150, 8, 0, -1, "WC_0");
+    const std::size_t foe = here.add("car", {"SC", "CN"}, 0, 0);
+    const PathLink& link = here.path(foe).links.front();
+    for (const ConflictZone& zone : here.model.conflicts[index_of(link.connection)])
+      if (zone.foe == here.path(own).links.front().connection)
+        here.move(foe, link.stop_line + zone.begin + 0.5 - 2.25);
+    here.update();
+    return here.context(own).reason;
+  };
+  EXPECT_EQ(reason_for("car"), LimitReason::None);
+  EXPECT_EQ(reason_for("bus"), LimitReason::Yield);
 }
 
 TEST_F(PriorityTest, ALeftTurnWaitsForOncomingTraffic) {
@@ -912,7 +929,7 @@ TEST_F(PriorityTest, WhoWaitsOnTheJunctionLeavesTheWaysOfOthersFree) {
   here_.update();
   ASSERT_EQ(here_.context(own).reason, LimitReason::Yield);
   const double alone = here_.context(own).to_halt;
-  const std::size_t crossing = here_.add("car", {"NC", "CS"}, 0, 6);
+  const std::size_t crossing = here_.add("bus", {"NC", "CS"}, 0, 6);
   here_.move(crossing, here_.path(crossing).links.front().stop_line - 12);
   here_.update();
   ASSERT_EQ(here_.context(own).foe, here_.scene.id[oncoming].value);

@@ -69,9 +69,24 @@ TEST_F(Conflicts, CrossingWaysMeetWhereTheyCross) {
   const Vec2 middle_a = a.point_at(0.5 * (own->begin + own->end));
   const Vec2 middle_b = b.point_at(0.5 * (own->foe_begin + own->foe_end));
   EXPECT_LT((middle_a - middle_b).norm(), 1.0);
-  // two bodies of at most 2.2 m, sampled every metre
+  // two bodies of at most 2.7 m, sampled every metre
   EXPECT_LT(own->end - own->begin, 6.0);
   EXPECT_GE(own->end - own->begin, 2.0);
+}
+
+TEST_F(Conflicts, NarrowBodiesShareLessOfTheirWays) {
+  const ConflictZone* zone = zone_between(table(), link_between(net(), "SC_0", "CN_0"),
+                                          link_between(net(), "WC_0", "CE_0"));
+  ASSERT_NE(zone, nullptr);
+  const auto wide = zone_for(*zone, true), narrow = zone_for(*zone, false);
+  ASSERT_TRUE(wide && narrow);
+  EXPECT_EQ(wide->begin, zone->begin);
+  EXPECT_LT(narrow->end - narrow->begin, wide->end - wide->begin);
+  EXPECT_LT(narrow->foe_end - narrow->foe_begin, wide->foe_end - wide->foe_begin);
+  EXPECT_GE(narrow->begin, wide->begin);
+  EXPECT_GE(narrow->foe_begin, wide->foe_begin);
+  EXPECT_EQ(narrow->foe, wide->foe);
+  EXPECT_EQ(narrow->yields, wide->yields);
 }
 
 TEST_F(Conflicts, MergingWaysMeetUntilTheirEnd) {
@@ -134,6 +149,21 @@ TEST(ConflictZones, OppositeTurnsOnANarrowJunctionConflictThoughTheMatrixSaysNo)
   const ConflictZone* zone = zone_between(conflicts, a, b);
   ASSERT_NE(zone, nullptr) << "bodies of cars meet here";
   EXPECT_EQ(zone->unruled, !ruled);
+}
+
+TEST(ConflictZones, WhereBusesMeetCarsMayPassEachOther) {
+  const std::string nodes = R"(<node id="C" x="0" y="0" type="priority"/>
+    <node id="W" x="-100" y="0"/><node id="E" x="100" y="0"/><node id="N" x="0" y="100"/>
+    <node id="S" x="0" y="-100"/>)";
+  PlainNet plain = one_lane_each_way(nodes, "WENS", R"(speed="13.9")");
+  plain.options = {"--default.junctions.radius", "5"};
+  const RoadNetwork network = read_plain_net(plain);
+  const ConflictTable conflicts = build_conflict_table(network);
+  const ConflictZone* zone = zone_between(conflicts, link_between(network, "WC_0", "CN_0"),
+                                          link_between(network, "EC_0", "CS_0"));
+  ASSERT_NE(zone, nullptr);
+  EXPECT_TRUE(zone_for(*zone, true));
+  EXPECT_FALSE(zone_for(*zone, false));
 }
 
 // with lanes of 2.8 m the oncoming way counted as met from the stop line on: nobody waited on the
