@@ -215,7 +215,12 @@ void add_conflicts(const RoadNetwork& network, const Junction& junction, Conflic
       const auto stretch = shared(shapes[i].half_width + shapes[k].half_width);
       if (!stretch) continue;
       const ConnectionId foe = junction.links[k];
-      const auto of_narrow = shared(shapes[i].half_narrow_width + shapes[k].half_narrow_width);
+      // who enters a roundabout looks for a gap that any body leaves: capacities of entries depend
+      // on it
+      const bool joins_ring = junction.in_roundabout && network.connection(junction.links[i]).to ==
+                                                            network.connection(foe).to;
+      const auto of_narrow =
+          joins_ring ? stretch : shared(shapes[i].half_narrow_width + shapes[k].half_narrow_width);
       table[index_of(junction.links[i])].push_back(
           {*stretch, foe, yields, !ruled,
            network.lane(network.connection(foe).to).kind == LaneKind::Crossing, of_narrow});

@@ -151,6 +151,25 @@ TEST(ConflictZones, OppositeTurnsOnANarrowJunctionConflictThoughTheMatrixSaysNo)
   EXPECT_EQ(zone->unruled, !ruled);
 }
 
+// cars entered a ring a tenth of a second earlier each, and more of them than the band of
+// roundabout_entry allows
+TEST(ConflictZones, WhoEntersARoundaboutWaitsForAnybodysGap) {
+  RoadNetwork network = read_plain_net(crossroads("priority"));
+  for (const bool ring : {false, true}) {
+    for (Junction& junction : network.junctions) junction.in_roundabout = ring;
+    const ConflictTable conflicts = build_conflict_table(network);
+    const ConnectionId through = link_between(network, "WC_0", "CE_0");
+    const ConflictZone* joins =
+        zone_between(conflicts, link_between(network, "SC_0", "CE_0"), through);
+    const ConflictZone* crosses =
+        zone_between(conflicts, link_between(network, "SC_0", "CN_0"), through);
+    ASSERT_TRUE(joins && crosses && joins->of_narrow && crosses->of_narrow);
+    EXPECT_EQ(joins->of_narrow->begin == joins->begin, ring);
+    EXPECT_EQ(joins->of_narrow->foe_begin == joins->foe_begin, ring);
+    EXPECT_LT(crosses->of_narrow->end - crosses->of_narrow->begin, crosses->end - crosses->begin);
+  }
+}
+
 TEST(ConflictZones, WhereBusesMeetCarsMayPassEachOther) {
   const std::string nodes = R"(<node id="C" x="0" y="0" type="priority"/>
     <node id="W" x="-100" y="0"/><node id="E" x="100" y="0"/><node id="N" x="0" y="100"/>
