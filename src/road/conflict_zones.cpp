@@ -142,11 +142,10 @@ std::optional<std::pair<double, double>> near_span(const LinkShape& a, const Lin
 }
 
 /// How near two ways must come to be in each other's way, for two bodies whose half widths are
-/// `bodies` together [m]. Those that start side by side are not
-/// yet, though bodies that swing may come near there: only from where they approach each other. Nor
-/// are one that starts beside the end of the other where the one who has to wait may do so on the
-/// junction, as who turns across those who come towards it, or where they are the two directions of
-/// one road that is narrow.
+/// `bodies` together [m]. Those that start side by side are not yet, though bodies that swing may
+/// come near there: only from where they approach each other. Nor are one that starts beside the
+/// end of the other where the one who has to wait may do so on the junction, as who turns across
+/// those who come towards it, or where they are the two directions of one road that is narrow.
 double conflict_reach(const RoadNetwork& network, const LinkShape& a, const LinkShape& b,
                       double bodies, bool waits_inside) {
   constexpr double kAir = 0.3, kNearer = 0.4, kLeast = 1.5;  // [m]
@@ -172,6 +171,7 @@ double conflict_reach(const RoadNetwork& network, const LinkShape& a, const Link
   return reach;
 }
 
+/// Where two ways lie within reach of each other.
 std::optional<SharedStretch> shared_stretch(const LinkShape& a, const LinkShape& b, double reach) {
   const auto own = near_span(a, b, reach), other = near_span(b, a, reach);
   if (!own || !other) return {};
