@@ -120,7 +120,7 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
     // who goes on between the lanes is in no lane's way until it has got past
     if (filters(scene, around, row)) return;
     intent.merge_to = here.lane;
-    if (is_beside(scene, around)) intent.gate = around.along;
+    if (is_beside(scene, around, row)) intent.gate = around.along;
     const LimitReason reason = scene.context[row].reason;
     intent.abort = scene.standing_time[row] > kPatience &&
                    (reason == LimitReason::None || reason == LimitReason::Merge);

@@ -97,13 +97,14 @@ bool is_let_in(const Scene& scene, const Surroundings& around, std::size_t row,
   });
 }
 
-bool is_beside(const Scene& scene, const Surroundings& around) {
+bool is_beside(const Scene& scene, const Surroundings& around, std::size_t row) {
   constexpr double kSide = 0.3;   // [m]
   constexpr double kWaits = 1.0;  // [s]
   const double front = around.along + around.half_length;
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
-    const bool waits =
-        std::isfinite(scene.gate[user.row]) && scene.standing_time[user.row] > kWaits;
+    // who waits for a gap itself, or for us, isn't waited for
+    const bool waits = scene.standing_time[user.row] > kWaits &&
+                       (std::isfinite(scene.gate[user.row]) || waits_for_row(scene, user, row));
     return user.aligned && !waits && user.rear < front && user.front > front &&
            std::abs(user.offset) < user.half_width + around.half_width + kSide &&
            std::abs(user.offset - around.offset) > user.half_width + around.half_width - kSide;

@@ -33,8 +33,8 @@ bool is_let_in(const Scene& scene, const Surroundings& around, std::size_t row,
                const LaneBeside& lane);
 
 /// Is somebody who goes the same way in the way beside an agent that changes lanes, its nose
-/// ahead? Then that one goes first; who is behind lets the agent in. Who waits there for a gap
-/// itself doesn't go.
-bool is_beside(const Scene& scene, const Surroundings& around);
+/// ahead? Then that one goes first; who is behind lets the agent in. Who stands there and waits for
+/// a gap, or for the agent, doesn't go.
+bool is_beside(const Scene& scene, const Surroundings& around, std::size_t row);
 
 }  // namespace sumogamma

@@ -68,6 +68,18 @@ TEST_F(ChangingLanes, NobodyLetsSomebodyGoFirstWhoWaitsForAGap) {
   EXPECT_FALSE(halts());
 }
 
+// it had halted for the nose of a car that stood behind it for want of room, on 3 m of the Magic
+// Roundabout, and both stood there until the end
+TEST_F(ChangingLanes, NorWhoWaitsForItself) {
+  begin("car", 1.6, 0.6);
+  EXPECT_TRUE(halts());
+  here_.scene.standing_time[car_] = 5;
+  EXPECT_TRUE(halts()) << "it may go any time";
+  here_.scene.context[car_].foe = static_cast<std::int64_t>(here_.scene.id[own_].value);
+  let_all_look(here_);
+  EXPECT_FALSE(std::isfinite(here_.scene.gate[own_]));
+}
+
 // a car turned in before a bus whose front was ahead already, and the two wedged each other
 TEST_F(ChangingLanes, WhoHasItsNoseAheadGoesFirst) {
   begin("car", 1.6, 0.9, "bus", -2.5);
