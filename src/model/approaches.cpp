@@ -13,12 +13,8 @@ double half_extent(const Scene& scene, std::size_t row, const Vec2& direction) {
 }
 
 bool is_wide(const Scene& scene, std::size_t row) {
-  double left = 0.0, right = 0.0;
-  for (const Vec2& vertex : scene.footprint[row].outline()) {
-    left = std::max(left, vertex.y());
-    right = std::min(right, vertex.y());
-  }
-  return left - right > kWideBody;
+  const Vec2 across = left_of(direction_of(scene.heading[row]));
+  return 2.0 * half_extent(scene, row, across) > kWideBody;
 }
 
 void ApproachTable::rebuild(const Model& model, const RoadState& road, const Scene& scene) {
@@ -40,13 +36,14 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
     const Vec2 tangent = path->line.direction_at(along);
     const double half_length = half_extent(scene, row, tangent);
     const double speed = std::max(0.0, scene.velocity[row].dot(tangent));
+    const bool wide = is_wide(scene, row);
     // far enough for the slowest foe to find its gap: ten seconds at the present speed
     const double reach = std::max(path->walking ? 8.0 : 30.0, 10.0 * speed);
     auto link = path->link_from(along - half_length);
     for (; link != path->links.end() && link->stop_line < along + half_length + reach; ++link) {
       approaches_.push_back({link->connection, static_cast<std::uint32_t>(row),
                              along + half_length - link->stop_line, 2.0 * half_length, speed,
-                             speed < kStandsBelow});
+                             speed < kStandsBelow, wide});
     }
   }
   std::sort(approaches_.begin(), approaches_.end(), [](const Approach& a, const Approach& b) {

@@ -19,6 +19,7 @@ struct Approach {
   double length = 0;  ///< of the agent along its path [m]
   double speed = 0;   ///< along its path, >= 0 [m/s]
   bool stands = false;
+  bool wide = false;  ///< see is_wide
 };
 
 /// What held an agent at the last tick.

@@ -66,10 +66,8 @@ void visit_joining(const RoadView& view, const Course& course, const PathLink& l
     if (zone.yields || view.model.road.connection(zone.foe).to != to) continue;
     for (const Approach& foe : view.approaches.of(zone.foe)) {
       const Waiting& waiting = view.approaches.waiting(foe.row);
-      if (foe.row == course.row || waiting.halted_for != zone.foe) continue;
-      const bool one_is_wide = is_wide(view.scene, course.row) || is_wide(view.scene, foe.row);
-      const auto for_both = zone_for(zone, one_is_wide);
-      if (for_both && foe.front < for_both->foe_end) visit(foe, waiting);
+      if (foe.row != course.row && waiting.halted_for == zone.foe && foe.front < zone.foe_end)
+        visit(foe, waiting);
     }
   }
 }

@@ -503,7 +503,7 @@ void keep_zones_free(const Model& model, const RoadState& road, const Scene& sce
       if (runs_together(model, link.connection, zone.foe)) continue;
       for (const Approach& foe : approaches.of(zone.foe)) {
         if (foe.row == traveller.row) continue;
-        const auto theirs = zone_for(zone, wide || is_wide(scene, foe.row));
+        const auto theirs = zone_for(zone, wide || foe.wide);
         if (!theirs || !comes_soon(*theirs, foe)) continue;
         const Piece piece = as_travelled(path, link.stop_line, theirs->begin, theirs->end);
         const double begin = link.stop_line + piece.begin, end = link.stop_line + piece.end;
@@ -549,21 +549,21 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
   const bool free_green = signal == 'G';
   const bool wide = is_wide(scene, traveller.row);
   const Judge judge{view, traveller, link, at_red};
-  for (const ConflictZone& zone_of_table : model.conflicts[index_of(link.connection)]) {
+  for (ConflictZone zone_of_table : model.conflicts[index_of(link.connection)]) {
     if (runs_together(model, link.connection, zone_of_table.foe)) continue;
+    if (free_green) zone_of_table.yields = false;
+    // at red everybody else comes first
+    if (at_red) {
+      zone_of_table.yields = true;
+      zone_of_table.unruled = false;
+    }
     for (const Approach& foe : approaches.of(zone_of_table.foe)) {
-      const auto for_both = zone_for(zone_of_table, wide || is_wide(scene, foe.row));
+      const auto for_both = zone_for(zone_of_table, wide || foe.wide);
       if (!for_both) continue;
       ConflictZone zone = *for_both;
       const Piece ours_to_cover = as_travelled(own_path, link.stop_line, zone.begin, zone.end);
       zone.begin = ours_to_cover.begin;
       zone.end = ours_to_cover.end;
-      if (free_green) zone.yields = false;
-      // at red everybody else comes first
-      if (at_red) {
-        zone.yields = true;
-        zone.unruled = false;
-      }
       // already in it: go on, avoidance does the rest
       if (has_entered(-to_line, zone.begin)) continue;
       const bool at_edge = to_line + zone.begin < kEdge;
@@ -585,7 +585,7 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
       if (deceleration_to_stop(traveller.speed, last - traveller.front) > hardest &&
           traveller.speed > 1.0) {
         // too late to halt there, but not for driving on towards who is in the way already
-        if (own_path.walking || !has_entered(foe.front, for_both->foe_begin)) continue;
+        if (own_path.walking || !has_entered(foe.front, zone.foe_begin)) continue;
         line = traveller.front + traveller.speed * traveller.speed / (2.0 * hardest);
       }
       if (!decision.must_stop || line < decision.stop_at)
@@ -635,15 +635,12 @@ ZipperLeader find_zipper_leader(const RoadView& view, const Traveller& traveller
                                 const PathLink& link) {
   const auto& [model, road, scene, grid, approaches] = view;
   ZipperLeader leader;
-  const bool wide = is_wide(scene, traveller.row);
-  for (const ConflictZone& zone_of_table : model.conflicts[index_of(link.connection)]) {
-    if (!runs_together(model, link.connection, zone_of_table.foe)) continue;
-    for (const Approach& foe : approaches.of(zone_of_table.foe)) {
-      const auto zone = zone_for(zone_of_table, wide || is_wide(scene, foe.row));
-      if (!zone) continue;
-      const double own_way = link.stop_line + zone->end - traveller.front;
-      if (own_way < 0.0) continue;
-      const double their_way = zone->foe_end - foe.front;
+  for (const ConflictZone& zone : model.conflicts[index_of(link.connection)]) {
+    if (!runs_together(model, link.connection, zone.foe)) continue;
+    const double own_way = link.stop_line + zone.end - traveller.front;
+    if (own_way < 0.0) continue;
+    for (const Approach& foe : approaches.of(zone.foe)) {
+      const double their_way = zone.foe_end - foe.front;
       if (foe.row == traveller.row || their_way < -foe.length) continue;
       const bool first = their_way < own_way ||
                          (their_way == own_way && scene.id[foe.row] < scene.id[traveller.row]);

@@ -114,11 +114,12 @@ LinkShape shape_of(const RoadNetwork& network, ConnectionId id) {
   // what drives on a lane is narrower than the lane; a crossing is used over its whole width
   constexpr double kHalfBicycle = 0.33, kHalfBody = 1.35;  // [m]
   const double widest = is_without_motors(lane) ? kHalfBicycle : kHalfBody;
-  shape.half_width =
-      lane.kind == LaneKind::Crossing ? 0.5 * lane.width : std::min(0.5 * lane.width, widest);
-  shape.half_narrow_width = lane.kind == LaneKind::Crossing
-                                ? shape.half_width
-                                : std::min(shape.half_width, 0.5 * kWideBody);
+  const auto used = [&](double half_body) {
+    return lane.kind == LaneKind::Crossing ? 0.5 * lane.width
+                                           : std::min(0.5 * lane.width, half_body);
+  };
+  shape.half_width = used(widest);
+  shape.half_narrow_width = used(std::min(widest, 0.5 * kWideBody));
   if (shape.line.empty()) return shape;
   const auto count = static_cast<int>(shape.line.length() / kStep) + 1;
   for (int k = 0; k <= count; ++k) shape.samples.push_back(shape.line.point_at(k * kStep));
