@@ -58,15 +58,16 @@ double clear_from(const RoadView& view, const Course& course, const PathLink& li
 }
 
 /// Calls `visit` for everybody who has halted at its line, to give way to the row for the lane that
-/// `link` leads into, and isn't past the place that both need.
+/// `link` leads into, and isn't past it.
 template <typename Visit>
 void visit_joining(const RoadView& view, const Course& course, const PathLink& link, Visit visit) {
+  constexpr double kPast = 0.3;  // [m]
   const LaneId to = view.model.road.connection(link.connection).to;
   for (const ConflictZone& zone : view.model.conflicts[index_of(link.connection)]) {
     if (zone.yields || view.model.road.connection(zone.foe).to != to) continue;
     for (const Approach& foe : view.approaches.of(zone.foe)) {
       const Waiting& waiting = view.approaches.waiting(foe.row);
-      if (foe.row != course.row && waiting.halted_for == zone.foe && foe.front < zone.foe_end)
+      if (foe.row != course.row && waiting.halted_for == zone.foe && foe.front < kPast)
         visit(foe, waiting);
     }
   }

@@ -142,7 +142,8 @@ struct Judge : RoadView {
     if (!foe_inside && ignores(zone, foe)) return Verdict::Free;
     if (is_ignored_by(foe)) zone.yields = true;
     if (!foe_inside && halts_at_line(foe)) return Verdict::Held;
-    if (!foe_inside && !zone.yields && lets_step_out(zone, foe)) return Verdict::Blocks;
+    if (!foe_inside && !zone.yields && (lets_step_out(zone, foe) || lets_nose_out(zone, foe)))
+      return Verdict::Blocks;
 
     Occupation theirs = occupation(*this, foe, zone.foe_begin, zone.foe_end);
     if (theirs.begin == Occupation::kNever) return Verdict::Free;
@@ -200,6 +201,7 @@ struct Judge : RoadView {
         (!foe.stands || waiting.reason == LimitReason::Yield) &&
         scene.time - lights_since() < kLetsClear)
       return Verdict::Blocks;
+    if (waits_for_us && !foe_inside && noses_out(zone, foe)) return Verdict::Free;
     if (waits_for_us) return !zone.yields && !foe_inside ? Verdict::Held : waiting_verdict(foe);
     // on foot one walks round what stands on the crossing, on wheels past what stands beside the
     // way
@@ -224,7 +226,7 @@ struct Judge : RoadView {
                                0.7 * foe_type.max_deceleration;
       return blocks_if(vulnerable && unstoppable && foe_type.kinematics != Kinematics::Holonomic);
     }
-    if (steps_out(zone, foe)) return Verdict::Free;
+    if (steps_out(zone, foe) || noses_out(zone, foe)) return Verdict::Free;
     return Verdict::Blocks;
   }
 
@@ -294,6 +296,34 @@ struct Judge : RoadView {
            road.signal(model.road.connection(zone.foe)) == 'O' &&
            scene.waiting_time[traveller.row] < kOwnWait &&
            lets_people_go(model, scene, traveller.row, zone.foe) &&
+           deceleration_to_stop(traveller.speed, link.stop_line + zone.begin - traveller.front) <
+               kAsks;
+  }
+  /// Has somebody on wheels stood at its line, or on the junction behind it, for so long that it
+  /// noses out before who need not brake hard for it?
+  bool has_stood_for_long(std::size_t row, ConnectionId its) const {
+    constexpr double kLong = 45.0;  // [s]
+    return !on_foot(row) && scene.halted_for[row] == its &&
+           scene.time - scene.halted_at[row] > kLong;
+  }
+  /// Has neither of the two a light?
+  bool by_themselves(const ConflictZone& zone) const {
+    return model.road.connection(link.connection).signal == kNoSignal &&
+           model.road.connection(zone.foe).signal == kNoSignal;
+  }
+  bool noses_out(const ConflictZone& zone, const Approach& foe) const {
+    return has_stood_for_long(traveller.row, link.connection) && !on_foot(foe.row) &&
+           by_themselves(zone) &&
+           deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) < kAsks;
+  }
+  /// Does a driver halt for such a one?
+  bool lets_nose_out(const ConflictZone& zone, const Approach& foe) const {
+    constexpr double kOwnWait = 10.0;  // [s]
+    const LimitReason why = approaches.waiting(foe.row).reason;
+    return has_stood_for_long(foe.row, zone.foe) && !on_foot(traveller.row) &&
+           !has_stood_for_long(traveller.row, link.connection) &&
+           (why == LimitReason::Yield || why == LimitReason::None) && by_themselves(zone) &&
+           scene.waiting_time[traveller.row] < kOwnWait &&
            deceleration_to_stop(traveller.speed, link.stop_line + zone.begin - traveller.front) <
                kAsks;
   }

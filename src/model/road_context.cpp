@@ -47,7 +47,7 @@ void note_halt(const RoadNetwork& road, const Course& course, Scene& scene) {
   if (scene.standing_time[course.row] < kHalt) return;
   const double front = course.along + course.half_length;
   for (const PathLink& link : course.path.links) {
-    if (link.stop_line < front - 0.3) continue;
+    if (link.stop_line < front - 0.3 && front > link.inside + 0.3) continue;
     if (link.halt >= front + kAtLine) return;
     const Connection& connection = road.connection(link.connection);
     if (connection.state == 'M' && connection.signal == kNoSignal) continue;

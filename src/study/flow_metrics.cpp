@@ -26,7 +26,7 @@ void find_head(const Scene& scene, std::size_t row, StuckAgent& agent) {
 
 void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const RoadState& road) {
   by_type_.resize(types.size());
-  red_lights_.update(road);
+  red_lights_.update(road, scene);
   track_.match(scene.id);
   stuck_now_ = 0;
   for (std::size_t row = 0; row < scene.size(); ++row) {

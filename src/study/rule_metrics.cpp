@@ -147,38 +147,51 @@ bool RuleMonitor::overtakes(const Row& agent, const LaneHit& hit) const {
   return false;
 }
 
-void RuleMonitor::judge_ground(const Row& agent, State& state) {
-  const Vec2& center = agent.scene.position[agent.row];
-  find_lanes(agent, center, hits_);
-  const bool junction = locator_.on_junction(center);
-  if (hits_.empty()) {
-    if (!junction) {
-      agent.counts.off_road_s += step_;
-      extend(Offence::OffRoad, agent, state);
-    }
-    return;
-  }
+RuleMonitor::Place RuleMonitor::place_at(const Row& agent, const Vec2& point) {
+  find_lanes(agent, point, hits_);
+  Place place;
+  place.none = hits_.empty();
+  place.junction = locator_.on_junction(point);
   const Vec2& velocity = agent.scene.velocity[agent.row];
-  const double speed = velocity.norm();
-  const double limit = -0.5 * speed;  // cos 120 degrees
-  bool on_road = false, on_walkway = false, explained = false;
-  const LaneHit* against = nullptr;
+  const double limit = -0.5 * velocity.norm();  // cos 120 degrees
+  bool on_road = false, on_walkway = false, explained = place.junction;
   for (const LaneHit& hit : hits_) {
     const Lane& lane = network_.lane(hit.lane);
     if (for_vehicles(lane)) {
       on_road = on_road || (lane.allowed & kMotor);
-      if (velocity.dot(hit.direction) < limit)
-        against = lane.kind == LaneKind::Normal ? &hit : against;
-      else
+      if (velocity.dot(hit.direction) >= limit)
         explained = true;
+      else if (lane.kind == LaneKind::Normal)
+        place.against = hit;
     }
     const bool beside_road = lane.kind == LaneKind::Normal || lane.kind == LaneKind::WalkingArea;
     if ((lane.allowed & vehicle_class::kPedestrian) && !(lane.allowed & kMotor) && beside_road)
       on_walkway = true;
   }
-  if (against && !explained && !junction && speed > kMoving &&
-      velocity.dot(direction_of(agent.scene.heading[agent.row])) > 0.0) {
-    if (overtakes(agent, *against)) {
+  if (explained) place.against.reset();
+  place.walkway = on_walkway && !on_road;
+  return place;
+}
+
+void RuleMonitor::judge_ground(const Row& agent, State& state) {
+  const Vec2& center = agent.scene.position[agent.row];
+  const Place here = place_at(agent, center);
+  if (here.none) {
+    if (!here.junction) {
+      agent.counts.off_road_s += step_;
+      extend(Offence::OffRoad, agent, state);
+    }
+    return;
+  }
+  if (!here.against && !here.walkway) return;
+  // nobody is where it ought not to be by less than kOver
+  const Vec2 forward = direction_of(agent.scene.heading[agent.row]);
+  const Place left = place_at(agent, center + kOver * left_of(forward)),
+              right = place_at(agent, center - kOver * left_of(forward));
+  const Vec2& velocity = agent.scene.velocity[agent.row];
+  const bool drives = velocity.norm() > kMoving && velocity.dot(forward) > 0.0;
+  if (here.against && left.against && right.against && drives) {
+    if (overtakes(agent, *here.against)) {
       agent.counts.overtaking_s += step_;
     } else {
       agent.counts.wrong_way_s += step_;
@@ -186,7 +199,7 @@ void RuleMonitor::judge_ground(const Row& agent, State& state) {
     }
   }
   const bool motor = vehicle_class_from_name(agent.type.sumo_class) & kMotor;
-  if (motor && on_walkway && !on_road) {
+  if (motor && here.walkway && left.walkway && right.walkway) {
     agent.counts.sidewalk_by_vehicle_s += step_;
     extend(Offence::Sidewalk, agent, state);
   }

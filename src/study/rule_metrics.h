@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,7 +68,8 @@ struct RedLightEvent {
 /// sideways and comes back within kAside is still on it, and who keeps to a sidewalk or walking
 /// area that lies over a crossing's end isn't on it. Wrong way: forward and faster than kMoving, on
 /// a normal lane, off junctions, more than 120 degrees from every lane of the place that vehicles
-/// may use. Lanes on another storey than one's own don't count (bridges). Overtaking: the same, on
+/// may use. Neither that nor a sidewalk counts for a centre that is over the edge by less than
+/// kOver. Lanes on another storey than one's own don't count (bridges). Overtaking: the same, on
 /// a lane that the network calls the opposite one of a lane on which somebody narrow goes the same
 /// way, no further off than kBeside, or ahead and reached within kSoon, and no more than kFaster
 /// faster.
@@ -86,6 +88,7 @@ class RuleMonitor {
   static constexpr double kWaits = 1.0;    ///< [s]
   static constexpr double kStands = 0.2;   ///< [m/s]
   static constexpr double kMoving = 0.5;   ///< [m/s]
+  static constexpr double kOver = 0.1;     ///< [m]
   static constexpr double kEntered = 0.5;  ///< [m]
   static constexpr double kBeside = 20.0;  ///< from middle to middle [m]
   static constexpr double kSoon = 4.0;     ///< [s]
@@ -135,6 +138,14 @@ class RuleMonitor {
   };
   /// Does an agent on a lane that leads the other way get past somebody narrow?
   bool overtakes(const Row& agent, const LaneHit& hit) const;
+  /// What a point of the ground is to a vehicle.
+  struct Place {
+    bool none = false;               ///< no lane of any kind
+    bool junction = false;           ///< within the outline of one
+    std::optional<LaneHit> against;  ///< lanes lead the other way alone; one of them
+    bool walkway = false;            ///< people walk there, and no motor vehicle drives
+  };
+  Place place_at(const Row& agent, const Vec2& point);
   void judge_ground(const Row& agent, State& state);
   void extend(Offence kind, const Row& agent, State& state);
   void judge_stop_line(const Row& agent, State& state, const Vec2& front, const RoadState& road);

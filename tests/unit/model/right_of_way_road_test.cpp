@@ -398,25 +398,25 @@ TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
     here_.scene.waiting_time = {3.0, 5.0};  // it inched on
     here_.update(2);                        // the other one sees that it is let in
   };
-  came(60, 50);
+  came(80, 70);
   EXPECT_EQ(here_.context(own).reason, LimitReason::LetsIn);
   EXPECT_EQ(here_.context(own).foe, here_.scene.id[minor].value);
   EXPECT_NE(here_.context(minor).reason, LimitReason::Yield);
-  came(40, 50);
+  came(60, 70);
   EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn) << "the other one came later";
   EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
   came(97, 95);
   EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn) << "but just before";
-  came(60, 50);
+  came(80, 70);
   EXPECT_EQ(here_.context(own).reason, LimitReason::LetsIn);
   here_.scene.waiting_time[own] = 100.0;
   here_.update();
   EXPECT_EQ(here_.context(own).reason, LimitReason::LetsIn) << "queues stand for a minute";
-  came(60, 50);
+  came(80, 70);
   here_.scene.waiting_time[own] = 130.0;
   here_.update();
   EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn) << "not for ever";
-  came(60, 50);
+  came(80, 70);
   // a bicycle let in the second of a queue, for 107 s
   here_.move(minor, turn.stop_line - 2.25 - 4.0);
   here_.scene.context[own].reason = LimitReason::Signal;
@@ -427,8 +427,8 @@ TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
   // who is let in and then has somebody else to wait for is left behind
   const std::size_t other = here_.add("car", {"EC", "CW"}, 100, 0);
   here_.scene.context.assign(3, {});
-  here_.scene.halted_at[own] = 60;
-  here_.scene.halted_at[minor] = 50;
+  here_.scene.halted_at[own] = 80;
+  here_.scene.halted_at[minor] = 70;
   here_.scene.context[minor].reason = LimitReason::Yield;
   here_.scene.context[minor].foe = here_.scene.id[other].value;
   here_.update();
@@ -655,7 +655,7 @@ TEST(JunctionsThatFollowClosely, WhoStandsLetsOneInWhereTheRoadGoesOnBehindTheSe
       here.scene.halted_for[row] = link.connection;
     }
     here.scene.time = 100;
-    here.scene.halted_at = {60, 50};
+    here.scene.halted_at = {80, 70};
     here.scene.waiting_time = {3.0, 5.0};
     here.update(2);
     EXPECT_EQ(here.context(own).reason == LimitReason::LetsIn, goes_on);
@@ -954,6 +954,76 @@ TEST_F(PriorityTest, WhoRollsOutBeyondItsPlaceOnTheJunctionStillWaitsThere) {
     here_.update();
     EXPECT_EQ(here_.context(own).reason, LimitReason::Yield) << beyond;
   }
+}
+
+// where they come one after the other, left turns waited for a gap for 90 s
+class LongStand : public PriorityTest {
+ protected:
+  /// Over the major road, before which it has stood for so long [s].
+  void stand(double time) {
+    here_.scene.halted_for[own_] = here_.path(own_).links.front().connection;
+    here_.scene.halted_at[own_] = here_.scene.time - time;
+    here_.scene.context[own_].reason = LimitReason::Yield;
+  }
+  /// Somebody on the major road comes, so far before its line.
+  void come(double way, double speed = 12) {
+    here_.set_speed(driver_, speed);
+    here_.move(driver_, here_.path(driver_).links.front().stop_line - 2.25 - way);
+  }
+  bool waits(std::size_t row, std::size_t foe) const {
+    return here_.context(row).foe == here_.scene.id[foe].value;
+  }
+  std::size_t own_ = add_at_line({"SC", "CN"});
+  std::size_t driver_ = here_.add("car", {"WC", "CE"}, 0, 12, 0, -1, "WC_0");
+};
+
+TEST_F(LongStand, NosesOutBeforeWhoHaltsForItAtEase) {
+  for (const double way : {40.0, 25.0}) {
+    for (const double time : {40.0, 60.0}) {
+      come(way);
+      stand(time);
+      here_.update();
+      const bool goes = way == 40.0 && time == 60.0;
+      EXPECT_NE(waits(own_, driver_), goes) << way << " m, " << time << " s";
+      EXPECT_EQ(waits(driver_, own_), goes) << way << " m, " << time << " s";
+    }
+  }
+}
+
+TEST_F(LongStand, NobodyWaitsForItForLongNorWhoHasStoodForAsLong) {
+  come(0.5, 0);
+  stand(60);
+  here_.update();
+  EXPECT_TRUE(waits(driver_, own_));
+  here_.scene.waiting_time[driver_] = 15;
+  here_.update();
+  EXPECT_FALSE(waits(driver_, own_)) << "it has waited for it long enough";
+  here_.scene.waiting_time[driver_] = 0;
+  here_.scene.halted_for[driver_] = here_.path(driver_).links.front().connection;
+  here_.scene.halted_at[driver_] = here_.scene.time - 60;
+  here_.update();
+  EXPECT_FALSE(waits(driver_, own_)) << "of two that nose out one would wait for the other";
+}
+
+// it halted on the junction before each lane for somebody who stood there for it
+TEST_F(LongStand, GoesBeforeWhoStandsAndWaitsForIt) {
+  come(0.5, 0);
+  stand(60);
+  here_.scene.waiting_time[driver_] = 5;
+  here_.scene.context[driver_].reason = LimitReason::Yield;
+  here_.scene.context[driver_].foe = static_cast<std::int64_t>(here_.scene.id[own_].value);
+  here_.update();
+  EXPECT_FALSE(waits(own_, driver_));
+  EXPECT_TRUE(waits(driver_, own_));
+}
+
+TEST_F(LongStand, CountsOnTheJunctionToo) {
+  const std::size_t turning = here_.add("car", {"WC", "CN"}, 0, 0);
+  const PathLink link = here_.path(turning).links.front();
+  here_.scene.standing_time[turning] = 1.0;
+  here_.move(turning, link.inside - 1.0 - 2.25);
+  here_.update();
+  EXPECT_EQ(here_.scene.halted_for[turning], link.connection);
 }
 
 // two that took each other for somebody who stands met nose to nose

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "study/flow_metrics.h"
+#include "support/plain_net.h"
 #include "support/small_net.h"
 
 namespace sumogamma {
@@ -181,14 +182,44 @@ TEST(RedLights, LookThroughUnsignalledLanes) {
   RedLights lights(net);
   RoadState road;
   road.signal_states = {"rr"};
-  lights.update(road);
+  lights.update(road, {});
   EXPECT_TRUE(lights.ahead(net.lane_by_name.at("in_1")));
   EXPECT_FALSE(lights.ahead(net.lane_by_name.at(":C_0_0")));
   EXPECT_FALSE(lights.ahead(net.lane_by_name.at("back_in_0")));
   EXPECT_FALSE(lights.ahead(kNoLane));
   road.signal_states = {"Gr"};
-  lights.update(road);
+  lights.update(road, {});
   EXPECT_FALSE(lights.ahead(net.lane_by_name.at("in_1")));
+}
+
+// queues of 300 m reached back over a junction, and their tails were stuck by the first red
+TEST(RedLights, AreWaitedForByAllOfAQueue) {
+  testing::PlainNet plain;
+  plain.nodes = R"(<node id="A" x="0" y="0"/><node id="B" x="150" y="0"/>
+    <node id="C" x="400" y="0" type="traffic_light"/><node id="D" x="550" y="0"/>
+    <node id="S" x="400" y="-150"/><node id="T" x="150" y="-150"/>)";
+  for (const std::string way : {"AB", "BC", "CD", "SC", "TB"})
+    plain.edges += "<edge id=\"" + way + "\" from=\"" + way[0] + "\" to=\"" + way[1] +
+                   "\" numLanes=\"1\" speed=\"13\"/>";
+  const RoadNetwork net = testing::read_plain_net(plain);
+  RedLights lights(net);
+  RoadState road;
+  road.signal_states = {"rrrr"};
+  Scene scene;
+  AgentState last;
+  last.footprint = box_footprint(4, 2);
+  append_agent(scene, last);
+  const auto ahead = [&](double along, double speed) {
+    scene.lane[0] = {net.lane_by_name.at("BC_0"), along, 0};
+    scene.velocity[0] = {speed, 0};
+    lights.update(road, scene);
+    return lights.ahead(net.lane_by_name.at("AB_0"));
+  };
+  EXPECT_TRUE(ahead(12, 0));
+  EXPECT_FALSE(ahead(12, 8)) << "it drives";
+  EXPECT_FALSE(ahead(60, 0)) << "there is room behind it";
+  road.signal_states = {"GGGG"};
+  EXPECT_FALSE(ahead(12, 0)) << "it waits for something else";
 }
 
 }  // namespace

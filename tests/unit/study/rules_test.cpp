@@ -377,6 +377,23 @@ TEST_F(Rules, OffRoadAndSidewalk) {
   EXPECT_NEAR(monitor_.result(types_).by_type.at("car").sidewalk_by_vehicle_s, 1.0, 1e-9);
 }
 
+// lanes end askew where they meet on a junction: somebody was on a splinter of a sidewalk for a
+// tick
+TEST_F(Rules, NobodyIsOverAnEdgeByCentimetres) {
+  const auto seconds = [&](double y, double speed) {
+    RuleMonitor monitor(kStep, net_, locator_);
+    scene_ = Scene{};
+    add("car", {80, y}, {-speed, 0});
+    for (int tick = 0; tick < 10; ++tick) monitor.add(scene_, types_, road_);
+    const RuleCounts counted = monitor.result(types_).all;
+    return counted.wrong_way_s + counted.sidewalk_by_vehicle_s;
+  };
+  EXPECT_EQ(seconds(-1.55, 5), 0.0);
+  EXPECT_NEAR(seconds(-1.45, 5), 1.0, 1e-9);
+  EXPECT_EQ(seconds(1.65, 0), 0.0);
+  EXPECT_NEAR(seconds(1.75, 0), 1.0, 1e-9);
+}
+
 TEST_F(Rules, ACarOnACrossingIsOnTheRoad) {
   add("car", {101, 0}, {0, 0});
   run(1);
