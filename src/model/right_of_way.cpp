@@ -272,7 +272,7 @@ struct Judge : RoadView {
            stops_at_ease(foe.speed, std::max(kAtLine - foe.front, 0.1),
                          type_of(model.types, scene.type[foe.row]));
   }
-  static constexpr double kAsks = 2.0;  ///< of who has to halt for somebody on foot [m/s^2]
+  static constexpr double kAsks = 2.0;  ///< of who halts for somebody with a long wait [m/s^2]
   /// Has somebody on foot waited for so long at a crossing where vehicles go first that it steps
   /// out, or begun to do so?
   bool has_had_enough(std::size_t row) const {

@@ -40,8 +40,8 @@ double stop_acceleration(const Scene& scene, const Course& course, double free_s
   return following_acceleration(course.type, course.speed, free_speed, gap, 0.0);
 }
 
-/// Remembers for stop signs that the agent came to a halt before its next link, or the one right
-/// behind it where it has priority at the next.
+/// Remembers that the agent came to a halt before its next link, on the junction where it may wait
+/// there, or before the link right behind it where it has priority at the next.
 void note_halt(const RoadNetwork& road, const Course& course, Scene& scene) {
   constexpr double kAtLine = 4.0, kHalt = 0.3;
   if (scene.standing_time[course.row] < kHalt) return;
