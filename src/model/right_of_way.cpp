@@ -283,21 +283,15 @@ struct Judge : RoadView {
   /// come without end nobody else lets it.
   bool steps_out(const ConflictZone& zone, const Approach& foe) const {
     return has_had_enough(traveller.row) && !on_foot(foe.row) && !at_red &&
-           deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) < kAsks;
+           asks_little_of(zone, foe);
   }
   /// Does a driver halt for such a one? In a queue that creeps over the crossing nobody's foot
   /// finds a place before one does.
   bool lets_step_out(const ConflictZone& zone, const Approach& foe) const {
-    constexpr double kOwnWait = 10.0;  // [s]
-    constexpr double kAtKerb = 2.0;    // [m]
-    const LimitReason why = approaches.waiting(foe.row).reason;
-    return has_had_enough(foe.row) && !on_foot(traveller.row) && foe.front > -kAtKerb &&
-           (why == LimitReason::Yield || why == LimitReason::None) &&
+    constexpr double kAtKerb = 2.0;  // [m]
+    return has_had_enough(foe.row) && foe.front > -kAtKerb &&
            road.signal(model.road.connection(zone.foe)) == 'O' &&
-           scene.waiting_time[traveller.row] < kOwnWait &&
-           lets_people_go(model, scene, traveller.row, zone.foe) &&
-           deceleration_to_stop(traveller.speed, link.stop_line + zone.begin - traveller.front) <
-               kAsks;
+           lets_people_go(model, scene, traveller.row, zone.foe) && halts_for_long_wait(zone, foe);
   }
   /// Has somebody on wheels stood at its line, or on the junction behind it, for so long that it
   /// noses out before who need not brake hard for it?
@@ -313,16 +307,24 @@ struct Judge : RoadView {
   }
   bool noses_out(const ConflictZone& zone, const Approach& foe) const {
     return has_stood_for_long(traveller.row, link.connection) && !on_foot(foe.row) &&
-           by_themselves(zone) &&
-           deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) < kAsks;
+           by_themselves(zone) && asks_little_of(zone, foe);
   }
   /// Does a driver halt for such a one?
   bool lets_nose_out(const ConflictZone& zone, const Approach& foe) const {
+    return has_stood_for_long(foe.row, zone.foe) &&
+           !has_stood_for_long(traveller.row, link.connection) && by_themselves(zone) &&
+           halts_for_long_wait(zone, foe);
+  }
+  /// Need a foe brake with no more than kAsks to halt before the zone?
+  bool asks_little_of(const ConflictZone& zone, const Approach& foe) const {
+    return deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) < kAsks;
+  }
+  /// Does the traveller, on wheels, halt for a foe that has waited for long and waits for its way
+  /// alone? Not if it has to brake hard for that, or has waited for some time itself.
+  bool halts_for_long_wait(const ConflictZone& zone, const Approach& foe) const {
     constexpr double kOwnWait = 10.0;  // [s]
     const LimitReason why = approaches.waiting(foe.row).reason;
-    return has_stood_for_long(foe.row, zone.foe) && !on_foot(traveller.row) &&
-           !has_stood_for_long(traveller.row, link.connection) &&
-           (why == LimitReason::Yield || why == LimitReason::None) && by_themselves(zone) &&
+    return !on_foot(traveller.row) && (why == LimitReason::Yield || why == LimitReason::None) &&
            scene.waiting_time[traveller.row] < kOwnWait &&
            deceleration_to_stop(traveller.speed, link.stop_line + zone.begin - traveller.front) <
                kAsks;

@@ -23,9 +23,9 @@ class RedLights {
   void update(const RoadState& road, const Scene& scene);
 
   /// True where a link shows red that can be reached from the lane within kLookAhead without
-  /// passing another signal, or a lane does that the queue before such a red fills: queues of 300 m
-  /// reach back over other junctions. A walking area counts where all its signalled crossings show
-  /// red, else pedestrians at a corner would always wait.
+  /// passing another signal, or likewise, within kJunction, a lane that the queue before such a red
+  /// fills: queues of 300 m reach back over other junctions. A walking area counts where all its
+  /// signalled crossings show red, else pedestrians at a corner would always wait.
   bool ahead(LaneId lane);
 
  private:

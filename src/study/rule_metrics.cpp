@@ -183,14 +183,17 @@ void RuleMonitor::judge_ground(const Row& agent, State& state) {
     }
     return;
   }
-  if (!here.against && !here.walkway) return;
-  // nobody is where it ought not to be by less than kOver
   const Vec2 forward = direction_of(agent.scene.heading[agent.row]);
-  const Place left = place_at(agent, center + kOver * left_of(forward)),
-              right = place_at(agent, center - kOver * left_of(forward));
   const Vec2& velocity = agent.scene.velocity[agent.row];
   const bool drives = velocity.norm() > kMoving && velocity.dot(forward) > 0.0;
-  if (here.against && left.against && right.against && drives) {
+  const bool against = here.against && drives;
+  const bool walkway =
+      here.walkway && (vehicle_class_from_name(agent.type.sumo_class) & kMotor) != 0;
+  if (!against && !walkway) return;
+  // nobody is where it ought not to be by less than kOver
+  const Place left = place_at(agent, center + kOver * left_of(forward)),
+              right = place_at(agent, center - kOver * left_of(forward));
+  if (against && left.against && right.against) {
     if (overtakes(agent, *here.against)) {
       agent.counts.overtaking_s += step_;
     } else {
@@ -198,8 +201,7 @@ void RuleMonitor::judge_ground(const Row& agent, State& state) {
       extend(Offence::WrongWay, agent, state);
     }
   }
-  const bool motor = vehicle_class_from_name(agent.type.sumo_class) & kMotor;
-  if (motor && here.walkway && left.walkway && right.walkway) {
+  if (walkway && left.walkway && right.walkway) {
     agent.counts.sidewalk_by_vehicle_s += step_;
     extend(Offence::Sidewalk, agent, state);
   }
