@@ -1,6 +1,7 @@
 #include "model/right_of_way.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/following.h"
 #include "model/merging.h"
@@ -51,6 +52,9 @@ bool stops_at_ease(double speed, double way, const AgentType& type) {
 
 constexpr double kEdge = 0.3;    // who halts before a zone comes to rest so near its begin [m]
 constexpr double kMargin = 0.3;  // between a place to wait on a junction and what it is for [m]
+
+// who stands so near its line when amber begins may go on [m]
+constexpr double kNearLine = 2.5;
 
 /// Is a front `past` the begin of its link [m] in a zone that begins there at `begin`? Not who has
 /// come to rest at its edge.
@@ -141,7 +145,7 @@ struct Judge : RoadView {
       return Verdict::Free;
     if (!foe_inside && ignores(zone, foe)) return Verdict::Free;
     if (is_ignored_by(foe)) zone.yields = true;
-    if (!foe_inside && halts_at_line(foe)) return Verdict::Held;
+    if (!foe_inside && (halts_at_line(foe) || halts_at_amber(foe, foe_link))) return Verdict::Held;
     if (!foe_inside && !zone.yields && (lets_step_out(zone, foe) || lets_nose_out(zone, foe)))
       return Verdict::Blocks;
 
@@ -270,6 +274,12 @@ struct Judge : RoadView {
                             why == LimitReason::TurningRoom;
     return for_others && !foe.stands && foe.front < 0.0 && approaches.rest_of(foe) < kAtLine &&
            stops_at_ease(foe.speed, std::max(kAtLine - foe.front, 0.1),
+                         type_of(model.types, scene.type[foe.row]));
+  }
+  /// Will a foe halt before its light, which is amber?
+  bool halts_at_amber(const Approach& foe, const Connection& foe_link) const {
+    return is_amber(road.signal(foe_link)) && foe.front < -kNearLine &&
+           stops_at_ease(foe.speed, -foe.front - kNearLine,
                          type_of(model.types, scene.type[foe.row]));
   }
   static constexpr double kAsks = 2.0;  ///< of who halts for somebody with a long wait [m/s^2]
@@ -477,6 +487,16 @@ struct Aspect {
   double since = 0;
 };
 
+/// Does somebody who stood near its line for a gap before amber began, `since` [s], take the one
+/// that amber makes, as it gets over the line from rest in the time `left` [s]?
+bool takes_gap(const Scene& scene, const Traveller& traveller, const PathLink& link,
+               const AgentType& type, double since, double left) {
+  const double to_line = link.stop_line - traveller.front;
+  return to_line < kNearLine && scene.halted_for[traveller.row] == link.connection &&
+         scene.halted_at[traveller.row] < since &&
+         std::sqrt(2.0 * std::max(to_line, 0.0) / type.max_acceleration) < left;
+}
+
 /// Red stops always, amber where braking at ease still does it, for a front that would come to rest
 /// at `halt`, where the line is drawn at `drawn` [m]. Once past the line, clear the junction.
 SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& traveller,
@@ -494,6 +514,8 @@ SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& 
     const double left = kAmber - (scene.time - aspect.since);
     const bool late = to_line > std::max(left, 0.0) * traveller.speed;
     const double most = late ? 0.65 * type.max_deceleration : type.comfortable_deceleration;
+    if (!on_foot && takes_gap(scene, traveller, link, type, aspect.since, left))
+      return SignalDuty::None;
     const bool stands = late && traveller.speed < kCrawl;
     // who gets over in time doesn't halt where others need the room
     if (!late && !on_foot && !stops_at_ease(traveller.speed, drawn - traveller.front, type))

@@ -75,24 +75,26 @@ TEST_F(SignalTest, WhoCrawlsBeforeTheLineLateAtAmberStands) {
   EXPECT_FALSE(is_held(0.1, 0.1)) << "it will be over the line in time";
 }
 
+/// Lets all links of a lane show a letter.
+void show(RoadScene& here, const char* from, char letter) {
+  const RoadNetwork& road = here.model.road;
+  for (const ConnectionId id : road.lane(road.lane_by_name.at(from)).outgoing) {
+    const Connection& link = road.connection(id);
+    if (link.signal == kNoSignal) continue;
+    std::string& letters = here.road.signal_states[index_of(link.signal)];
+    letters.resize(std::max(letters.size(), static_cast<std::size_t>(link.signal_link) + 1), 'r');
+    letters[static_cast<std::size_t>(link.signal_link)] = letter;
+  }
+}
+
 // A bicycle that had a green arrow rode past the queue before it in the lane beside, which was red,
 // and over that lane's line.
 TEST(SignalBeside, WhoRidesWhollyInTheLaneBesideGoesByItsLight) {
   RoadScene here{testing::read_plain_net(testing::crossroads("traffic_light"))};
   const std::size_t own = here.add("bicycle", {"WC", "CE"}, 20, 3, 0, -1, "WC_1");
-  const RoadNetwork& road = here.model.road;
-  auto show = [&](const char* from, char letter) {
-    for (const ConnectionId id : road.lane(road.lane_by_name.at(from)).outgoing) {
-      const Connection& link = road.connection(id);
-      if (link.signal == kNoSignal) continue;
-      std::string& letters = here.road.signal_states[index_of(link.signal)];
-      letters.resize(std::max(letters.size(), static_cast<std::size_t>(link.signal_link) + 1), 'r');
-      letters[static_cast<std::size_t>(link.signal_link)] = letter;
-    }
-  };
   auto is_held = [&](double aside, char beside) {
-    show("WC_1", 'G');
-    show("WC_0", beside);
+    show(here, "WC_1", 'G');
+    show(here, "WC_0", beside);
     here.move(own, here.path(own).links.front().stop_line - 4.0, -aside);
     here.update();
     return here.context(own).reason == LimitReason::Signal;
@@ -101,6 +103,59 @@ TEST(SignalBeside, WhoRidesWhollyInTheLaneBesideGoesByItsLight) {
   EXPECT_FALSE(is_held(3.2, 'G'));
   EXPECT_FALSE(is_held(0.0, 'r')) << "its own lane has green";
   EXPECT_FALSE(is_held(1.5, 'r')) << "on the edge of its lane";
+}
+
+// --- the gap that amber makes: a car that turns left, and one that comes towards it
+
+class AmberGap : public ::testing::Test {
+ protected:
+  AmberGap() {
+    own_ = here_.add("car", {"WC", "CN"}, 20, 0, 0, -1, "WC_1");
+    oncomer_ = here_.add("car", {"EC", "CW"}, 20, 10, 0, -1, "EC_0");
+    here_.scene.time = 100;
+    stand(0.5, 80);
+    come(50);
+  }
+  /// The one that turns stands so far before its line [m], since a time [s].
+  void stand(double before, double since) {
+    const PathLink& link = here_.path(own_).links.front();
+    here_.move(own_, link.stop_line - 2.25 - before, 0);
+    here_.scene.halted_for[own_] = link.connection;
+    here_.scene.halted_at[own_] = since;
+  }
+  /// The other comes at 10 m/s, with so much way to its line [m].
+  void come(double before) {
+    here_.move(oncomer_, here_.path(oncomer_).links.front().stop_line - 2.25 - before, 10);
+  }
+  /// What holds the one that turns so long after both lights showed a letter [s].
+  LimitReason held_by(char letter, double since) {
+    show(here_, "WC_1", letter);
+    show(here_, "EC_0", letter);
+    here_.road.signal_since.assign(here_.road.signal_states.size(), 100 - since);
+    here_.update();
+    return here_.context(own_).reason;
+  }
+  RoadScene here_{read_plain_net(crossroads("traffic_light"))};
+  std::size_t own_ = 0, oncomer_ = 0;
+};
+
+TEST_F(AmberGap, IsTakenByWhoStoodAtItsLine) {
+  EXPECT_EQ(held_by('g', 15), LimitReason::Yield);
+  EXPECT_EQ(held_by('y', 0.5), LimitReason::None);
+  EXPECT_EQ(held_by('y', 2.2), LimitReason::Signal) << "it would not be over the line before red";
+  EXPECT_EQ(held_by('r', 0.5), LimitReason::Signal);
+}
+
+TEST_F(AmberGap, IsNotForWhoComesLate) {
+  stand(0.5, 99.8);
+  EXPECT_EQ(held_by('y', 0.5), LimitReason::Signal);
+  stand(3.0, 80);
+  EXPECT_EQ(held_by('y', 0.5), LimitReason::Signal) << "not near its line";
+}
+
+TEST_F(AmberGap, IsNoneBeforeWhoCannotHaltAtEase) {
+  come(15);
+  EXPECT_EQ(held_by('y', 0.5), LimitReason::Yield);
 }
 
 TEST_F(SignalTest, WhoStandsDownTheQueueKnowsThatItIsRed) {
