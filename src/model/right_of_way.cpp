@@ -1,7 +1,6 @@
 #include "model/right_of_way.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "model/following.h"
 #include "model/merging.h"
@@ -494,7 +493,7 @@ bool takes_gap(const Scene& scene, const Traveller& traveller, const PathLink& l
   const double to_line = link.stop_line - traveller.front;
   return to_line < kNearLine && scene.halted_for[traveller.row] == link.connection &&
          scene.halted_at[traveller.row] < since &&
-         std::sqrt(2.0 * std::max(to_line, 0.0) / type.max_acceleration) < left;
+         time_to_cover(to_line, 0.0, type.max_speed, type.max_acceleration) < left;
 }
 
 /// Red stops always, amber where braking at ease still does it, for a front that would come to rest

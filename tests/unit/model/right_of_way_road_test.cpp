@@ -119,7 +119,7 @@ class AmberGap : public ::testing::Test {
   /// The one that turns stands so far before its line [m], since a time [s].
   void stand(double before, double since) {
     const PathLink& link = here_.path(own_).links.front();
-    here_.move(own_, link.stop_line - 2.25 - before, 0);
+    here_.move(own_, link.stop_line - 2.25 - before);
     here_.scene.halted_for[own_] = link.connection;
     here_.scene.halted_at[own_] = since;
   }
