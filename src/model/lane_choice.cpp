@@ -188,7 +188,7 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
         look_around(model, road, scene, grid, row, look_ahead(scene, row), 8.0, around);
         scene.overtaking_room[row] =
             overtaking_room(model, road, scene, grid, around, row, work.far[worker]);
-        scene.passing_offset[row] = passing_offset(model, *path, scene, around, row);
+        scene.passing_offset[row] = passing_offset(model, road, *path, scene, around, row);
         if (path->trip) {
           intent.entered = free_entry(model, road, work.queues, *path, around);
           wait_for_gap(model, *path, scene, around, row, intent);

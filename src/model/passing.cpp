@@ -30,24 +30,69 @@ bool is_near_junction(const Path& path, const Surroundings& around) {
   });
 }
 
+/// The side to which somebody turns who is on a junction, or will be soon at its speed [m/s]: 1
+/// left, -1 right, 0 neither.
+int turning_side(const RoadNetwork& network, const Path& path, double along, double speed) {
+  constexpr double kSoon = 3.0, kNear = 6.0;  // [s], [m]
+  const auto link = path.link_from(along);
+  if (link == path.links.end() || link->stop_line - along > std::max(kNear, kSoon * speed))
+    return 0;
+  switch (network.connection(link->connection).direction) {
+    case 'l':
+    case 'L':
+    case 't':
+      return 1;
+    case 'r':
+    case 'R':
+      return -1;
+    default:
+      return 0;
+  }
+}
+
+/// A narrow vehicle among those around it.
+struct Filtering {
+  const Model& model;
+  const RoadState& road;
+  const Scene& scene;
+  const Surroundings& around;
+  double free_speed;  ///< [m/s]
+  int turns;          ///< see turning_side
+};
+
+/// Does a user ahead turn across the place at `offset` beside it? Who stands lets others by.
+bool turns_across(const Filtering& rider, const RoadUser& user, double offset) {
+  constexpr double kStands = 1.0;  // [m/s]
+  const Path* path = rider.road.path(rider.scene.path[user.row]);
+  if (path == nullptr || user.speed < kStands ||
+      user.front < rider.around.along + rider.around.half_length)
+    return false;
+  const int side =
+      turning_side(rider.model.road, *path, rider.scene.path_along[user.row], user.speed);
+  return side != 0 && side != rider.turns && side * (offset - user.offset) > 0.0;
+}
+
 /// See hoped_speed: that of a narrow vehicle, which looks further ahead. It goes by slowly where it
-/// is close, and counts on other narrow ones to go on as it does.
-double filtering_hope(const Scene& scene, const Surroundings& around, double offset,
-                      double free_speed, double margin) {
+/// is close, counts on other narrow ones to go on as it does, and passes nobody on the side to
+/// which that one turns.
+double filtering_hope(const Filtering& rider, double offset, double margin) {
   constexpr double kOutlook = 20.0;  // [s]
   constexpr double kGoesOn = 2.0;    // [m/s]
   constexpr double kBrakesOn = 2.0;  // [s]
+  const Surroundings& around = rider.around;
   const double front = around.along + around.half_length;
   const double rear = around.along - around.half_length;
-  double hoped = free_speed;
+  double hoped = rider.free_speed;
   for (const RoadUser& user : around.users) {
     if (user.front < rear - 0.3) continue;
     const double clearance = std::abs(user.offset - offset) - user.half_width - around.half_width;
     const bool vehicle = user.aligned && !user.on_foot;
-    const double braking = std::min(scene.acceleration[user.row].dot(around.tangent), 0.0);
+    const double braking = std::min(rider.scene.acceleration[user.row].dot(around.tangent), 0.0);
     double pace = std::max(user.speed + kBrakesOn * braking, 0.0);
     if (clearance > margin) {
-      if (vehicle) hoped = std::min(hoped, pace + filtering_speed(clearance));
+      if (!vehicle) continue;
+      const bool cut_off = turns_across(rider, user, offset);
+      hoped = std::min(hoped, cut_off ? pace : pace + filtering_speed(clearance));
       continue;
     }
     const double gap = user.rear - front;
@@ -156,6 +201,24 @@ double farthest_right(double room, double half_width) {
   return std::min(half_width + kOffEdge - room, 0.0);
 }
 
+/// What a path leaves to its sides [m].
+struct Sides {
+  double left = 0, right = 0;
+};
+
+/// What the stretch leaves on which a body is, less at the kerb where a corner is rounded ahead:
+/// there the path lies nearer to it than the middle of the lane does.
+Sides sides_of(const RoadNetwork& network, const Path& path, const Surroundings& around) {
+  constexpr double kSteers = 1.0;  // it takes to get to another place beside the path [s]
+  const PathStretch& here = path.stretch_at(around.along);
+  const Cut cut = path.cut_between(around.along - around.half_length,
+                                   around.along + around.half_length + kSteers * around.speed);
+  Sides sides{here.room_left, here.room_right};
+  double& at_kerb = network.left_hand ? sides.left : sides.right;
+  if (here.kerb < at_kerb + kOffEdge) at_kerb -= network.left_hand ? cut.left : cut.right;
+  return sides;
+}
+
 /// Nobody passes on a junction where there is no room behind it: who is beside a bus as it turns
 /// into a road with fewer lanes comes out over the middle of that or on its sidewalk.
 void keep_to_exit(const RoadNetwork& network, const Path& path, const Surroundings& around,
@@ -170,15 +233,16 @@ void keep_to_exit(const RoadNetwork& network, const Path& path, const Surroundin
 
 }  // namespace
 
-double passing_offset(const Model& model, const Path& path, const Scene& scene,
-                      const Surroundings& around, std::size_t row) {
+double passing_offset(const Model& model, const RoadState& road, const Path& path,
+                      const Scene& scene, const Surroundings& around, std::size_t row) {
   const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
   const PathStretch& here = path.stretch_at(around.along);
   const double half = around.half_width;
   const double over = scene.overtaking_room[row];
   const double over_left = model.road.left_hand ? 0.0 : over, over_right = over - over_left;
-  double most_left = farthest_left(here.room_left + over_left, half);
-  double most_right = farthest_right(here.room_right + over_right, half);
+  const Sides sides = sides_of(model.road, path, around);
+  double most_left = farthest_left(sides.left + over_left, half);
+  double most_right = farthest_right(sides.right + over_right, half);
   keep_to_turning_side(model.road, path, around, most_left, most_right);
   if (over == 0.0) keep_to_light(model.road, path, around, most_left, most_right);
   // what a junction has beside its lanes is for who has to get past, and for bodies that swing
@@ -189,8 +253,11 @@ double passing_offset(const Model& model, const Path& path, const Scene& scene,
   keep_to_exit(model.road, path, around, most_left, most_right);
   const double liked = std::clamp(on_lane, most_right, most_left);
   const bool narrow = is_narrow(2.0 * half);
+  const Filtering rider{model,      road,
+                        scene,      around,
+                        free_speed, turning_side(model.road, path, around.along, around.speed)};
   const auto hope = [&](double offset, double margin) {
-    return narrow ? filtering_hope(scene, around, offset, free_speed, margin)
+    return narrow ? filtering_hope(rider, offset, margin)
                   : hoped_speed(around, offset, free_speed, margin);
   };
   const double margin = 0.15;

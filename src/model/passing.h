@@ -43,7 +43,7 @@ double passing_speed(const Passed& passed, const AgentType& type);
 /// it, and over the middle of the road where it may overtake there (scene.overtaking_room). Wide
 /// vehicles pass narrow ones on the inner side; narrow ones pass anybody, on either side,
 /// and between two queues in the middle of what is free.
-double passing_offset(const Model& model, const Path& path, const Scene& scene,
-                      const Surroundings& around, std::size_t row);
+double passing_offset(const Model& model, const RoadState& road, const Path& path,
+                      const Scene& scene, const Surroundings& around, std::size_t row);
 
 }  // namespace sumogamma

@@ -100,6 +100,11 @@ struct Trip {
   Trip& operator=(const Trip&) = delete;
 };
 
+/// By how much a line is nearer to the edges of its lanes than their middles are [m].
+struct Cut {
+  double left = 0, right = 0;
+};
+
 /// A way through the network that one agent means to follow: geometry with everything that rules
 /// need to know along it.
 struct Path {
@@ -109,7 +114,10 @@ struct Path {
   std::vector<PathStop> stops;          ///< in order
   std::vector<RoadCrossing> over_road;  ///< in order; on foot
   std::vector<double>
-      speed_profile;   ///< [m/s] every kProfileStep along: bends and limits with braking ahead
+      speed_profile;  ///< [m/s] every kProfileStep along: bends and limits with braking ahead
+  /// How far to the left of the line the middle of the lane lies, by pieces of kProfileStep:
+  /// corners are rounded on their inner side [m].
+  std::vector<double> lane_middle;
   double arrival = 0;  ///< along, where the trip ends [m]
   bool walking = false;
   std::shared_ptr<const Trip> trip;  ///< null on foot
@@ -131,6 +139,8 @@ struct Path {
   }
   /// Speed that bends and limits leave at `along`, interpolated [m/s].
   double profile_at(double along) const;
+  /// By how much less than its stretches say the line leaves to its sides between two places.
+  Cut cut_between(double from, double to) const;
 };
 
 /// Path of a vehicle along its route: the lanes that need the fewest lane changes, changes spread

@@ -21,8 +21,10 @@ std::vector<double> turning_sums(const Polyline& line, double step, std::size_t 
   const auto place = [&](std::size_t i) { return line.point_at(static_cast<double>(i) * step); };
   for (std::size_t i = 0; i < count; ++i) {
     double turn = 0.0;
-    if (i > 0 && i + 1 < count) {
-      const Vec2 in = place(i) - place(i - 1), out = place(i + 1) - place(i);
+    if (i + 1 < count) {
+      // who begins before a kink begins with the direction before it
+      const Vec2 in = i > 0 ? Vec2(place(i) - place(i - 1)) : line.direction_at(0.0);
+      const Vec2 out = place(i + 1) - place(i);
       turn = std::abs(std::atan2(cross(in, out), in.dot(out)));
     }
     sums[i + 1] = sums[i] + turn;
@@ -283,7 +285,7 @@ std::optional<std::pair<std::size_t, std::size_t>> turn_before(const std::vector
 bool straighten_folds(double step, const Cornering& cornering, std::vector<Vec2>& samples) {
   constexpr double kReversal = -0.35;  // cosine of a turn within kNear
   constexpr double kNear = 1.0;        // [m]
-  constexpr double kFarthest = 14.0;   // [m]
+  constexpr double kFarthest = 18.0;   // [m]
   constexpr double kNarrow = 1.2;      // [m]
   const auto farthest = static_cast<std::size_t>(kFarthest / step);
   const auto near = static_cast<std::size_t>(std::max(1.0, kNear / step));
@@ -353,8 +355,9 @@ struct Samples {
   }
 };
 
-/// Leads the path along points that stand for its samples, and its places with them.
-void lead_along(const std::vector<Vec2>& points, double step, Path& path) {
+/// Leads the path along points that stand for its samples, and its places with them. Returns how
+/// far along the path the points lie [m].
+std::vector<double> lead_along(const std::vector<Vec2>& points, double step, Path& path) {
   std::vector<double> along{0.0};
   for (std::size_t i = 1; i < points.size(); ++i)
     along.push_back(along[i - 1] + (points[i] - points[i - 1]).norm());
@@ -365,6 +368,28 @@ void lead_along(const std::vector<Vec2>& points, double step, Path& path) {
     place = along[i] + (index - static_cast<double>(i)) * (along[i + 1] - along[i]);
   });
   path.line = Polyline(without_flat_vertices(points));
+  return along;
+}
+
+/// How far to the left of each sample of a rounded line the one lies that it was made from [m].
+std::vector<double> middles_of(const std::vector<Vec2>& points, const std::vector<Vec2>& rounded) {
+  std::vector<double> middles(points.size(), 0.0);
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const Vec2 chord = rounded[i + 1] - rounded[i - 1];
+    middles[i] = cross(chord, points[i] - rounded[i]) / std::max(chord.norm(), 1e-9);
+  }
+  return middles;
+}
+
+/// Values at places, increasing from 0 [m], at equal steps instead: the farthest from 0 of each.
+std::vector<double> by_steps(const std::vector<double>& places, const std::vector<double>& values,
+                             double step) {
+  std::vector<double> farthest(static_cast<std::size_t>(places.back() / step) + 1, 0.0);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    double& here = farthest[static_cast<std::size_t>(places[i] / step)];
+    if (std::abs(values[i]) > std::abs(here)) here = values[i];
+  }
+  return farthest;
 }
 }  // namespace
 
@@ -390,7 +415,8 @@ void round_corners(const Cornering& cornering, Path& path) {
     const std::size_t window = std::min({static_cast<std::size_t>(width / step), i, count - i});
     rounded[i] = (sums[i + window + 1] - sums[i - window]) / static_cast<double>(2 * window + 1);
   }
-  lead_along(rounded, step, path);
+  const std::vector<double> along = lead_along(rounded, step, path);
+  path.lane_middle = by_steps(along, middles_of(points, rounded), Path::kProfileStep);
 }
 
 void move_stop_lines(const RoadNetwork& network, Path& path) {
@@ -432,6 +458,17 @@ const PathStretch& Path::stretch_at(double along) const {
       stretches.begin(), stretches.end(), along,
       [](double value, const PathStretch& stretch) { return value < stretch.from; });
   return after == stretches.begin() ? stretches.front() : *(after - 1);
+}
+
+Cut Path::cut_between(double from, double to) const {
+  Cut cut;
+  const auto first = static_cast<std::size_t>(std::max(from, 0.0) / kProfileStep);
+  const auto last = static_cast<std::size_t>(std::max(to, 0.0) / kProfileStep);
+  for (std::size_t i = first; i <= last && i < lane_middle.size(); ++i) {
+    cut.left = std::max(cut.left, -lane_middle[i]);
+    cut.right = std::max(cut.right, lane_middle[i]);
+  }
+  return cut;
 }
 
 double Path::profile_at(double along) const {

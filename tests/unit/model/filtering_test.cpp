@@ -57,7 +57,8 @@ TEST(PassingOffset, NobodyLikesToRideBesideTheLanesOfAJunction) {
   ASSERT_GT(stretch.room_right, 2.8);
   Surroundings around;
   look_around(here.model, here.road, here.scene, here.geometry.grid, own, 60.0, 8.0, around);
-  const double place = passing_offset(here.model, here.path(own), here.scene, around, own);
+  const double place =
+      passing_offset(here.model, here.road, here.path(own), here.scene, around, own);
   EXPECT_NEAR(place, -(1.6 - around.half_width - 0.15), 1e-9);
 }
 
@@ -93,7 +94,7 @@ class Filtering : public ::testing::Test {
     Surroundings around;
     look_around(here_.model, here_.road, here_.scene, here_.geometry.grid, rider_, 60.0, 8.0,
                 around);
-    return passing_offset(here_.model, here_.path(rider_), here_.scene, around, rider_);
+    return passing_offset(here_.model, here_.road, here_.path(rider_), here_.scene, around, rider_);
   }
   RoadScene here_{testing::read_plain_net(two_lanes())};
   std::size_t rider_ = 0;
@@ -172,7 +173,7 @@ TEST(FilteringBeforeAJunction, IsOnTheSideOfTheTurn) {
     here.update();
     Surroundings around;
     look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
-    return passing_offset(here.model, here.path(rider), here.scene, around, rider);
+    return passing_offset(here.model, here.road, here.path(rider), here.scene, around, rider);
   };
   EXPECT_NEAR(place("CE"), 1.6, 0.2) << "straight on: between the queues";
   EXPECT_LT(place("CS"), 1.3) << "to the right: within its lane";
@@ -197,11 +198,62 @@ TEST(FilteringBeforeAJunction, IsWhereThereIsRoomBehindIt) {
     here.update();
     Surroundings around;
     look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
-    return std::abs(passing_offset(here.model, here.path(rider), here.scene, around, rider));
+    return std::abs(
+        passing_offset(here.model, here.road, here.path(rider), here.scene, around, rider));
   };
   EXPECT_NEAR(place(2, 25.0), 1.75, 0.1) << "between the queues";
   EXPECT_LE(place(1, 25.0), 1.75 - 0.45 - 0.15 + 1e-9) << "within its lane";
   EXPECT_NEAR(place(1, 80.0), 1.75, 0.1) << "the junction is far away yet";
+}
+
+// who passed a queue at the kerb and then turned there went over the tip of the sidewalk
+TEST(FilteringBeforeAJunction, IsOffTheKerbWhereACornerIsRounded) {
+  PlainNet net;
+  net.nodes = "<node id='W' x='0' y='0'/><node id='M' x='200' y='0'/>";
+  net.edges = "<edge id='WM' from='W' to='M' numLanes='1' speed='13.89' width='3.5'/>";
+  RoadScene here{testing::read_plain_net(net)};
+  here.add("car", {"WM"}, 0, 0);
+  auto path = std::make_shared<Path>(here.path(0));
+  const AgentTypeId type = find_agent_type(here.model.types, "motorcycle");
+  const std::size_t rider = here.add(type, path, 0, 3);
+  auto place = [&](double along, double side) {
+    path->lane_middle.assign(200, 0.0);
+    path->lane_middle[150] = -0.5 * side;  // nearer to that side than the lane's middle
+    here.move(0, along + 5.0, -0.85 * side);
+    here.move(rider, along);
+    here.update();
+    Surroundings around;
+    look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
+    return std::abs(
+        passing_offset(here.model, here.road, here.path(rider), here.scene, around, rider));
+  };
+  constexpr double kKerb = -1.0;
+  EXPECT_NEAR(place(120.0, kKerb), 1.1, 0.1) << "beside the car";
+  EXPECT_LE(place(148.0, kKerb), 1.75 - 0.5 - 0.45 - 0.15 + 1e-9);
+  EXPECT_NEAR(place(153.0, kKerb), 1.1, 0.1) << "past the corner";
+  EXPECT_NEAR(place(148.0, -kKerb), 1.1, 0.1) << "to the middle of the road there is no kerb";
+}
+
+// a motorcycle that rode straight on passed another on its left, which turned left there: both came
+// to lie side by side, a hand's breadth in each other
+TEST(FilteringBeforeAJunction, IsNotOnTheSideToWhichThePassedOneTurns) {
+  const RoadNetwork network = testing::read_plain_net(testing::crossroads("priority"));
+  auto place = [&](const std::string& to, double speed, double before) {
+    RoadScene here(network);
+    const std::size_t passed = here.add("motorcycle", {"WC", to}, 0, speed, 0, -1, "WC_1");
+    const std::size_t rider = here.add("motorcycle", {"WC", "CE"}, 0, 9, 0, -1, "WC_1");
+    const double line = here.path(passed).links.front().stop_line;
+    here.move(passed, line - before, -0.8);
+    here.move(rider, line - before - 14.0);
+    here.update();
+    Surroundings around;
+    look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
+    return passing_offset(here.model, here.road, here.path(rider), here.scene, around, rider);
+  };
+  EXPECT_GT(place("CE", 4.0, 8.0), 0.2) << "on the left of who goes straight on";
+  EXPECT_LT(place("CN", 4.0, 8.0), 0.1) << "not of who turns left";
+  EXPECT_GT(place("CN", 4.0, 30.0), 0.2) << "far from where it turns";
+  EXPECT_GT(place("CN", 0.0, 8.0), 0.2) << "who stands in a queue is passed";
 }
 
 // one that filtered in the middle of the lane beside passed that lane's red light at its own green
@@ -216,7 +268,8 @@ TEST(FilteringBeforeAJunction, StaysOverTheEdgeOfItsLaneBeforeASignal) {
     here.update();
     Surroundings around;
     look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
-    return std::abs(passing_offset(here.model, here.path(rider), here.scene, around, rider));
+    return std::abs(
+        passing_offset(here.model, here.road, here.path(rider), here.scene, around, rider));
   };
   const double lane_and_quarter = 1.6 + 0.25 * 0.9 + 1e-9;
   EXPECT_GT(place("priority"), lane_and_quarter);
@@ -243,8 +296,8 @@ TEST(FilteringBeforeAJunction, SeesTheSignalBehindTheNextJunction) {
     here.update();
     Surroundings around;
     look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
-    const double place =
-        std::abs(passing_offset(here.model, here.path(rider), here.scene, around, rider));
+    const double place = std::abs(
+        passing_offset(here.model, here.road, here.path(rider), here.scene, around, rider));
     EXPECT_EQ(place > 1.6 + 0.25 * 0.9 + 1e-9, std::string(type) == "priority") << type;
   }
 }

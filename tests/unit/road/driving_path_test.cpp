@@ -340,6 +340,24 @@ TEST(RoundCorners, TurnsARightAngleAboutTheRadiusAskedFor) {
   EXPECT_LT(radius, 5.0);
 }
 
+TEST(RoundCorners, TellByHowMuchTheyAreCut) {
+  for (const double y : {40.0, -40.0}) {
+    Path path = path_of({{0, 0}, {40, 0}, {40, y}});
+    round_corners({2.5}, path);
+    const double middle = 0.5 * path.line.length();
+    const auto inner = [&](double from, double to) {
+      const Cut cut = path.cut_between(from, to);
+      EXPECT_NEAR(y > 0 ? cut.right : cut.left, 0.0, 1e-9) << "the outer side";
+      return y > 0 ? cut.left : cut.right;
+    };
+    const double most = (path.line.point_at(middle) - Vec2(40, 0)).norm();
+    EXPECT_NEAR(inner(middle - 5, middle + 5), most, 0.2);
+    EXPECT_LT(inner(middle - 5, middle - 1.5), 0.5 * most);
+    EXPECT_EQ(inner(0, middle - 10), 0.0);
+    EXPECT_EQ(inner(200, 210), 0.0) << "past its end";
+  }
+}
+
 // Lanes that overlap at a junction: the link between them leads back before it leads on.
 //   (0,0) ----------------------> (30,0)
 //              (22,0.5) <-------- '
@@ -363,6 +381,16 @@ TEST(RoundCorners, SmoothsKinksWithoutLeavingTheLine) {
   EXPECT_LT(farthest, 0.2);
   EXPECT_GT(farthest, 0.05);
   EXPECT_LT(sharpest, 0.09) << "within 2 m; 0.13 rad as it is drawn";
+}
+
+// A junction whose lanes overlap by a dozen metres: cars drove to its far end, round on a sidewalk
+// and back.
+TEST(RoundCorners, DrawsLongFoldsStraight) {
+  Path path = path_of({{0, 0}, {40, 0}, {28, 1}, {70, 1}});
+  round_corners({4.0, 4.5, 1.8}, path);
+  for (double s = 0.5; s < path.line.length(); s += 0.5)
+    EXPECT_GT(path.line.direction_at(s).x(), 0.5) << "at " << s;
+  EXPECT_LT(path.line.length(), 71.0);
 }
 
 TEST(RoundCorners, DrawsFoldsStraightAndCarriesPlacesOver) {
@@ -604,6 +632,16 @@ TEST(SpeedProfile, TakesAnArcAtTheComfortLimit) {
   EXPECT_NEAR(path.profile_at(0), 25, 1e-9);
   // speed is taken up again behind it: the profile only brakes ahead
   EXPECT_NEAR(path.profile_at(path.line.length()), 25, 1e-9);
+}
+
+// who was put on the road right before a kink came off it onto the sidewalk
+TEST(SpeedProfile, KnowsOfABendWhereItBegins) {
+  const Vec2 turned = direction_of(0.6);
+  Path path = path_of({{0, 0}, {0.4, 0}, Vec2(0.4, 0) + 60.0 * turned});
+  path.stretches.back().speed_limit = 14;
+  compute_speed_profile({}, path);
+  EXPECT_LT(path.profile_at(0), 7.0);
+  EXPECT_GT(path.profile_at(20), 13.0);
 }
 
 /// Speed that the bends of a line leave, halfway along it [m/s].
