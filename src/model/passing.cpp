@@ -60,11 +60,12 @@ struct Filtering {
   int turns;          ///< see turning_side
 };
 
-/// Does a user ahead turn across the place at `offset` beside it? Who stands lets others by.
+/// Does a user ahead turn across the place at `offset` right beside it? Who stands lets others by.
 bool turns_across(const Filtering& rider, const RoadUser& user, double offset) {
   constexpr double kStands = 1.0;  // [m/s]
+  constexpr double kBeside = 2.5;  // between the middles [m]
   const Path* path = rider.road.path(rider.scene.path[user.row]);
-  if (path == nullptr || user.speed < kStands ||
+  if (path == nullptr || user.speed < kStands || std::abs(offset - user.offset) > kBeside ||
       user.front < rider.around.along + rider.around.half_length)
     return false;
   const int side =
