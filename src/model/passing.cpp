@@ -211,12 +211,14 @@ struct Sides {
 /// there the path lies nearer to it than the middle of the lane does.
 Sides sides_of(const RoadNetwork& network, const Path& path, const Surroundings& around) {
   constexpr double kSteers = 1.0;  // it takes to get to another place beside the path [s]
+  constexpr double kSpare = 0.25;  // bends are smoothed by nearly as much [m]
   const PathStretch& here = path.stretch_at(around.along);
   const Cut cut = path.cut_between(around.along - around.half_length,
                                    around.along + around.half_length + kSteers * around.speed);
   Sides sides{here.room_left, here.room_right};
   double& at_kerb = network.left_hand ? sides.left : sides.right;
-  if (here.kerb < at_kerb + kOffEdge) at_kerb -= network.left_hand ? cut.left : cut.right;
+  if (here.kerb < at_kerb + kOffEdge)
+    at_kerb -= std::max((network.left_hand ? cut.left : cut.right) - kSpare, 0.0);
   return sides;
 }
 

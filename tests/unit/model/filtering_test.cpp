@@ -216,9 +216,9 @@ TEST(FilteringBeforeAJunction, IsOffTheKerbWhereACornerIsRounded) {
   auto path = std::make_shared<Path>(here.path(0));
   const AgentTypeId type = find_agent_type(here.model.types, "motorcycle");
   const std::size_t rider = here.add(type, path, 0, 3);
-  auto place = [&](double along, double side) {
+  auto place = [&](double along, double side, double cut = 0.75) {
     path->lane_middle.assign(200, 0.0);
-    path->lane_middle[150] = -0.5 * side;  // nearer to that side than the lane's middle
+    path->lane_middle[150] = -cut * side;  // nearer to that side than the lane's middle
     here.move(0, along + 5.0, -0.85 * side);
     here.move(rider, along);
     here.update();
@@ -231,6 +231,7 @@ TEST(FilteringBeforeAJunction, IsOffTheKerbWhereACornerIsRounded) {
   EXPECT_NEAR(place(120.0, kKerb), 1.1, 0.1) << "beside the car";
   EXPECT_LE(place(148.0, kKerb), 1.75 - 0.5 - 0.45 - 0.15 + 1e-9);
   EXPECT_NEAR(place(153.0, kKerb), 1.1, 0.1) << "past the corner";
+  EXPECT_NEAR(place(148.0, kKerb, 0.2), 1.1, 0.1) << "a bend smoothed by as much as any is";
   EXPECT_NEAR(place(148.0, -kKerb), 1.1, 0.1) << "to the middle of the road there is no kerb";
 }
 
