@@ -30,14 +30,9 @@ bool is_near_junction(const Path& path, const Surroundings& around) {
   });
 }
 
-/// The side to which somebody turns who is on a junction, or will be soon at its speed [m/s]: 1
-/// left, -1 right, 0 neither.
-int turning_side(const RoadNetwork& network, const Path& path, double along, double speed) {
-  constexpr double kSoon = 3.0, kNear = 6.0;  // [s], [m]
-  const auto link = path.link_from(along);
-  if (link == path.links.end() || link->stop_line - along > std::max(kNear, kSoon * speed))
-    return 0;
-  switch (network.connection(link->connection).direction) {
+/// The side to which a link turns: 1 left, -1 right, 0 neither.
+int side_of_turn(const RoadNetwork& network, const PathLink& link) {
+  switch (network.connection(link.connection).direction) {
     case 'l':
     case 'L':
     case 't':
@@ -48,6 +43,15 @@ int turning_side(const RoadNetwork& network, const Path& path, double along, dou
     default:
       return 0;
   }
+}
+
+/// Likewise of somebody who is on a junction, or will be soon at its speed [m/s].
+int turning_side(const RoadNetwork& network, const Path& path, double along, double speed) {
+  constexpr double kSoon = 3.0, kNear = 6.0;  // [s], [m]
+  const auto link = path.link_from(along);
+  const bool soon =
+      link != path.links.end() && link->stop_line - along <= std::max(kNear, kSoon * speed);
+  return soon ? side_of_turn(network, *link) : 0;
 }
 
 /// A narrow vehicle among those around it.
@@ -168,11 +172,11 @@ void keep_to_turning_side(const RoadNetwork& network, const Path& path, const Su
                           double& most_left, double& most_right) {
   const auto link = path.link_from(around.along);
   if (link == path.links.end() || link->stop_line - around.along > kBeforeJunction) return;
-  const char turn = network.connection(link->connection).direction;
+  const int side = side_of_turn(network, *link);
   const Lane& lane = network.lane(path.stretch_at(around.along).lane);
   const double within = std::max(0.5 * lane.width - around.half_width, 0.0);
-  if (turn == 'r' || turn == 'R') most_left = std::min(most_left, within);
-  if (turn == 'l' || turn == 'L' || turn == 't') most_right = std::max(most_right, -within);
+  if (side < 0) most_left = std::min(most_left, within);
+  if (side > 0) most_right = std::max(most_right, -within);
 }
 
 /// Before a signal who filters stays over the edge of its own lane, whose light it goes by: the one

@@ -383,7 +383,7 @@ TEST(RoundCorners, SmoothsKinksWithoutLeavingTheLine) {
   EXPECT_LT(sharpest, 0.09) << "within 2 m; 0.13 rad as it is drawn";
 }
 
-// A junction whose lanes overlap by a dozen metres: cars drove to its far end, round on a sidewalk
+// A junction whose lanes overlap by fifteen metres: cars drove to its far end, round on a sidewalk
 // and back.
 TEST(RoundCorners, DrawsLongFoldsStraight) {
   Path path = path_of({{0, 0}, {40, 0}, {25, 1}, {70, 1}});
