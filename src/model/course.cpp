@@ -124,7 +124,9 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
   const double half_width =
       half_extent(scene, course.row, left_of(direction_of(scene.heading[course.row])));
   const double over = scene.overtaking_room[course.row];
-  const double over_left = model.road.left_hand ? 0.0 : over, over_right = over - over_left;
+  const bool walks = course.path.walking;
+  const double over_left = !walks && model.road.left_hand ? 0.0 : over;
+  const double over_right = walks ? over : over - over_left;
   double offset = std::clamp(scene.lateral_aim[course.row],
                              -std::max(target.room_right + over_right - half_width - 0.1, 0.0),
                              std::max(target.room_left + over_left - half_width - 0.1, 0.0));

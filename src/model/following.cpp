@@ -22,8 +22,9 @@ double following_acceleration(const AgentType& type, double speed, double free_s
                               double leader_speed, double headway_factor) {
   const double a = type.max_acceleration, b = type.comfortable_deceleration;
   const double ratio = speed / std::max(free_speed, 0.1);
-  double acceleration = a * (1.0 - ratio * ratio * ratio * ratio);
-  // slowing for a lower limit is done at ease: IDM's fourth power would brake like for a wall
+  const double fourth = ratio * ratio * ratio * ratio;
+  double acceleration = a * (1.0 - fourth * fourth);
+  // slowing for a lower limit is done at ease: that power would brake like for a wall
   acceleration = std::max(acceleration, -b);
   if (std::isfinite(gap)) {
     if (gap <= 0.05) return -type.max_deceleration;

@@ -15,9 +15,9 @@ double kept_headway(const AgentType& type, double speed);
 /// 2003, "Memory effects in microscopic traffic models"): capacity drops where a road breaks down.
 double headway_memory(double since_standing);
 
-/// Acceleration of the Intelligent Driver Model [m/s^2] (Treiber, Hennecke, Helbing 2000), within
-/// the type's limits: towards `free_speed` behind something `gap` metres ahead that moves at
-/// `leader_speed`. gap may be infinite (free road) or <= 0 (brakes fully). This shapes the
+/// Acceleration of the Intelligent Driver Model [m/s^2] (Treiber, Hennecke, Helbing 2000; exponent
+/// 8), within the type's limits: towards `free_speed` behind something `gap` metres ahead that
+/// moves at `leader_speed`. gap may be infinite (free road) or <= 0 (brakes fully). This shapes the
 /// contextual speed limit of an agent in a lane; avoidance stays GAMMA's. Its time gap is
 /// kept_headway times `headway_factor`, the agent's own.
 double following_acceleration(const AgentType& type, double speed, double free_speed, double gap,

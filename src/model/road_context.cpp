@@ -62,7 +62,7 @@ void note_halt(const RoadNetwork& road, const Course& course, Scene& scene) {
 /// The throttle goes down at ease where the vehicle drives: a cap on the jerk that following and
 /// avoidance leave, however they take turns. Brakes and the start are not eased.
 double eased(const Scene& scene, const Course& course, double acceleration, double dt) {
-  constexpr double kJerk = 2.8;    // [m/s^3]
+  constexpr double kJerk = 2.4;    // [m/s^3]
   constexpr double kBraked = 0.0;  // the throttle is taken up from here at the least [m/s^2]
   constexpr double kDrives = 8.0;  // [m/s]
   if (course.speed < kDrives) return acceleration;

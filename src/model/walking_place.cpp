@@ -12,9 +12,12 @@ constexpr double kFarthest = 1.5;   ///< from the path where nothing bounds the 
 constexpr double kRound = 4.0;      ///< likewise round a vehicle that stands in it [m]
 constexpr double kPatience = 4.0;   ///< before who stands in the way [s]
 constexpr double kReach = 1.5;      ///< aside from where the body is [m]
+constexpr double kToSides = 0.1;    ///< of the way [m]
 constexpr double kMargin = 0.06;    ///< kept to the sides [m]
 constexpr double kStepCost = 0.15;  ///< of a place away from the body [m/s a m]
 constexpr double kLikeCost = 0.15;  ///< of a place away from the liked one [m/s a m]
+constexpr double kShut = 0.3;       ///< share of it with which the way is shut
+constexpr double kOpen = 0.6;       ///< likewise with which it is open again
 constexpr double kFree = 0.95;      ///< share of the speed it likes that is as good as all of it
 constexpr double kKeeps = 0.1;      ///< worth changing one's mind for [m/s]
 
@@ -73,27 +76,30 @@ void keep_to_waiting_room(const Path& path, double along, double& most_left, dou
   }
 }
 
-}  // namespace
+/// How far to either side of its path somebody may be [m].
+struct Sides {
+  double left = 0.0;
+  double right = 0.0;
+};
 
-double walking_place(const Path& path, const Scene& scene, Surroundings& around, std::size_t row) {
-  // those left to avoidance are not weighed
-  std::erase_if(around.users, [&](const RoadUser& user) {
-    return meeting_with(scene, user) == Meeting::IsLeftToAvoidance;
-  });
-  const bool stands =
-      std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
-        return user.front > around.along && meeting_with(scene, user) == Meeting::StandsInTheWay;
-      });
-  const double farthest = stands ? kRound : kFarthest, reach = stands ? 2.0 * kRound : kReach;
+Sides sides_of_way(const Path& path, const Surroundings& around) {
   const PathStretch& here = path.stretch_at(around.along);
-  const double half = around.half_width + 0.1;
-  // who has waited for long before a vehicle that stands across its way steps off the sidewalk
-  const bool off = stands && scene.waiting_time[row] > kPatience;
-  double most_left = off ? farthest : std::max(std::min(here.room_left - half, farthest), 0.0);
-  double most_right = off ? -farthest : std::min(std::max(half - here.room_right, -farthest), 0.0);
+  const double half = around.half_width + kToSides;
+  return {std::max(here.room_left - half, 0.0), std::max(here.room_right - half, 0.0)};
+}
+
+double free_pace(const Path& path, const Scene& scene, const Surroundings& around,
+                 std::size_t row) {
+  return std::min(path.profile_at(around.along), scene.preferred_speed[row]);
+}
+
+/// The best of the places between two sides, no further than `reach` from the body [m].
+double best_place(const Path& path, const Scene& scene, const Surroundings& around, std::size_t row,
+                  const Sides& sides, double reach) {
+  double most_left = sides.left, most_right = -sides.right;
   keep_to_waiting_room(path, around.along, most_left, most_right);
   const double liked = std::clamp(scene.path_offset[row], most_right, most_left);
-  const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
+  const double free_speed = free_pace(path, scene, around, row);
   if (hoped_pace(scene, around, liked, free_speed) > kFree * free_speed) return liked;
   auto worth = [&](double place) {
     return hoped_pace(scene, around, place, free_speed) -
@@ -114,6 +120,38 @@ double walking_place(const Path& path, const Scene& scene, Surroundings& around,
     weigh(liked - aside);
   }
   return best;
+}
+
+}  // namespace
+
+double room_off_the_way(const Path& path, const Surroundings& around, double place) {
+  constexpr double kBeyond = 1.0;  // the place itself, so that nobody slows down towards it [m]
+  const Sides way = sides_of_way(path, around);
+  const double off = std::max({place - way.left, -place - way.right, 0.0});
+  return off > 0.0 ? off + kBeyond : 0.0;
+}
+
+double walking_place(const Path& path, const Scene& scene, Surroundings& around, std::size_t row) {
+  // those left to avoidance are not weighed
+  std::erase_if(around.users, [&](const RoadUser& user) {
+    return meeting_with(scene, user) == Meeting::IsLeftToAvoidance;
+  });
+  const bool stands =
+      std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+        return user.front > around.along && meeting_with(scene, user) == Meeting::StandsInTheWay;
+      });
+  const double farthest = stands ? kRound : kFarthest, reach = stands ? 2.0 * kRound : kReach;
+  const Sides way = sides_of_way(path, around);
+  const double on_it =
+      best_place(path, scene, around, row,
+                 {std::min(way.left, farthest), std::min(way.right, farthest)}, reach);
+  // who has waited for long before a vehicle that shuts its way steps off that, until it is past
+  const bool is_off = scene.overtaking_room[row] > 0.0;
+  if (!stands || (!is_off && scene.waiting_time[row] <= kPatience)) return on_it;
+  const double free_speed = free_pace(path, scene, around, row);
+  if (hoped_pace(scene, around, on_it, free_speed) > (is_off ? kOpen : kShut) * free_speed)
+    return on_it;
+  return best_place(path, scene, around, row, {kRound, kRound}, reach);
 }
 
 }  // namespace sumogamma

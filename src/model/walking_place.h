@@ -12,4 +12,7 @@ namespace sumogamma {
 /// who are left to avoidance out of `around`.
 double walking_place(const Path& path, const Scene& scene, Surroundings& around, std::size_t row);
 
+/// How far a place reaches off the way of who is on foot [m], for scene.overtaking_room.
+double room_off_the_way(const Path& path, const Surroundings& around, double place);
+
 }  // namespace sumogamma

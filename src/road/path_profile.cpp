@@ -41,11 +41,12 @@ struct BendView {
   double steers;  ///< [s] to each side in which a driver steers into a bend or out of it
 };
 
-/// Finer, and what is left of the map's kinks counts as bends; but two-wheelers turn on less, and
-/// swing off it where they don't slow down for that.
+/// For bicycles finer, and what is left of the map's kinks counts as bends: they turn on less, in
+/// hooks of cycle paths, and swing off these where they don't slow down for that. Motorcycles ride
+/// where cars drive, and no slower.
 BendView bend_view(double turning_radius) {
-  constexpr double kStepInRadii = 0.53;
-  if (turning_radius <= 0.0 || turning_radius > kTight) return {2.0, 0.6};
+  constexpr double kStepInRadii = 0.53, kBicycle = 1.5;  // [m]
+  if (turning_radius <= 0.0 || turning_radius > kBicycle) return {2.0, 0.6};
   return {kStepInRadii * turning_radius, 0.25};
 }
 

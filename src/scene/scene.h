@@ -57,7 +57,8 @@ struct Scene {
       path_offset;  ///< where beside its path the agent likes to be, positive left [m]
   std::vector<double> passing_offset;   ///< where it means to be at present [m]
   std::vector<double> lateral_aim;      ///< on the way from one to the other [m]
-  std::vector<double> overtaking_room;  ///< over the middle of the road that it may use now [m]
+  std::vector<double> overtaking_room;  ///< over the middle of the road that it may use now [m];
+                                        ///< on foot off its way, round a vehicle that stands
   std::vector<LaneId> merge_to;         ///< lane into which it has to change soon, kNoLane: none
   std::vector<double> gate;  ///< along its path, where it waits for a gap there; infinite: free
   std::vector<double> blocked_time;  ///< [s] for which it has stood although no rule holds it

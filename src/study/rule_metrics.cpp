@@ -370,6 +370,12 @@ void RuleMonitor::judge_crossing(const Row& agent, State& state, const RoadState
     amid = hit.along > kNearEnd && hit.along < lane.centerline.length() - kNearEnd;
     if (on == state.on_crossing) break;
   }
+  // who goes beside it, round somebody who stands over it, has set out when its way got there
+  const LaneId own = agent.scene.lane[agent.row].lane;
+  if (on == kNoLane && own != kNoLane && network_.lane(own).kind == LaneKind::Crossing) {
+    if (state.at_end_of != own) state.stepped_on_red = shows_red(network_.lane(own), road);
+    at_end_of = own;
+  }
   if (on != kNoLane && on != state.on_crossing) {
     const Lane& lane = network_.lane(on);
     const auto link =

@@ -25,6 +25,12 @@ TEST(FollowingAcceleration, OnAFreeRoadReachesTheSpeedAndKeepsIt) {
   EXPECT_NEAR(speed, 13.9, 0.02);
 }
 
+// with the fourth power 0.59 of it were left at four fifths of the speed
+TEST(FollowingAcceleration, KeepsMostOfItUpToNearTheSpeed) {
+  EXPECT_GT(following_acceleration(car(), 0.8 * 13.9, 13.9, kFree, 0),
+            0.8 * car().max_acceleration);
+}
+
 TEST(FollowingAcceleration, SlowsForALowerLimitAtEase) {
   EXPECT_DOUBLE_EQ(following_acceleration(car(), 30, 8, kFree, 0), -car().comfortable_deceleration);
 }

@@ -203,5 +203,52 @@ TEST_F(WalkingPlaceTest, WhoComesUpToABicycleThatStandsInTheWayWalksRoundIt) {
   }
 }
 
+// nor does who has waited for something else, a light or a gap, while its way leads past what
+// stands
+TEST_F(WalkingPlaceTest, WhoHasRoomBesideAVehicleStaysOnTheSidewalk) {
+  const std::size_t own = walker(10, 0, 0.2);
+  const std::size_t bicycle = walker(14, 0.5, 0.0);
+  here_.scene.path[bicycle] = kNoPath;
+  here_.scene.type[bicycle] = find_agent_type(here_.model.types, "bicycle");
+  here_.scene.footprint[bicycle] = box_footprint(1.7, 0.65);
+  here_.scene.heading[bicycle] = 0.5 * kPi;
+  here_.scene.waiting_time[own] = 50;
+  EXPECT_LT(place_of(own), -0.6);
+  EXPECT_GE(place_of(own), -1.5 + 0.25 + 0.1 - 1e-9);
+}
+
+// the way round a car whose tail stood over a crossing led off it by 80 cm: the place was chosen,
+// and the sub-goal stayed on the crossing, before the tail
+TEST_F(WalkingPlaceTest, WhoFindsAVehicleAcrossAllOfItsWayStepsOffItAfterAWhile) {
+  const std::size_t own = walker(10, 0, 1.3);
+  const std::size_t car = walker(14, 0.5, 0.0);
+  here_.scene.path[car] = kNoPath;
+  here_.scene.type[car] = find_agent_type(here_.model.types, "car");
+  here_.scene.footprint[car] = box_footprint(4.5, 1.8);
+  here_.scene.heading[car] = 0.5 * kPi;
+  Workspace work;
+  const Vec2& place = here_.scene.position[own];
+  double time = 0, farthest = 0;
+  auto walk_to = [&](double x, double until) {
+    for (; time < until && place.x() < x; time += 0.05) {
+      testing::let_all_look(here_);
+      here_.update();
+      const Vec2 asked = gamma_velocity(here_.model, here_.scene, here_.geometry, own,
+                                        here_.scene.behavior[own], work);
+      place_body(track_velocity(here_.model, here_.scene, own, asked, 0.05), here_.scene, own);
+      count_standing(0.05, Kinematics::Holonomic, here_.scene, own);
+      farthest = std::min(farthest, place.y());
+    }
+  };
+  walk_to(17, 4);
+  EXPECT_GT(farthest, -1.5) << "on the sidewalk at first";
+  walk_to(17, 30);
+  EXPECT_LT(time, 15.0);
+  EXPECT_LT(farthest, -1.9);
+  EXPECT_GT(farthest, -3.0);
+  walk_to(25, 30);
+  EXPECT_GT(place.y(), -1.5) << "and is back on it";
+}
+
 }  // namespace
 }  // namespace sumogamma

@@ -288,6 +288,23 @@ TEST_F(Rules, WhoGoesRoundAVanThatStandsOverACrossingIsStillOnIt) {
   EXPECT_EQ(counts().red_light_crossings, 0u);
 }
 
+// a van stood at the begin of a crossing: who set out at green went round it, and came onto the
+// crossing when that was red
+TEST_F(Rules, WhoGoesRoundAVanFromTheKerbOnHasSetOutWhenItLeftThat) {
+  for (const bool at_green : {true, false}) {
+    scene_ = Scene{};
+    add("pedestrian", {104, 2.6}, {0, -1.3});
+    scene_.lane[0].lane = net_.lane_by_name.at(":C_c0_0");
+    road_.signal_states = {at_green ? "rG" : "rr"};
+    run(1);
+    road_.signal_states = {"rr"};
+    run(1);
+    scene_.velocity[0] = Vec2(-1, 0);
+    run(3);
+    EXPECT_EQ(counts().red_light_crossings, at_green ? 0u : 1u);
+  }
+}
+
 TEST_F(Rules, PedestrianGrazingTheCornerOfACrossing) {
   add("pedestrian", {98, 1.8}, {1.3, 0});
   run(4);
