@@ -12,8 +12,8 @@ namespace sumogamma {
 /// that. Takes those who are left to avoidance out of `around`.
 double walking_place(const Path& path, const Scene& scene, Surroundings& around, std::size_t row);
 
-/// Room beyond the sides of its way that somebody on foot needs to be at a place [m], a metre beyond
-/// the place; 0 on its way. See scene.overtaking_room.
+/// Room beyond the sides of its way that somebody on foot needs to be at a place [m], a metre
+/// beyond the place; 0 on its way. See scene.overtaking_room.
 double room_off_the_way(const Path& path, const Surroundings& around, double place);
 
 }  // namespace sumogamma
