@@ -35,6 +35,23 @@ class WalkingPlaceTest : public ::testing::Test {
     here_.move(row, east ? x : 60 - x, east ? offset : -offset);
     return row;
   }
+  /// A vehicle with a body that stands across the way, its middle at x [m] and `offset` to the
+  /// left.
+  void put_across(const std::string& type, const Footprint& body, double x, double offset) {
+    const std::size_t row = walker(x, offset, 0.0);
+    here_.scene.path[row] = kNoPath;
+    here_.scene.type[row] = find_agent_type(here_.model.types, type);
+    here_.scene.footprint[row] = body;
+    here_.scene.heading[row] = 0.5 * kPi;
+  }
+  /// A tick of one who walks.
+  void walk(std::size_t row) {
+    testing::let_all_look(here_);
+    here_.update();
+    const Vec2 asked = gamma_velocity(here_.model, here_.scene, here_.geometry, row,
+                                      here_.scene.behavior[row], work_);
+    place_body(track_velocity(here_.model, here_.scene, row, asked, 0.05), here_.scene, row);
+  }
   /// Over the right side of the eastward way, up to `top`.
   void put_wall(double west, double east, double top) {
     Obstacle wall;
@@ -50,6 +67,7 @@ class WalkingPlaceTest : public ::testing::Test {
   }
   RoadScene here_{sidewalk()};
   Surroundings around_;
+  Workspace work_;
 };
 
 TEST_F(WalkingPlaceTest, WhoIsAloneWalksWhereItLikesToBe) {
@@ -185,20 +203,9 @@ TEST_F(WalkingPlaceTest, WhoComesUpToABicycleThatStandsInTheWayWalksRoundIt) {
   for (const double across : {-0.6, -0.4}) {  // 1.25 and 1.05 m are left
     here_ = RoadScene(sidewalk());
     const std::size_t own = walker(10, 0, 1.3);
-    const std::size_t bicycle = walker(15, across, 0.0);
-    here_.scene.path[bicycle] = kNoPath;
-    here_.scene.type[bicycle] = find_agent_type(here_.model.types, "bicycle");
-    here_.scene.footprint[bicycle] = box_footprint(1.7, 0.65);
-    here_.scene.heading[bicycle] = 0.5 * kPi;
-    Workspace work;
+    put_across("bicycle", box_footprint(1.7, 0.65), 15, across);
     double time = 0;
-    for (; time < 20 && here_.scene.position[own].x() < 17; time += 0.05) {
-      testing::let_all_look(here_);
-      here_.update();
-      const Vec2 asked = gamma_velocity(here_.model, here_.scene, here_.geometry, own,
-                                        here_.scene.behavior[own], work);
-      place_body(track_velocity(here_.model, here_.scene, own, asked, 0.05), here_.scene, own);
-    }
+    for (; time < 20 && here_.scene.position[own].x() < 17; time += 0.05) walk(own);
     EXPECT_LT(time, 7.0) << across;
   }
 }
@@ -207,11 +214,7 @@ TEST_F(WalkingPlaceTest, WhoComesUpToABicycleThatStandsInTheWayWalksRoundIt) {
 // stands
 TEST_F(WalkingPlaceTest, WhoHasRoomBesideAVehicleStaysOnTheSidewalk) {
   const std::size_t own = walker(10, 0, 0.2);
-  const std::size_t bicycle = walker(14, 0.5, 0.0);
-  here_.scene.path[bicycle] = kNoPath;
-  here_.scene.type[bicycle] = find_agent_type(here_.model.types, "bicycle");
-  here_.scene.footprint[bicycle] = box_footprint(1.7, 0.65);
-  here_.scene.heading[bicycle] = 0.5 * kPi;
+  put_across("bicycle", box_footprint(1.7, 0.65), 14, 0.5);
   here_.scene.waiting_time[own] = 50;
   EXPECT_LT(place_of(own), -0.6);
   EXPECT_GE(place_of(own), -1.5 + 0.25 + 0.1 - 1e-9);
@@ -221,21 +224,12 @@ TEST_F(WalkingPlaceTest, WhoHasRoomBesideAVehicleStaysOnTheSidewalk) {
 // and the sub-goal stayed on the crossing, before the tail
 TEST_F(WalkingPlaceTest, WhoFindsAVehicleAcrossAllOfItsWayStepsOffItAfterAWhile) {
   const std::size_t own = walker(10, 0, 1.3);
-  const std::size_t car = walker(14, 0.5, 0.0);
-  here_.scene.path[car] = kNoPath;
-  here_.scene.type[car] = find_agent_type(here_.model.types, "car");
-  here_.scene.footprint[car] = box_footprint(4.5, 1.8);
-  here_.scene.heading[car] = 0.5 * kPi;
-  Workspace work;
+  put_across("car", box_footprint(4.5, 1.8), 14, 0.5);
   const Vec2& place = here_.scene.position[own];
   double time = 0, farthest = 0;
   auto walk_to = [&](double x, double until) {
     for (; time < until && place.x() < x; time += 0.05) {
-      testing::let_all_look(here_);
-      here_.update();
-      const Vec2 asked = gamma_velocity(here_.model, here_.scene, here_.geometry, own,
-                                        here_.scene.behavior[own], work);
-      place_body(track_velocity(here_.model, here_.scene, own, asked, 0.05), here_.scene, own);
+      walk(own);
       count_standing(0.05, Kinematics::Holonomic, here_.scene, own);
       farthest = std::min(farthest, place.y());
     }
