@@ -206,11 +206,6 @@ double farthest_right(double room, double half_width) {
   return std::min(half_width + kOffEdge - room, 0.0);
 }
 
-/// What a path leaves to its sides [m].
-struct Sides {
-  double left = 0, right = 0;
-};
-
 /// What the stretch leaves on which a body is, less at the kerb where a corner is rounded ahead:
 /// there the path lies nearer to it than the middle of the lane does.
 Sides sides_of(const RoadNetwork& network, const Path& path, const Surroundings& around) {

@@ -20,6 +20,11 @@ struct RoadUser {
   std::uint32_t row = 0;
 };
 
+/// What there is to the sides of a path, both positive [m].
+struct Sides {
+  double left = 0, right = 0;
+};
+
 /// An agent and whoever is on the road around it.
 struct Surroundings {
   double along = 0, offset = 0;  ///< the agent's centre [m]

@@ -77,11 +77,6 @@ void keep_to_waiting_room(const Path& path, double along, double& most_left, dou
 }
 
 /// How far to either side of its path somebody may be [m].
-struct Sides {
-  double left = 0.0;
-  double right = 0.0;
-};
-
 Sides sides_of_way(const Path& path, const Surroundings& around) {
   const PathStretch& here = path.stretch_at(around.along);
   const double half = around.half_width + kToSides;
