@@ -22,11 +22,16 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
   ranges_.resize(model.road.connections.size());
   approaches_.clear();
   waiting_.resize(scene.size());
-  constexpr double kPatience = 3.0;  // [s]
+  constexpr double kPatience = 3.0, kShuffles = 8.0;  // [s]
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const RoadContext& context = scene.context[row];
-    waiting_[row] = {context.reason,       context.foe,     scene.halted_for[row],
-                     scene.halted_at[row], context.to_halt, scene.blocked_time[row] > kPatience};
+    // who is on foot shuffles before what shuts its way, and never stands for long
+    const bool shuffles =
+        type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic &&
+        context.reason == LimitReason::None && scene.waiting_time[row] > kShuffles;
+    waiting_[row] = {context.reason,        context.foe,
+                     scene.halted_for[row], scene.halted_at[row],
+                     context.to_halt,       shuffles || scene.blocked_time[row] > kPatience};
   }
 
   for (std::size_t row = 0; row < scene.size(); ++row) {

@@ -43,6 +43,7 @@ constexpr double kTakenFor = 10.0;    // is waited for who stands there [s]
 constexpr double kHesitates = 2.0;    // [s]
 constexpr double kCloses = 0.5;       // of the gap in a second
 constexpr double kFarAside = 0.8;     // [m]
+constexpr double kLaneBeside = 4.5;   // [m]
 constexpr double kCrawl = 1.0;        // [m/s]
 constexpr double kHaltsBefore = 0.5;  // who leaves the way for a nose [m]
 constexpr double kPatience = 6.0;     // with somebody on foot who stands in the way [s]
@@ -184,7 +185,10 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     if ((scene.position[other] - position).dot(tangent) < -reach * 0.3 - 10.0) return;
     const PolylinePosition place =
         path->line.project(scene.position[other], along - 2.0 * kAbreast, along + reach);
-    if (place.distance > own_half_width + scene.footprint[other].radius + margin) return;
+    // who is narrow and waits for a gap from the far side of the lane beside is seen, too
+    if (place.distance > own_half_width + scene.footprint[other].radius + margin &&
+        (place.distance > kLaneBeside || !changes_into_way(*path, scene, row, other, place.along)))
+      return;
     // of two abreast just one is ahead: close together the one with its nose ahead
     const bool close = near_each_other(scene, row, other);
     const double ahead_by = close ? nose_lead(scene, row, other) : place.along - along;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/oriented_box.h"
 #include "model/following.h"
 #include "model/merging.h"
 #include "model/occupation.h"
@@ -204,7 +205,9 @@ struct Judge : RoadView {
         (!foe.stands || waiting.reason == LimitReason::Yield) &&
         scene.time - lights_since() < kLetsClear)
       return Verdict::Blocks;
-    if (waits_for_us && !foe_inside && noses_out(zone, foe)) return Verdict::Free;
+    if (waits_for_us && !foe_inside && (noses_out(zone, foe) || goes_first(zone, foe)))
+      return Verdict::Free;
+    if (!foe_inside && !zone.yields && lets_go_at_green(zone, foe)) return Verdict::Blocks;
     if (waits_for_us) return !zone.yields && !foe_inside ? Verdict::Held : waiting_verdict(foe);
     // on foot one walks round what stands on the crossing, on wheels past what stands beside the
     // way
@@ -229,7 +232,7 @@ struct Judge : RoadView {
                                0.7 * foe_type.max_deceleration;
       return blocks_if(vulnerable && unstoppable && foe_type.kinematics != Kinematics::Holonomic);
     }
-    if (steps_out(zone, foe) || noses_out(zone, foe)) return Verdict::Free;
+    if (steps_out(zone, foe) || noses_out(zone, foe) || goes_first(zone, foe)) return Verdict::Free;
     return Verdict::Blocks;
   }
 
@@ -308,6 +311,35 @@ struct Judge : RoadView {
     constexpr double kLong = 45.0;  // [s]
     return !on_foot(row) && scene.halted_for[row] == its &&
            scene.time - scene.halted_at[row] > kLong;
+  }
+  /// Has a cyclist stood at the line before its light since before the last green, and green has
+  /// begun again, or is it past the line by now? Who turns left out of a lane at the kerb crosses
+  /// the lanes beside, which have the same green.
+  bool has_missed_green(std::size_t row, ConnectionId its, double front) const {
+    constexpr double kCycle = 75.0, kBegins = 3.0;  // [s]
+    constexpr double kCyclist = 10.0;               // at the most [m/s]
+    const Connection& link_of = model.road.connection(its);
+    if (link_of.signal == kNoSignal || scene.halted_for[row] != its ||
+        scene.time - scene.halted_at[row] < kCycle || on_foot(row) ||
+        type_of(model.types, scene.type[row]).max_speed > kCyclist)
+      return false;
+    const char signal = road.signal(link_of);
+    return front > 0.0 || (!is_red(signal) && !is_amber(signal) &&
+                           scene.time - signal_since(road, link_of, scene.time) < kBegins);
+  }
+  /// Does the traveller go first now, at a light, before one that need not brake hard for it?
+  bool goes_first(const ConflictZone& zone, const Approach& foe) const {
+    return has_missed_green(traveller.row, link.connection, -to_line()) && !on_foot(foe.row) &&
+           !at_red && asks_little_of(zone, foe);
+  }
+  /// Does a driver let such a one go first?
+  bool lets_go_at_green(const ConflictZone& zone, const Approach& foe) const {
+    const LimitReason why = approaches.waiting(foe.row).reason;
+    return !on_foot(traveller.row) && has_missed_green(foe.row, zone.foe, foe.front) &&
+           !has_missed_green(traveller.row, link.connection, -to_line()) &&
+           (why == LimitReason::Yield || why == LimitReason::None) &&
+           deceleration_to_stop(traveller.speed, link.stop_line + zone.begin - traveller.front) <
+               kAsks;
   }
   /// Has neither of the two a light?
   bool by_themselves(const ConflictZone& zone) const {
@@ -656,17 +688,29 @@ bool stands_beside(const RoadView& view, const Traveller& traveller, const PathL
                    double begin, double end, const Approach& foe) {
   constexpr double kSide = 0.25, kStep = 0.5;  // [m]
   const Scene& scene = view.scene;
-  const Polyline& way = view.road.path(scene.path[traveller.row])->line;
-  const Vec2 forward = direction_of(scene.heading[foe.row]);
-  const Vec2 half(half_extent(scene, foe.row, forward),
-                  half_extent(scene, foe.row, left_of(forward)));
-  const double own_half =
-      half_extent(scene, traveller.row, left_of(direction_of(scene.heading[traveller.row])));
-  for (double along = begin; along <= end; along += kStep) {
-    const Vec2 place =
-        to_body(Vec2(way.point_at(link.stop_line + along) - scene.position[foe.row]), forward);
-    const Vec2 away = (place.cwiseAbs() - half).cwiseMax(0.0);
-    if (away.norm() < own_half + kSide) return false;
+  const std::size_t row = traveller.row;
+  const Polyline& way = view.road.path(scene.path[row])->line;
+  const auto half_of = [&](std::size_t of, const Vec2& forward) {
+    return Vec2(half_extent(scene, of, forward), half_extent(scene, of, left_of(forward)));
+  };
+  const Vec2 theirs = direction_of(scene.heading[foe.row]);
+  const OrientedBox body{scene.position[foe.row], theirs, half_of(foe.row, theirs)};
+  const Vec2 half = half_of(row, direction_of(scene.heading[row]));
+  // the middle follows the way, the rear axle the middle: in a bend the nose swings out
+  const double axle = type_of(view.model.types, scene.type[row]).rear_axle_to_center;
+  double along = scene.path_along[row];
+  double heading = scene.heading[row];
+  const double settles = link.stop_line + begin - 2.0 * traveller.length;
+  if (along < settles) {
+    along = settles;
+    heading = heading_of(way.direction_at(settles));
+  }
+  for (; along <= link.stop_line + end; along += kStep) {
+    const Vec2 forward = direction_of(heading);
+    if (along >= link.stop_line + begin &&
+        separation({way.point_at(along), forward, half}, body) < kSide)
+      return false;
+    heading += kStep * cross(forward, way.direction_at(along)) / std::max(axle, kStep);
   }
   return true;
 }

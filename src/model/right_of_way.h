@@ -26,8 +26,8 @@ struct Traveller {
 /// Signals, priority and occupied conflict zones (facts of the network) applied to one link.
 LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const PathLink& link);
 
-/// Does a body leave a traveller's way free between two places [m past its link's begin]? Conflict
-/// zones and swept ways are wider than bodies.
+/// Does a body leave free what a traveller sweeps between two places [m past its link's begin]?
+/// Conflict zones and swept ways are wider than bodies.
 bool stands_beside(const RoadView& view, const Traveller& traveller, const PathLink& link,
                    double begin, double end, const Approach& foe);
 

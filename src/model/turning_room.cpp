@@ -35,12 +35,17 @@ bool comes_first(const Occupation& theirs, const Occupation& ours, bool surely, 
 }
 
 /// Has a long body waited for long for those who come through the room that it needs, before that
-/// place or amid it, held by bodies? A queue that creeps on is never over.
+/// place or amid it, held by bodies? On the junction, where others wait for it, it soon has, and
+/// the time counts in which it backed out before somebody. A queue that creeps on is never over.
 bool has_long_wanted(const RoadView& view, const Approach& foe, bool there) {
-  constexpr double kLong = 10.0;  // [s]
+  constexpr double kLong = 10.0, kSoon = 3.0;  // [s]
   const Waiting& waiting = view.approaches.waiting(foe.row);
-  if (there && waiting.blocked) return view.scene.waiting_time[foe.row] > kLong;
-  return view.scene.standing_time[foe.row] > kLong && waiting.reason == LimitReason::TurningRoom;
+  const Scene& scene = view.scene;
+  if (there && waiting.blocked) return scene.waiting_time[foe.row] > kLong;
+  if (foe.front <= 0.0)
+    return waiting.reason == LimitReason::TurningRoom && scene.standing_time[foe.row] > kLong;
+  return scene.waiting_time[foe.row] > kSoon &&
+         (waiting.reason == LimitReason::TurningRoom || waiting.reason == LimitReason::GivesWay);
 }
 
 /// See leave_turning_room; of somebody whose trip `ends` at the line, who is gone from there on.

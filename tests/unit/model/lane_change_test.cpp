@@ -436,6 +436,24 @@ TEST_F(LongWait, WhoIsLetInStaysWhereTheGapIs) {
   }
 }
 
+// a motorcycle stood for 100 s at the far side of its lane while car after car of the lane that it
+// needed drove past it, and the queue of its own stood behind it
+TEST(LetIn, IsWhoIsNarrowAtTheFarSideOfItsLane) {
+  RoadScene here{testing::read_plain_net(both_lanes_lead_on())};
+  const std::size_t rider = here.add("motorcycle", {"CE", "EL"}, 0, 0, 0, -1, "CE_0");
+  here.scene.gate[rider] = wait_at_gate(here, rider);
+  here.move(rider, here.scene.gate[rider] - 1.0, -1.0);
+  here.scene.merge_to[rider] = here.model.road.lane_by_name.at("CE_1");
+  here.scene.standing_time[rider] = 12;
+  const std::size_t car = here.add("car", {"CE", "EL"}, 5, 4.0, 0, -1, "CE_1");
+  move_to_x(here, car, here.scene.position[rider].x() - 15.0);
+  here.update();
+  EXPECT_EQ(here.context(car).foe, static_cast<std::int64_t>(here.scene.id[rider].value));
+  here.scene.merge_to[rider] = kNoLane;
+  here.update();
+  EXPECT_EQ(here.context(car).foe, -1);
+}
+
 // it stood before the begin of its change, and by the time that it got there the gap was gone
 TEST(LetIn, BeginsItsChangeThere) {
   for (const bool holds : {false, true}) {

@@ -12,6 +12,7 @@ namespace sumogamma {
 namespace {
 
 using testing::crossroads;
+using testing::PlainNet;
 using testing::read_plain_net;
 using testing::RoadScene;
 
@@ -156,6 +157,66 @@ TEST_F(AmberGap, IsNotForWhoComesLate) {
 TEST_F(AmberGap, IsNoneBeforeWhoCannotHaltAtEase) {
   come(15);
   EXPECT_EQ(held_by('y', 0.5), LimitReason::Yield);
+}
+
+// --- who turns left out of the lane at the kerb, over the lane beside, which has the same green
+
+class LeftFromTheKerb : public ::testing::Test {
+ protected:
+  static PlainNet net() {
+    PlainNet plain = crossroads("traffic_light");
+    plain.connections =
+        "<connection from='WC' to='CN' fromLane='0' toLane='0'/>"
+        "<connection from='WC' to='CE' fromLane='0' toLane='0'/>"
+        "<connection from='WC' to='CE' fromLane='1' toLane='1'/>";
+    return plain;
+  }
+  LeftFromTheKerb() { here_.scene.time = 200; }
+  std::size_t add_rider(const std::string& type, double halted_for) {
+    const std::size_t rider = here_.add(type, {"WC", "CN"}, 20, 0, 0, -1, "WC_0");
+    const PathLink& link = here_.path(rider).links.front();
+    here_.move(rider, link.stop_line - 0.6 -
+                          0.5 * type_of(here_.model.types, here_.scene.type[rider]).length);
+    here_.scene.halted_for[rider] = link.connection;
+    here_.scene.halted_at[rider] = 200 - halted_for;
+    return rider;
+  }
+  std::size_t add_car(double before, double speed) {
+    const std::size_t car = here_.add("car", {"WC", "CE"}, 20, speed, 0, -1, "WC_1");
+    here_.move(car, here_.path(car).links.front().stop_line - before - 2.25);
+    return car;
+  }
+  void update(char letter, double since) {
+    show(here_, "WC_0", letter);
+    show(here_, "WC_1", letter);
+    here_.road.signal_since.assign(here_.road.signal_states.size(), 200 - since);
+    here_.update(2);
+  }
+  RoadScene here_{read_plain_net(net())};
+};
+
+// bicycles stood through three greens, since the lane beside never had a gap
+TEST_F(LeftFromTheKerb, ACyclistWhoMissedAGreenGoesFirstAtTheNext) {
+  const std::size_t rider = add_rider("bicycle", 80);
+  const std::size_t car = add_car(0.6, 0);
+  const auto rider_id = static_cast<std::int64_t>(here_.scene.id[rider].value);
+  update('g', 1.0);
+  EXPECT_EQ(here_.context(rider).reason, LimitReason::None);
+  EXPECT_EQ(here_.context(car).foe, rider_id);
+  update('g', 10.0);
+  EXPECT_EQ(here_.context(rider).reason, LimitReason::Yield) << "not amid the green";
+  EXPECT_EQ(here_.context(car).reason, LimitReason::None);
+  here_.scene.halted_at[rider] = 200 - 50;
+  update('g', 1.0);
+  EXPECT_EQ(here_.context(rider).reason, LimitReason::Yield) << "it came at red";
+  EXPECT_EQ(here_.context(car).reason, LimitReason::None);
+}
+
+TEST_F(LeftFromTheKerb, ADriverWaitsForAGap) {
+  const std::size_t rider = add_rider("motorcycle", 80);
+  add_car(0.6, 0);
+  update('g', 1.0);
+  EXPECT_EQ(here_.context(rider).reason, LimitReason::Yield);
 }
 
 TEST_F(SignalTest, WhoStandsDownTheQueueKnowsThatItIsRed) {
@@ -1318,6 +1379,22 @@ TEST_F(CrossingTest, ADriverWhoDoesNotYieldIsLetPastAndStopsForWhoIsOnTheCrossin
   here_.update();
   EXPECT_EQ(here_.context(driver).foe, here_.scene.id[walker].value);
   EXPECT_LT(here_.context(driver).allowed_speed, 6.0);
+}
+
+// a driver on the junction waited for 40 s for somebody who shuffled before the truck that stood
+// across the crossing, and that truck waited for the driver
+TEST_F(CrossingTest, NobodyWaitsForWhoShufflesBeforeWhatShutsTheCrossing) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.1, 195, 5);
+  const double kerb = here_.path(walker).links.at(0).stop_line;
+  const std::size_t driver = here_.add("car", {"WC", "CE"}, 0, 0, 0, -1, "WC_0");
+  here_.move(driver, here_.path(driver).links.at(0).stop_line - 2.25 - 0.6);
+  here_.move(walker, kerb - 0.3);
+  give_priority(here_.path(walker).links.at(0).connection);
+  here_.update();
+  EXPECT_EQ(here_.context(driver).foe, here_.scene.id[walker].value);
+  here_.scene.waiting_time[walker] = 10;
+  here_.update();
+  EXPECT_EQ(here_.context(driver).reason, LimitReason::None);
 }
 
 //     |  crossing  |

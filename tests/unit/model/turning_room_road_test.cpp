@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/right_of_way.h"
 #include "model/turning_room.h"
 #include "support/road_scene.h"
 
@@ -152,6 +153,47 @@ TEST_F(TurningRoomTest, WhoCreepsUpToThePlaceLetsABusOutThatBodiesHaveHeldForLon
   };
   EXPECT_FALSE(is_held(5.0, 4.0));
   EXPECT_TRUE(is_held(15.0, 4.0)) << "it stands still only since its last shuffle";
+}
+
+// a truck that had driven out to the place stood there for 40 s and went back from it for those who
+// came one after another, with its own queue behind it
+TEST_F(TurningRoomTest, WhoCreepsUpToThePlaceSoonLetsABusPastThatStandsOnTheJunction) {
+  const std::size_t bus = add_bus();
+  here_.set_speed(bus, 0.0);
+  const std::size_t next = add_waiting(30.0, 2.0);
+  const SweptWay* way = shared_way(next, bus, true);
+  ASSERT_NE(way, nullptr);
+  ASSERT_GT(way->foe_begin, 1.0) << "there is no room to drive out";
+  const PathLink& link = here_.path(next).links.front();
+  here_.move(next, link.stop_line + way->begin - 2.0 - 2.25);
+  here_.move(bus, here_.path(bus).links.front().stop_line + way->foe_begin - 0.5 - 6.0);
+  const auto is_held = [&](double waited, LimitReason reason) {
+    here_.scene.waiting_time[bus] = waited;
+    here_.scene.context[bus].reason = reason;
+    here_.approaches.rebuild(here_.model, here_.road, here_.scene);
+    const Traveller traveller{next, here_.scene.path_along[next] + 2.25, 4.5, 2.0};
+    return leave_turning_room(here_.view(), traveller, link).must_stop;
+  };
+  EXPECT_FALSE(is_held(1.0, LimitReason::TurningRoom));
+  EXPECT_TRUE(is_held(4.0, LimitReason::TurningRoom));
+  EXPECT_TRUE(is_held(4.0, LimitReason::GivesWay)) << "it has backed out";
+  EXPECT_FALSE(is_held(4.0, LimitReason::Yield)) << "it waits for somebody else";
+}
+
+// a truck drove into a bend on whose outer side a car stood: its way was free, its nose swung out
+TEST_F(TurningRoomTest, WhoStandsOutsideABendIsBesideACarsWayButNotATrucks) {
+  const std::size_t waiting = here_.add("car", {"WC", "CS"}, 0, 0);
+  const PathLink& link = here_.path(waiting).links.front();
+  here_.move(waiting, 0.5 * (link.stop_line + link.end), 3.4);
+  for (const bool is_truck : {false, true}) {
+    const std::size_t row = here_.add(is_truck ? "truck" : "car", {"WC", "CS"}, 0, 4);
+    here_.move(row, link.stop_line - 12.0);
+    here_.update();
+    const Traveller traveller{row, link.stop_line - 8.0, is_truck ? 7.5 : 4.5, 4.0};
+    const Approach foe{link.connection, static_cast<std::uint32_t>(waiting), 0, 4.5, 0, true};
+    EXPECT_NE(stands_beside(here_.view(), traveller, link, 0.0, link.end - link.stop_line, foe),
+              is_truck);
+  }
 }
 
 // each reckoned to be there first: the bus with who drives, the car with its own 20 cm, and they
