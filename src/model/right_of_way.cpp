@@ -286,22 +286,27 @@ struct Judge : RoadView {
   }
   static constexpr double kAsks = 2.0;  ///< of who halts for somebody with a long wait [m/s^2]
   /// Has somebody on foot waited for so long at a crossing where vehicles go first that it steps
-  /// out, or begun to do so?
-  bool has_had_enough(std::size_t row) const {
+  /// out, or begun to do so? Who sets out and steps back again waits from when it came, where there
+  /// is no light.
+  bool has_had_enough(std::size_t row, ConnectionId its) const {
     constexpr double kLong = 30.0, kSetOut = 10.0;  // of waiting, which walking counts down [s]
-    return on_foot(row) && scene.waiting_time[row] > (scene.speed[row] > kCreeps ? kSetOut : kLong);
+    constexpr double kSinceItCame = 45.0;           // [s]
+    if (!on_foot(row)) return false;
+    return scene.waiting_time[row] > (scene.speed[row] > kCreeps ? kSetOut : kLong) ||
+           (scene.halted_for[row] == its && scene.time - scene.halted_at[row] > kSinceItCame &&
+            road.signal(model.road.connection(its)) == 'O');
   }
   /// Does the traveller, on foot, step out before one that need not brake hard for it? Where they
   /// come without end nobody else lets it.
   bool steps_out(const ConflictZone& zone, const Approach& foe) const {
-    return has_had_enough(traveller.row) && !on_foot(foe.row) && !at_red &&
+    return has_had_enough(traveller.row, link.connection) && !on_foot(foe.row) && !at_red &&
            asks_little_of(zone, foe);
   }
   /// Does a driver halt for such a one? In a queue that creeps over the crossing nobody's foot
   /// finds a place before one does.
   bool lets_step_out(const ConflictZone& zone, const Approach& foe) const {
     constexpr double kAtKerb = 2.0;  // [m]
-    return has_had_enough(foe.row) && foe.front > -kAtKerb &&
+    return has_had_enough(foe.row, zone.foe) && foe.front > -kAtKerb &&
            road.signal(model.road.connection(zone.foe)) == 'O' &&
            lets_people_go(model, scene, traveller.row, zone.foe) && halts_for_long_wait(zone, foe);
   }
@@ -695,7 +700,10 @@ bool stands_beside(const RoadView& view, const Traveller& traveller, const PathL
   };
   const Vec2 theirs = direction_of(scene.heading[foe.row]);
   const OrientedBox body{scene.position[foe.row], theirs, half_of(foe.row, theirs)};
-  const Vec2 half = half_of(row, direction_of(scene.heading[row]));
+  Vec2 half = half_of(row, direction_of(scene.heading[row]));
+  // on foot one steps back from a body that swings
+  if (type_of(view.model.types, scene.type[foe.row]).kinematics == Kinematics::Holonomic)
+    half.x() = 0.0;
   // the middle follows the way, the rear axle the middle: in a bend the nose swings out
   const double axle = type_of(view.model.types, scene.type[row]).rear_axle_to_center;
   double along = scene.path_along[row];

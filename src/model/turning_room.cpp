@@ -34,6 +34,12 @@ bool comes_first(const Occupation& theirs, const Occupation& ours, bool surely, 
   return surely || theirs.begin < ours.begin || (theirs.begin == ours.begin && smaller_id);
 }
 
+/// Does somebody halt at ease before its piece of a way?
+bool halts_before(const RoadView& view, const Approach& foe, const SweptWay& way) {
+  const AgentType& type = type_of(view.model.types, view.scene.type[foe.row]);
+  return deceleration_to_stop(foe.speed, way.foe_begin - foe.front) < type.comfortable_deceleration;
+}
+
 /// Has a long body waited for long for those who come through the room that it needs, before that
 /// place or amid it, held by bodies? On the junction, where others wait for it, it soon has, and
 /// the time counts in which it backed out before somebody. A queue that creeps on is never over.
@@ -93,8 +99,11 @@ LinkDecision leave_room(const RoadView& view, const Traveller& traveller, const 
       // a long body on its way doesn't reckon with who stands. Not the other way round: where one
       // comes after the other, it would stand for ever
       const bool goes_on = way.foe_sweeps && traveller.speed < kStandsBelow && !foe.stands;
+      // nor does who is near the place and drives halt before it
+      const bool drives_in = !way.foe_sweeps && !foe.stands && !halts_before(view, foe, way);
       const bool smaller_id = scene.id[foe.row] < scene.id[traveller.row];
-      if (!is_owed && !comes_first(theirs, ours, there || goes_on, smaller_id)) continue;
+      if (!is_owed && !comes_first(theirs, ours, there || goes_on || drives_in, smaller_id))
+        continue;
       decision = {true, line, LimitReason::TurningRoom,
                   static_cast<std::int64_t>(scene.id[foe.row].value)};
       break;

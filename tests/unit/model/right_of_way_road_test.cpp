@@ -1730,6 +1730,24 @@ TEST_F(CrossingTest, WhoHasWaitedForLongStepsOutBeforeWhoHaltsForItAtEase) {
   EXPECT_TRUE(waits(40, -0.4)) << "it is on the crossing already";
 }
 
+// somebody set out and stepped back for 92 s, since its wait began anew each time
+TEST_F(CrossingTest, WhoStepsBackHasWaitedSinceItCame) {
+  const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0, 195, 5);
+  const PathLink& link = here_.path(walker).links.at(0);
+  here_.move(walker, link.stop_line - 0.3);
+  const std::size_t driver = here_.add("car", {"WC", "CE"}, 0, 12, 0, -1, "WC_1");
+  here_.move(driver, here_.path(driver).links.at(0).stop_line - 2.25 - 48);
+  here_.scene.time = 100;
+  here_.scene.halted_for[walker] = link.connection;
+  const auto waits = [&](double halted_at) {
+    here_.scene.halted_at[walker] = halted_at;
+    here_.update();
+    return here_.context(walker).foe == here_.scene.id[driver].value;
+  };
+  EXPECT_TRUE(waits(70));
+  EXPECT_FALSE(waits(50));
+}
+
 // it forgot that it had waited with its first step, and turned round; a queue that crept over the
 // crossing left no place to step onto
 TEST_F(CrossingTest, WhoHasSetOutGoesOnAndDriversHaltForIt) {

@@ -180,20 +180,43 @@ TEST_F(TurningRoomTest, WhoCreepsUpToThePlaceSoonLetsABusPastThatStandsOnTheJunc
   EXPECT_FALSE(is_held(4.0, LimitReason::Yield)) << "it waits for somebody else";
 }
 
+// a truck and a car each drove on, and the truck stood before the car's side for a minute
+TEST_F(TurningRoomTest, ALongBodyLetsWhoCannotHaltAtEaseDriveIn) {
+  const std::size_t bus = add_bus();
+  const std::size_t car = add_waiting(25.0, 6.0);
+  const SweptWay* way = shared_way(bus, car, false);
+  ASSERT_NE(way, nullptr);
+  here_.move(bus, here_.path(bus).links.front().stop_line + way->begin - 0.5 - 6.0);
+  here_.set_speed(bus, 0.6);
+  const double place = here_.path(car).links.front().stop_line + way->foe_begin - 2.25;
+  const auto is_held_by_one_at = [&](double before) {
+    here_.move(car, place - before);
+    here_.set_speed(car, 6.0);
+    here_.update();
+    return here_.context(bus).reason == LimitReason::TurningRoom;
+  };
+  EXPECT_TRUE(is_held_by_one_at(4.5));
+  EXPECT_FALSE(is_held_by_one_at(20.0));
+}
+
 // a truck drove into a bend on whose outer side a car stood: its way was free, its nose swung out
 TEST_F(TurningRoomTest, WhoStandsOutsideABendIsBesideACarsWayButNotATrucks) {
+  const std::size_t car = here_.add("car", {"WC", "CS"}, 0, 4);
+  const std::size_t truck = here_.add("truck", {"WC", "CS"}, 0, 4);
+  const PathLink& link = here_.path(car).links.front();
   const std::size_t waiting = here_.add("car", {"WC", "CS"}, 0, 0);
-  const PathLink& link = here_.path(waiting).links.front();
   here_.move(waiting, 0.5 * (link.stop_line + link.end), 3.4);
-  for (const bool is_truck : {false, true}) {
-    const std::size_t row = here_.add(is_truck ? "truck" : "car", {"WC", "CS"}, 0, 4);
+  const auto is_beside = [&](std::size_t row) {
     here_.move(row, link.stop_line - 12.0);
     here_.update();
-    const Traveller traveller{row, link.stop_line - 8.0, is_truck ? 7.5 : 4.5, 4.0};
-    const Approach foe{link.connection, static_cast<std::uint32_t>(waiting), 0, 4.5, 0, true};
-    EXPECT_NE(stands_beside(here_.view(), traveller, link, 0.0, link.end - link.stop_line, foe),
-              is_truck);
-  }
+    const Traveller traveller{row, link.stop_line - 8.0, row == car ? 4.5 : 7.5, 4.0};
+    const Approach foe{link.connection, static_cast<std::uint32_t>(waiting), 0, 0, 0, true};
+    return stands_beside(here_.view(), traveller, link, 0.0, link.end - link.stop_line, foe);
+  };
+  EXPECT_TRUE(is_beside(car));
+  EXPECT_FALSE(is_beside(truck));
+  here_.scene.type[waiting] = find_agent_type(here_.model.types, "pedestrian");
+  EXPECT_TRUE(is_beside(truck)) << "on foot one steps back from a nose that swings";
 }
 
 // each reckoned to be there first: the bus with who drives, the car with its own 20 cm, and they
