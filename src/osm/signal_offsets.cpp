@@ -13,6 +13,7 @@ constexpr double kClose = 60.0;   // [m]
 constexpr double kSpeed = 8.0;    // of who has just set out, at the most [m/s]
 constexpr double kStart = 1.0;    // it takes to set out [s]
 constexpr double kTurning = 0.3;  // weight of a turn
+constexpr double kFew = 0.3;      // and of who leaves a road for a path, or a path for a road
 constexpr double kVehicle = 7.0;  // a shorter road has no more room than none [m]
 
 /// Who comes over one signal and to the next.
@@ -50,7 +51,15 @@ std::vector<int> waits_for_green(const SignalProgram& program, int link) {
   return waits;
 }
 
-double weight_of(const Connection& link) { return link.direction == 's' ? 1.0 : kTurning; }
+/// Straight on more come than by a turn, and out of a road few take a path, or out of a path a
+/// road.
+double weight_of(const RoadNetwork& road, const Connection& link) {
+  const auto is_path = [&](LaneId lane) {
+    return (road.lane(lane).allowed & ~vehicle_class::kOnFootOrBicycle) == 0;
+  };
+  return (link.direction == 's' ? 1.0 : kTurning) *
+         (is_path(link.from) == is_path(link.to) ? 1.0 : kFew);
+}
 
 std::vector<Passage> close_passages(const RoadNetwork& road,
                                     const std::vector<SignalProgram>& programs) {
@@ -81,7 +90,7 @@ std::vector<Passage> close_passages(const RoadNetwork& road,
         passages.push_back(
             {before->name, behind->name, greens, waits_for_green(*behind, second.signal_link),
              static_cast<int>(std::lround(kStart + (lane.length + junction) / speed)),
-             weight_of(first) * weight_of(second) / std::max(lane.length, kVehicle)});
+             weight_of(road, first) * weight_of(road, second) / std::max(lane.length, kVehicle)});
       }
     }
   }

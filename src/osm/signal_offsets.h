@@ -24,8 +24,9 @@ std::vector<SignalProgram> read_signal_programs(const std::filesystem::path& net
 /// not in it, nor are pairs whose cycles differ.
 ///
 /// What is made small is the mean wait at the second signal of those who come over the first one at
-/// any time of its green; straight on counts for more than turning, and a short road for more than
-/// a long one. Signal by signal takes its best offset, given the others', until none gets better.
+/// any time of its green; straight on counts for more than turning, a short road for more than a
+/// long one, and on along a road or path for more than out of one onto the other. Signal by signal
+/// takes its best offset, given the others', until none gets better.
 std::map<std::string, int> signal_offsets(const RoadNetwork& road,
                                           const std::vector<SignalProgram>& programs);
 

@@ -66,6 +66,32 @@ TEST(SignalOffsets, ThePlatoonFindsTheNextLightGreen) {
   }
 }
 
+// bicycles of a path stood through the light at which the few of them came who ride on the roads
+TEST(SignalOffsets, ThoseOfAPathCountForMoreThanTheFewWhoComeOntoItFromRoads) {
+  RoadNetwork road = row_of_signals({100, 1, 100});
+  for (Lane& lane : road.lanes) lane.allowed = vehicle_class::kBicycle;
+  for (const int other : {1, 2}) {
+    Lane lane;
+    lane.length = 100;
+    Connection link = road.connections.front();
+    link.from = static_cast<LaneId>(road.lanes.size());
+    link.signal_link = other;
+    const auto id = static_cast<ConnectionId>(road.connections.size());
+    lane.outgoing.push_back(id);
+    road.lanes[1].incoming.push_back(id);
+    road.connections.push_back(link);
+    road.lanes.push_back(lane);
+  }
+  SignalProgram first{"s0", std::vector<std::string>(20, "rrr")};
+  for (int second = 2; second < 8; ++second) {
+    first.states[static_cast<std::size_t>(second)] = "Grr";
+    first.states[static_cast<std::size_t>(second + 10)] = "rGG";
+  }
+  const auto offsets = signal_offsets(road, {first, program("s1", 20, 0, 6)});
+  // a second to set out, and the metre between them in none: those of the path go on at once
+  EXPECT_EQ((2 + offsets.at("s0") + 1) % 20, offsets.at("s1") % 20);
+}
+
 TEST(SignalOffsets, ARowOfThreeIsAWave) {
   const auto offsets =
       signal_offsets(row_of_signals({100, 16, 24, 100}),
