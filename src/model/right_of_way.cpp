@@ -339,12 +339,9 @@ struct Judge : RoadView {
   }
   /// Does a driver let such a one go first?
   bool lets_go_at_green(const ConflictZone& zone, const Approach& foe) const {
-    const LimitReason why = approaches.waiting(foe.row).reason;
-    return !on_foot(traveller.row) && has_missed_green(foe.row, zone.foe, foe.front) &&
+    return has_missed_green(foe.row, zone.foe, foe.front) &&
            !has_missed_green(traveller.row, link.connection, -to_line()) &&
-           (why == LimitReason::Yield || why == LimitReason::None) &&
-           deceleration_to_stop(traveller.speed, link.stop_line + zone.begin - traveller.front) <
-               kAsks;
+           halts_at_ease_for(zone, foe);
   }
   /// Has neither of the two a light?
   bool by_themselves(const ConflictZone& zone) const {
@@ -365,15 +362,18 @@ struct Judge : RoadView {
   bool asks_little_of(const ConflictZone& zone, const Approach& foe) const {
     return deceleration_to_stop(foe.speed, zone.foe_begin - foe.front) < kAsks;
   }
-  /// Does the traveller, on wheels, halt for a foe that has waited for long and waits for its way
-  /// alone? Not if it has to brake hard for that, or has waited for some time itself.
-  bool halts_for_long_wait(const ConflictZone& zone, const Approach& foe) const {
-    constexpr double kOwnWait = 10.0;  // [s]
+  /// Can the traveller, on wheels, halt without braking hard for a foe that waits for its way
+  /// alone?
+  bool halts_at_ease_for(const ConflictZone& zone, const Approach& foe) const {
     const LimitReason why = approaches.waiting(foe.row).reason;
     return !on_foot(traveller.row) && (why == LimitReason::Yield || why == LimitReason::None) &&
-           scene.waiting_time[traveller.row] < kOwnWait &&
            deceleration_to_stop(traveller.speed, link.stop_line + zone.begin - traveller.front) <
                kAsks;
+  }
+  /// Does it halt so for one that has waited for long? Not if it has waited for some time itself.
+  bool halts_for_long_wait(const ConflictZone& zone, const Approach& foe) const {
+    constexpr double kOwnWait = 10.0;  // [s]
+    return scene.waiting_time[traveller.row] < kOwnWait && halts_at_ease_for(zone, foe);
   }
   bool past_line(const ConflictZone& zone) const {
     // who goes at red waits before the junction, not on it; who rolls out beyond its place there

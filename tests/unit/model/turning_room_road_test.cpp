@@ -48,6 +48,15 @@ class TurningRoomTest : public ::testing::Test {
     });
     return way != ways.end() ? &*way : nullptr;
   }
+  /// Moves a car so that its front is so far before the place that a way tells [m].
+  void come_up_to(const SweptWay& way, std::size_t car, double before) {
+    here_.move(car, here_.path(car).links.front().stop_line + way.begin - before - 2.25);
+  }
+  /// Does a car that drives at a speed halt for the room of somebody, as the scene is?
+  bool leaves_room(std::size_t car, double speed) const {
+    const Traveller traveller{car, here_.scene.path_along[car] + 2.25, 4.5, speed};
+    return leave_turning_room(here_.view(), traveller, here_.path(car).links.front()).must_stop;
+  }
   RoadScene here_{net()};
 };
 
@@ -122,13 +131,11 @@ TEST_F(TurningRoomTest, WhoCreepsUpToThePlaceLetsABusPastThatHasStoodForLong) {
   const std::size_t next = add_waiting(30.0, 2.0);
   const SweptWay* way = shared_way(next, bus, true);
   ASSERT_NE(way, nullptr);
-  const PathLink& link = here_.path(next).links.front();
-  here_.move(next, link.stop_line + way->begin - 2.0 - 2.25);
+  come_up_to(*way, next, 2.0);
   const auto is_held = [&](double stood) {
     here_.scene.standing_time[bus] = stood;
     here_.update(2);
-    const Traveller traveller{next, here_.scene.path_along[next] + 2.25, 4.5, 2.0};
-    return leave_turning_room(here_.view(), traveller, link).must_stop;
+    return leaves_room(next, 2.0);
   };
   EXPECT_FALSE(is_held(5.0));
   EXPECT_TRUE(is_held(12.0));
@@ -141,15 +148,13 @@ TEST_F(TurningRoomTest, WhoCreepsUpToThePlaceLetsABusOutThatBodiesHaveHeldForLon
   const std::size_t next = add_waiting(30.0, 2.0);
   const SweptWay* way = shared_way(next, bus, true);
   ASSERT_NE(way, nullptr);
-  const PathLink& link = here_.path(next).links.front();
-  here_.move(next, link.stop_line + way->begin - 2.0 - 2.25);
+  come_up_to(*way, next, 2.0);
   here_.move(bus, here_.path(bus).links.front().stop_line + way->foe_begin + 2.0 - 6.0);
   const auto is_held = [&](double waited, double blocked) {
     here_.scene.waiting_time[bus] = waited;
     here_.scene.blocked_time[bus] = blocked;
     here_.update();
-    const Traveller traveller{next, here_.scene.path_along[next] + 2.25, 4.5, 2.0};
-    return leave_turning_room(here_.view(), traveller, link).must_stop;
+    return leaves_room(next, 2.0);
   };
   EXPECT_FALSE(is_held(5.0, 4.0));
   EXPECT_TRUE(is_held(15.0, 4.0)) << "it stands still only since its last shuffle";
@@ -164,15 +169,13 @@ TEST_F(TurningRoomTest, WhoCreepsUpToThePlaceSoonLetsABusPastThatStandsOnTheJunc
   const SweptWay* way = shared_way(next, bus, true);
   ASSERT_NE(way, nullptr);
   ASSERT_GT(way->foe_begin, 1.0) << "there is no room to drive out";
-  const PathLink& link = here_.path(next).links.front();
-  here_.move(next, link.stop_line + way->begin - 2.0 - 2.25);
+  come_up_to(*way, next, 2.0);
   here_.move(bus, here_.path(bus).links.front().stop_line + way->foe_begin - 0.5 - 6.0);
   const auto is_held = [&](double waited, LimitReason reason) {
     here_.scene.waiting_time[bus] = waited;
     here_.scene.context[bus].reason = reason;
     here_.approaches.rebuild(here_.model, here_.road, here_.scene);
-    const Traveller traveller{next, here_.scene.path_along[next] + 2.25, 4.5, 2.0};
-    return leave_turning_room(here_.view(), traveller, link).must_stop;
+    return leaves_room(next, 2.0);
   };
   EXPECT_FALSE(is_held(1.0, LimitReason::TurningRoom));
   EXPECT_TRUE(is_held(4.0, LimitReason::TurningRoom));
@@ -226,14 +229,12 @@ TEST_F(TurningRoomTest, WhoStandsBeforeThePlaceLetsABusPastThatDrives) {
   const std::size_t car = add_waiting(25.0, 0.0);
   const SweptWay* way = shared_way(car, bus, true);
   ASSERT_NE(way, nullptr);
-  const PathLink& link = here_.path(car).links.front();
-  here_.move(car, link.stop_line + way->begin - 0.2 - 2.25);
+  come_up_to(*way, car, 0.2);
   here_.move(bus, here_.path(bus).links.front().stop_line + way->foe_begin - 4.0 - 6.0);
   const auto is_held_by_bus_at = [&](double speed) {
     here_.set_speed(bus, speed);
     here_.update();
-    const Traveller traveller{car, here_.scene.path_along[car] + 2.25, 4.5, 0.0};
-    return leave_turning_room(here_.view(), traveller, link).must_stop;
+    return leaves_room(car, 0.0);
   };
   EXPECT_TRUE(is_held_by_bus_at(3.5));
   EXPECT_FALSE(is_held_by_bus_at(0.0)) << "a bus that stands there waits for it";
