@@ -17,12 +17,28 @@ bool is_wide(const Scene& scene, std::size_t row) {
   return 2.0 * half_extent(scene, row, across) > kWideBody;
 }
 
+namespace {
+
+/// Does a row wait at the line of a link at which others have to give way to it?
+bool has_right_of_way(const Model& model, const RoadState& road, const Scene& scene,
+                      std::size_t row) {
+  const Path* path = road.path(scene.path[row]);
+  if (path == nullptr || path->walking) return false;
+  const auto link = path->link_from(scene.path_along[row]);
+  if (link == path->links.end()) return false;
+  const Connection& connection = model.road.connection(link->connection);
+  const char signal = road.signal(connection);
+  return signal == 'G' || (signal == 'O' && connection.state == 'M');
+}
+
+}  // namespace
+
 void ApproachTable::rebuild(const Model& model, const RoadState& road, const Scene& scene) {
   for (const Approach& approach : approaches_) ranges_[index_of(approach.connection)] = {};
   ranges_.resize(model.road.connections.size());
   approaches_.clear();
   waiting_.resize(scene.size());
-  constexpr double kPatience = 3.0, kShuffles = 8.0;  // [s]
+  constexpr double kPatience = 3.0, kShuffles = 8.0, kSomeTime = 2.0;  // [s]
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const RoadContext& context = scene.context[row];
     // who is on foot shuffles before what shuts its way, and never stands for long
@@ -32,6 +48,13 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
     waiting_[row] = {context.reason,        context.foe,
                      scene.halted_for[row], scene.halted_at[row],
                      context.to_halt,       shuffles || scene.blocked_time[row] > kPatience};
+  }
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    if (waiting_[row].reason != LimitReason::Yield || scene.standing_time[row] < kSomeTime)
+      continue;
+    const std::size_t foe = find_foe(scene, waiting_[row].foe);
+    if (foe < scene.size() && has_right_of_way(model, road, scene, row))
+      waiting_[foe].holds_up = true;
   }
 
   for (std::size_t row = 0; row < scene.size(); ++row) {

@@ -28,9 +28,10 @@ struct Waiting {
   std::int64_t foe = -1;
   ConnectionId halted_for = kNoConnection;  ///< link before which it came to a halt
   double halted_at = 0;                     ///< when it did [s]
-  double to_halt = 0;    ///< way of the front to where it comes to rest before a link, as things
-                         ///< are; infinite where it doesn't [m]
-  bool blocked = false;  ///< no rule holds it, and yet it has stood for seconds: bodies do
+  double to_halt = 0;     ///< way of the front to where it comes to rest before a link, as things
+                          ///< are; infinite where it doesn't [m]
+  bool blocked = false;   ///< no rule holds it, and yet it has stood for seconds: bodies do
+  bool holds_up = false;  ///< somebody to whom others give way has stood for it for some time
 };
 
 /// Who approaches which link, and who waits for whom, from the frozen scene.

@@ -111,25 +111,50 @@ bool makes_room(const Scene& scene, std::size_t row) {
          scene.backing_left[leader] > 0.0 && scene.backing_left[leader] < kTries - kTried;
 }
 
+/// Calls `visit` for everybody on wheels near a row, one that is itself on wheels.
+template <typename Visit>
+void visit_wheeled(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                   std::size_t row, Visit visit) {
+  const AgentGeometry& own = geometry.agent[row];
+  if (!own.on_wheels || !own.is_box) return;
+  geometry.grid.visit_within(own.position, own.radius + kFarthestCorner,
+                             [&](std::size_t other, double) {
+                               const AgentGeometry& their = geometry.agent[other];
+                               if (other != row && their.on_wheels && their.is_box &&
+                                   !on_other_storey(model.road, scene, row, other))
+                                 visit(other);
+                             });
+}
+
+/// Is a body in the room that another one needs to drive on?
+bool is_in_room_of(const AgentGeometry& body, const AgentGeometry& other) {
+  constexpr double kWay = 2.0, kBeside = 0.4;  // [m]
+  const OrientedBox box = other.box();
+  const OrientedBox room{box.center + 0.5 * (kWay - kBeside) * box.forward, box.forward,
+                         box.half + Vec2(0.5 * (kWay + kBeside), kBeside)};
+  return separation(body.box(), room) < 0.0;
+}
+
 /// Does this row stand in the way of somebody wedged of whom `concerns` is true?
 template <typename Concerns>
 bool stands_before(const Model& model, const Scene& scene, const TickGeometry& geometry,
                    std::size_t row, Concerns concerns) {
-  constexpr double kWay = 2.0, kBeside = 0.4;  // [m]
-  const AgentGeometry& own = geometry.agent[row];
-  if (!own.on_wheels || !own.is_box) return false;
   bool found = false;
-  geometry.grid.visit_within(
-      own.position, own.radius + kFarthestCorner, [&](std::size_t other, double) {
-        const AgentGeometry& their = geometry.agent[other];
-        if (found || other == row || !their.on_wheels || !their.is_box ||
-            !is_wedged(scene, other) || on_other_storey(model.road, scene, row, other))
-          return;
-        const OrientedBox box = their.box();
-        const OrientedBox room{box.center + 0.5 * (kWay - kBeside) * box.forward, box.forward,
-                               box.half + Vec2(0.5 * (kWay + kBeside), kBeside)};
-        found = separation(own.box(), room) < 0.0 && concerns(other);
-      });
+  visit_wheeled(model, scene, geometry, row, [&](std::size_t other) {
+    found = found || (is_wedged(scene, other) &&
+                      is_in_room_of(geometry.agent[row], geometry.agent[other]) && concerns(other));
+  });
+  return found;
+}
+
+/// Does somebody who lets others go first stand in this row's way? It steps back further.
+bool is_made_way_for(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                     std::size_t row) {
+  bool found = false;
+  visit_wheeled(model, scene, geometry, row, [&](std::size_t other) {
+    found = found || (scene.gives_way_left[other] > 0.0 &&
+                      is_in_room_of(geometry.agent[other], geometry.agent[row]));
+  });
   return found;
 }
 
@@ -192,7 +217,8 @@ void update_backing(const Model& model, const TickGeometry& geometry, double dt,
       gives_way = rolled && for_itself && !moved_on ? courtesy(scene, row) : 0.0;
     }
   } else if (gives_way <= 0.0 && !scene.context[row].at_red && is_wedged(scene, row) &&
-             scene.blocked_time[row] > patience(scene, row)) {
+             scene.blocked_time[row] > patience(scene, row) &&
+             !is_made_way_for(model, scene, geometry, row)) {
     left = kTries;  // not before a red light: others wait there, too
   } else if (gives_way <= 0.0 && makes_room(scene, row)) {
     left = kMakesRoom;

@@ -30,8 +30,14 @@ constexpr double kSidewalk = 8.0, kWalls = 4.0, kAside = 4.5;
 /// Way over which lanes are changed at some speed [m].
 double way_of_change(double speed) { return std::max(kChangeTime * speed, kShortest); }
 
-double look_ahead(const Scene& scene, std::size_t row) {
-  return std::min(30.0 + 3.0 * scene.speed[row], 100.0);
+/// As far as a row looks for others [m]: where there is a lane beside, for those who come from
+/// behind at full speed, too.
+double outlook(const Model& model, const Path& path, const Scene& scene, std::size_t row) {
+  constexpr double kLeast = 30.0, kTime = 3.0, kMost = 100.0;  // [m], [s], [m]
+  const Lane& lane = model.road.lane(path.stretch_at(scene.path_along[row]).lane);
+  const bool alone = lane.inner == kNoLane && lane.outer == kNoLane;
+  const double speed = alone ? scene.speed[row] : std::max(scene.speed[row], lane.speed_limit);
+  return std::min(kLeast + kTime * speed, kMost);
 }
 
 /// How far aside the middle of a neighbouring lane of the same edge lies [m, positive left].
@@ -187,7 +193,7 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
         scene.overtaking_room[row] = room_off_the_way(*path, around, place);
       }
       if (intent.fresh) {
-        look_around(model, road, scene, grid, row, look_ahead(scene, row), 8.0, around);
+        look_around(model, road, scene, grid, row, outlook(model, *path, scene, row), 8.0, around);
         scene.overtaking_room[row] =
             overtaking_room(model, road, scene, grid, around, row, work.far[worker]);
         scene.passing_offset[row] = passing_offset(model, road, *path, scene, around, row);
@@ -226,6 +232,8 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
       if (changed) scene.merge_to[row] = kNoLane;
     }
     if (!changed) continue;
+    // who comes there now already reckons with it
+    if (intent.wanted != kNoLane) scene.merge_to[row] = intent.wanted;
     take_path(std::move(*changed), along, row, road, scene);
   }
 }

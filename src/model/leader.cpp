@@ -72,15 +72,23 @@ bool shuffles_before(const Scene& scene, std::size_t vehicle, std::size_t walker
          scene.velocity[walker].norm() < kShuffles;
 }
 
-/// Does somebody who is `along` on the path of a row change, or want to, into its lane? Who has
-/// waited for long counts as well where the row is about to get into that lane.
-bool changes_into_way(const Path& path, const Scene& scene, std::size_t row, std::size_t other,
+/// Is somebody amid a lane change, and hasn't halted there to let others past?
+bool is_changing(const RoadState& road, const Scene& scene, std::size_t row) {
+  const Path* path = road.path(scene.path[row]);
+  return path != nullptr && !std::isfinite(scene.gate[row]) &&
+         path->stretch_at(scene.path_along[row]).changing;
+}
+
+/// Does somebody who is `along` on the path of a row change, or want to, into its lane? Who is at
+/// it or has waited for long counts as well where the row is about to get into that lane.
+bool changes_into_way(const RoadState& road, const Scene& scene, std::size_t row, std::size_t other,
                       double along) {
   constexpr double kSoon = 10.0;  // [m]
   const LaneId lane = scene.merge_to[other];
   if (lane == kNoLane || lane == scene.lane[row].lane) return lane != kNoLane;
-  return waits_long(scene, other) &&
-         std::any_of(path.stretches.begin(), path.stretches.end(), [&](const PathStretch& stretch) {
+  const auto& stretches = road.path(scene.path[row])->stretches;
+  return (waits_long(scene, other) || is_changing(road, scene, other)) &&
+         std::any_of(stretches.begin(), stretches.end(), [&](const PathStretch& stretch) {
            return stretch.lane == lane && stretch.to >= scene.path_along[row] &&
                   stretch.from <= along + kSoon;
          });
@@ -187,7 +195,7 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
         path->line.project(scene.position[other], along - 2.0 * kAbreast, along + reach);
     // who is narrow and waits for a gap from the far side of the lane beside is seen, too
     if (place.distance > own_half_width + scene.footprint[other].radius + margin &&
-        (place.distance > kLaneBeside || !changes_into_way(*path, scene, row, other, place.along)))
+        (place.distance > kLaneBeside || !changes_into_way(road, scene, row, other, place.along)))
       return;
     // of two abreast just one is ahead: close together the one with its nose ahead
     const bool close = near_each_other(scene, row, other);
@@ -238,14 +246,11 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
                   scene.id[other].value, ahead);
     const bool comes_back = returns && gap > 0.0 && std::abs(place.offset - wanted) - sides < kept;
     if (std::abs(place.offset - swept) > sides + kept && !comes_back) {
-      const bool merges = changes_into_way(*path, scene, row, other, place.along);
+      const bool merges = changes_into_way(road, scene, row, other, place.along);
       const bool halted = scene.standing_time[other] > kHesitates;
       // who stands amid its change is passed like anybody else
       if (!merges || (passes && halted)) return;
-      const Path* theirs = road.path(scene.path[other]);
-      // but for who has halted on its way to let this one past
-      const bool on_its_way = theirs != nullptr && !std::isfinite(scene.gate[other]) &&
-                              theirs->stretch_at(scene.path_along[other]).changing;
+      const bool on_its_way = is_changing(road, scene, other);
       // two abreast want each other's lane: of them, too, who is ahead goes first, unless it has to
       // wait for this one to get out of its way
       const bool waits =

@@ -77,9 +77,21 @@ bool turns_across(const Filtering& rider, const RoadUser& user, double offset) {
   return side != 0 && side != rider.turns && side * (offset - user.offset) > 0.0;
 }
 
+/// Would a narrow vehicle that moves over to `offset` cut off somebody who comes from behind there?
+bool cuts_off(const Surroundings& around, const RoadUser& user, double offset, double margin) {
+  constexpr double kAsked = 1.5;  // of whoever is behind at the most [m/s^2]
+  const double sides = user.half_width + around.half_width;
+  const double gap = around.along - around.half_length - user.front;
+  const bool moves_before_it = std::abs(user.offset - offset) < sides + margin &&
+                               std::abs(user.offset - around.offset) > sides;
+  const double closing = user.speed - around.speed;
+  return moves_before_it && user.aligned && closing > 0.0 &&
+         closing * closing > 2.0 * kAsked * std::max(gap, 0.0);
+}
+
 /// See hoped_speed: that of a narrow vehicle, which looks further ahead. It goes by slowly where it
 /// is close, counts on other narrow ones to go on as it does, and passes nobody on the side to
-/// which that one turns.
+/// which that one turns, or just before somebody who comes from behind.
 double filtering_hope(const Filtering& rider, double offset, double margin) {
   constexpr double kOutlook = 20.0;  // [s]
   constexpr double kGoesOn = 2.0;    // [m/s]
@@ -89,7 +101,10 @@ double filtering_hope(const Filtering& rider, double offset, double margin) {
   const double rear = around.along - around.half_length;
   double hoped = rider.free_speed;
   for (const RoadUser& user : around.users) {
-    if (user.front < rear - 0.3) continue;
+    if (user.front < rear - 0.3) {
+      if (cuts_off(around, user, offset, margin)) return 0.0;
+      continue;
+    }
     const double clearance = std::abs(user.offset - offset) - user.half_width - around.half_width;
     const bool vehicle = user.aligned && !user.on_foot;
     const double braking = std::min(rider.scene.acceleration[user.row].dot(around.tangent), 0.0);

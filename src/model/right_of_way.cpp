@@ -207,7 +207,7 @@ struct Judge : RoadView {
       return Verdict::Blocks;
     if (waits_for_us && !foe_inside && (noses_out(zone, foe) || goes_first(zone, foe)))
       return Verdict::Free;
-    if (!foe_inside && !zone.yields && lets_go_at_green(zone, foe)) return Verdict::Blocks;
+    if (!foe_inside && !zone.yields && lets_go_first_of_all(zone, foe)) return Verdict::Blocks;
     if (waits_for_us) return !zone.yields && !foe_inside ? Verdict::Held : waiting_verdict(foe);
     // on foot one walks round what stands on the crossing, on wheels past what stands beside the
     // way
@@ -218,6 +218,7 @@ struct Judge : RoadView {
     if (foe_inside && in_deadlock(foe)) return Verdict::Held;
     if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
     if (waits_behind(foe) || ends_in_queue(zone, foe)) return Verdict::Held;
+    if (zone.yields && goes_first(zone, foe)) return Verdict::Free;
     // no rule for this pair, or whoever has to wait is past the line already: who gets there first
     // goes first, the other waits for it. Nobody who has to wait makes a foe brake hard
     const bool cuts_off = zone.yields && !foe_may_halt(zone, foe);
@@ -232,7 +233,7 @@ struct Judge : RoadView {
                                0.7 * foe_type.max_deceleration;
       return blocks_if(vulnerable && unstoppable && foe_type.kinematics != Kinematics::Holonomic);
     }
-    if (steps_out(zone, foe) || noses_out(zone, foe) || goes_first(zone, foe)) return Verdict::Free;
+    if (steps_out(zone, foe) || noses_out(zone, foe)) return Verdict::Free;
     return Verdict::Blocks;
   }
 
@@ -285,6 +286,11 @@ struct Judge : RoadView {
                          type_of(model.types, scene.type[foe.row]));
   }
   static constexpr double kAsks = 2.0;  ///< of who halts for somebody with a long wait [m/s^2]
+  /// Is it longer ago than `least` [s] that a row came to a halt before its link?
+  bool has_waited_since_it_came(std::size_t row, ConnectionId its, double least) const {
+    const Waiting& waiting = approaches.waiting(row);
+    return waiting.halted_for == its && scene.time - waiting.halted_at > least;
+  }
   /// Has somebody on foot waited for so long at a crossing where vehicles go first that it steps
   /// out, or begun to do so? Who sets out and steps back again waits from when it came, where there
   /// is no light.
@@ -293,7 +299,7 @@ struct Judge : RoadView {
     constexpr double kSinceItCame = 45.0;           // [s]
     if (!on_foot(row)) return false;
     return scene.waiting_time[row] > (scene.speed[row] > kCreeps ? kSetOut : kLong) ||
-           (scene.halted_for[row] == its && scene.time - scene.halted_at[row] > kSinceItCame &&
+           (has_waited_since_it_came(row, its, kSinceItCame) &&
             road.signal(model.road.connection(its)) == 'O');
   }
   /// Does the traveller, on foot, step out before one that need not brake hard for it? Where they
@@ -314,8 +320,7 @@ struct Judge : RoadView {
   /// noses out before who need not brake hard for it?
   bool has_stood_for_long(std::size_t row, ConnectionId its) const {
     constexpr double kLong = 45.0;  // [s]
-    return !on_foot(row) && scene.halted_for[row] == its &&
-           scene.time - scene.halted_at[row] > kLong;
+    return !on_foot(row) && has_waited_since_it_came(row, its, kLong);
   }
   /// Has a cyclist stood at the line before its light since before the last green, and green has
   /// begun again, or is it past the line by now? Who turns left out of a lane at the kerb crosses
@@ -324,23 +329,30 @@ struct Judge : RoadView {
     constexpr double kCycle = 75.0, kBegins = 3.0;  // [s]
     constexpr double kCyclist = 10.0;               // at the most [m/s]
     const Connection& link_of = model.road.connection(its);
-    if (link_of.signal == kNoSignal || scene.halted_for[row] != its ||
-        scene.time - scene.halted_at[row] < kCycle || on_foot(row) ||
-        type_of(model.types, scene.type[row]).max_speed > kCyclist)
+    if (link_of.signal == kNoSignal || !has_waited_since_it_came(row, its, kCycle) ||
+        on_foot(row) || type_of(model.types, scene.type[row]).max_speed > kCyclist)
       return false;
     const char signal = road.signal(link_of);
     return front > 0.0 || (!is_red(signal) && !is_amber(signal) &&
                            scene.time - signal_since(road, link_of, scene.time) < kBegins);
   }
-  /// Does the traveller go first now, at a light, before one that need not brake hard for it?
+  /// Is somebody on wheels on the junction, in the way of one with the right of way? The sooner it
+  /// is gone the less of the green is lost.
+  bool holds_up(std::size_t row, double front) const {
+    return front > 0.0 && !on_foot(row) && approaches.waiting(row).holds_up;
+  }
+  bool is_owed_its_way(std::size_t row, ConnectionId its, double front) const {
+    return has_missed_green(row, its, front) || holds_up(row, front);
+  }
+  /// Does the traveller go first now, before one that need not brake hard for it?
   bool goes_first(const ConflictZone& zone, const Approach& foe) const {
-    return has_missed_green(traveller.row, link.connection, -to_line()) && !on_foot(foe.row) &&
+    return is_owed_its_way(traveller.row, link.connection, -to_line()) && !on_foot(foe.row) &&
            !at_red && asks_little_of(zone, foe);
   }
   /// Does a driver let such a one go first?
-  bool lets_go_at_green(const ConflictZone& zone, const Approach& foe) const {
-    return has_missed_green(foe.row, zone.foe, foe.front) &&
-           !has_missed_green(traveller.row, link.connection, -to_line()) &&
+  bool lets_go_first_of_all(const ConflictZone& zone, const Approach& foe) const {
+    return is_owed_its_way(foe.row, zone.foe, foe.front) &&
+           !is_owed_its_way(traveller.row, link.connection, -to_line()) &&
            halts_at_ease_for(zone, foe);
   }
   /// Has neither of the two a light?

@@ -266,10 +266,10 @@ void update_road_contexts(const Model& model, const RoadState& road, const Spati
                                    : foreseen_limit(*path, along, course.speed, dt),
                      scene.preferred_speed[row]);
         set_geometry(model, scene, course, context);
+        note_halt(model.road, course, scene);
         if (path->walking) {
           set_walker_limits(view, course, context);
         } else {
-          note_halt(model.road, course, scene);
           set_allowed_speed(view, course, dt, context);
           note_keeping_clear(view, course, context, dt, scene);
         }

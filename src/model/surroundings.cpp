@@ -25,12 +25,14 @@ void look_around(const Model& model, const RoadState& road, const Scene& scene,
     if (other == row || on_other_storey(model.road, scene, row, other)) return;
     const PolylinePosition place =
         path.line.project(scene.position[other], along - reach, along + reach);
-    if (place.distance > aside + scene.footprint[other].radius) return;
+    const double farthest = aside + scene.footprint[other].radius;
+    if (place.distance > farthest && place.along > 0.0) return;
     const Vec2 direction = path.line.direction_at(place.along);
     const Vec2 from_line = scene.position[other] - path.line.point_at(place.along);
     // a path may begin close behind its agent: who is further back is there straight on
     const double beyond = place.along <= 0.0 ? std::min(direction.dot(from_line), 0.0) : 0.0;
     const double offset = beyond < 0.0 ? cross(direction, from_line) : place.offset;
+    if (std::abs(offset) > farthest) return;
     const double half_length = half_extent(scene, other, direction);
     const double middle = place.along + beyond;
     around.users.push_back(

@@ -22,6 +22,16 @@ void find_head(const Scene& scene, std::size_t row, StuckAgent& agent) {
   agent.head_reason = context.active ? context.reason : LimitReason::None;
 }
 
+/// Does a row wait, over whom it waits for and so on, for somebody who waits for a signal?
+bool waits_behind_signal(const Scene& scene, std::size_t row) {
+  constexpr int kLongest = 64;  // a ring has no end
+  for (int k = 0; k < kLongest && row < scene.size(); ++k) {
+    if (scene.context[row].active && scene.context[row].reason == LimitReason::Signal) return true;
+    row = foe_row(scene, row);
+  }
+  return false;
+}
+
 }  // namespace
 
 void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const RoadState& road) {
@@ -66,9 +76,8 @@ void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
 
 void FlowMonitor::add_standing(const Scene& scene, std::size_t row, State& state) {
   const RoadContext& context = scene.context[row];
-  const bool excused = (context.active && (context.reason == LimitReason::Signal ||
-                                           context.reason == LimitReason::Stop)) ||
-                       red_lights_.ahead(scene.lane[row].lane);
+  const bool excused = (context.active && context.reason == LimitReason::Stop) ||
+                       red_lights_.ahead(scene.lane[row].lane) || waits_behind_signal(scene, row);
   if (!excused) state.standing += step_;
   longest_ = std::max(longest_, state.standing);
   // half a step less: sums of steps don't meet a whole number of seconds exactly

@@ -44,7 +44,8 @@ struct StuckAgent {
 
 /// Speeds, distances and standstills. An agent stands below kStanding, and as long as it stays
 /// within kInPlace of where it came to a stand: who shuffles to and fro gets nowhere. Standing time
-/// counts while no red light is ahead and no planned halt is on; a red light suspends the count and
+/// counts while no red light is ahead, be it of the last of those who wait for one another from it
+/// on, and no planned halt is on; a red light suspends the count and
 /// only moving resets it, so that a queue which doesn't move through several cycles is found out.
 class FlowMonitor {
  public:

@@ -295,6 +295,18 @@ TEST_F(BackingTest, WhoGivesWayRollsBackFurtherForWhomItStillHolds) {
   EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "not for who has room";
 }
 
+// it rolled back just when the bus that had stepped back for it had made room, came on again when
+// the bus had given way for long enough, and the two stood as before
+TEST_F(BackingTest, NobodyRollsBackBeforeWhoMakesRoomForIt) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
+  const std::size_t other = here_.add("car", {"EC", "CW"}, 50, 0);
+  here_.scene.position[other] = here_.scene.position[own] + Vec2(4.5 + 0.5, 0);
+  here_.scene.gives_way_left[other] = 10.0;
+  EXPECT_EQ(stand_wedged(own, 30.0), 0.0);
+  here_.scene.gives_way_left[other] = 0.0;
+  EXPECT_GT(stand_wedged(own, 30.0), 1.0);
+}
+
 // along its path it would have swung into the lorry beside it; both stood for minutes
 TEST_F(BackingTest, WhoCanNotFollowItsPathBackwardsRollsBackStraight) {
   const std::size_t own = here_.add("bicycle", {"WC", "CE"}, 100, 0, 0, -1, "WC_1");

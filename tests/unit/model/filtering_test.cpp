@@ -102,6 +102,15 @@ class Filtering : public ::testing::Test {
 
 TEST_F(Filtering, AimsAtTheMiddleBetweenTheQueues) { EXPECT_NEAR(place(), 1.75, 1e-6); }
 
+// a motorcycle that braked behind a car swerved before a truck that came from behind, 6 m/s faster
+TEST_F(Filtering, NobodyMovesOverBeforeWhoComesFromBehind) {
+  const std::size_t other = here_.add("motorcycle", {"WE"}, 60, 5, 0, -1, "WE_0");
+  here_.move(other, 61, 1.75);
+  EXPECT_NEAR(place(), 1.75, 1e-6) << "who is as slow follows";
+  here_.set_speed(other, 12);
+  EXPECT_LT(place(), 0.5);
+}
+
 // who looked 8 s ahead saw nothing in the gap until it stood too close behind a car to turn out
 TEST_F(Filtering, ChoosesTheGapWhileItIsStillFarAway) {
   here_.move(rider_, 52);

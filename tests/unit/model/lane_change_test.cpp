@@ -599,21 +599,72 @@ TEST_F(LongWait, WhoIsOnItsWayIntoThatLaneLetsItIn) {
   EXPECT_FALSE(lets_in(other)) << "it doesn't get there";
 }
 
-// somebody who stood behind the begin of its path counted as beside it, and it waited for ever
+// a truck came out of the junction at 12 m/s and saw the car before it when that was in its lane
+TEST(LetIn, IsWhoIsAmidItsChangeRightBehindAJunction) {
+  RoadScene here{testing::read_plain_net(both_lanes_lead_on())};
+  const std::size_t changing = here.add("car", {"CE", "EL"}, 0, 2, 0, -1, "CE_0");
+  here.move(changing, wait_at_gate(here, changing) + 0.5);
+  here.scene.merge_to[changing] = here.model.road.lane_by_name.at("CE_1");
+  const std::size_t car = here.add("car", {"WC", "CE", "EL"}, 100, 12, 0, -1, "WC_1");
+  here.move(car, here.path(car).links.front().stop_line - 4.0);
+  const auto lets_in = [&] {
+    here.update();
+    return here.context(car).foe == static_cast<std::int64_t>(here.scene.id[changing].value);
+  };
+  EXPECT_TRUE(lets_in());
+  here.scene.gate[changing] = here.scene.path_along[changing];
+  EXPECT_FALSE(lets_in()) << "it has halted to let others past";
+}
+
+// SUMO put a motorcycle with 26 m/s behind a car that had begun to change into that lane
+TEST(BetterLane, IsSaidAsSoonAsItIsChosen) {
+  RoadScene here{testing::read_plain_net(two_lanes())};
+  const std::size_t own = here.add("car", {"WE"}, 40, 10, 0, -1, "WE_0");
+  here.add("bus", {"WE"}, 65, 3, 0, -1, "WE_0");
+  here.update();
+  EXPECT_EQ(here.scene.merge_to[own], kNoLane);
+  let_all_look(here);
+  ASSERT_NE(first_change(here, own), nullptr);
+  EXPECT_EQ(here.scene.merge_to[own], here.model.road.lane_by_name.at("WE_1"));
+}
+
+// it looked 30 m back before it moved off
+TEST(NoGapOnAFastRoad, IsWhereSomebodyComesFromFarBehind) {
+  PlainNet net = both_lanes_lead_on(150);
+  for (std::size_t at = 0; (at = net.edges.find("13.89", at)) != std::string::npos;)
+    net.edges.replace(at, 5, "27.78");
+  for (const double speed : {5.0, 25.0}) {
+    RoadScene here(testing::read_plain_net(net));
+    const std::size_t own = here.add("car", {"CE", "EL"}, 0, 0, 0, -1, "CE_0");
+    wait_at_gate(here, own);
+    const std::size_t other = here.add("car", {"CE", "EL"}, 5, speed, 0, -1, "CE_1");
+    move_to_x(here, other, here.scene.position[own].x() - 60.0);
+    here.update();
+    let_all_look(here);
+    const PathStretch* change = first_change(here, own);
+    ASSERT_NE(change, nullptr);
+    EXPECT_EQ(change->from > here.scene.path_along[own] + 5.0, speed > 20.0) << speed;
+  }
+}
+
+// somebody who stood behind the begin of its path counted as beside it, and it waited for ever;
+// further back nobody was seen
 TEST(Surrounding, WhoIsBehindTheBeginOfAPathIsSeenWhereItIs) {
   RoadScene here(testing::read_plain_net(both_lanes_lead_on()));
   const std::size_t own = here.add("car", {"CE", "EL"}, 5, 0, 0, -1, "CE_0");
   const std::size_t behind = here.add("car", {"WC", "CE", "EL"}, 0, 0, 0, -1, "WC_0");
-  here.move(behind, here.path(behind).links.front().stop_line - 1.0);
-  here.update();
-  Surroundings around;
-  look_around(here.model, here.road, here.scene, here.geometry.grid, own, 60.0, 8.0, around);
-  const Vec2 way = here.scene.position[behind] - here.scene.position[own];
-  ASSERT_LT(here.scene.path_along[own] + way.x(), -0.5) << "behind its begin";
-  ASSERT_EQ(around.users.size(), 1u);
-  const RoadUser& user = around.users.front();
-  EXPECT_NEAR(user.offset, way.y(), 0.05);
-  EXPECT_NEAR(0.5 * (user.front + user.rear), around.along + way.x(), 0.05);
+  for (const double before_line : {1.0, 25.0}) {
+    here.move(behind, here.path(behind).links.front().stop_line - before_line);
+    here.update();
+    Surroundings around;
+    look_around(here.model, here.road, here.scene, here.geometry.grid, own, 60.0, 8.0, around);
+    const Vec2 way = here.scene.position[behind] - here.scene.position[own];
+    ASSERT_LT(here.scene.path_along[own] + way.x(), -0.5) << "behind its begin";
+    ASSERT_EQ(around.users.size(), 1u) << before_line;
+    const RoadUser& user = around.users.front();
+    EXPECT_NEAR(user.offset, way.y(), 0.05);
+    EXPECT_NEAR(0.5 * (user.front + user.rear), around.along + way.x(), 0.05);
+  }
 }
 
 // who rolled over it by a hair had begun its change, whoever was beside

@@ -159,6 +159,35 @@ TEST_F(AmberGap, IsNoneBeforeWhoCannotHaltAtEase) {
   EXPECT_EQ(held_by('y', 0.5), LimitReason::Yield);
 }
 
+// A bicycle that turned left stood before one of two lanes and waited for the other: through the
+// green of both, as nobody there let it go.
+TEST(HoldingUp, WhoStandsInTheWayOfOneLaneIsLetPastByTheOther) {
+  RoadScene here{read_plain_net(crossroads("traffic_light"))};
+  for (const char* lane : {"WC_1", "EC_0", "EC_1"}) show(here, lane, lane[0] == 'W' ? 'g' : 'G');
+  const std::size_t own = here.add("bicycle", {"WC", "CN"}, 20, 0, 0, -1, "WC_1");
+  const std::size_t held = here.add("car", {"EC", "CW"}, 20, 0, 0, -1, "EC_1");
+  const std::size_t other = here.add("car", {"EC", "CW"}, 20, 7, 0, -1, "EC_0");
+  const ConnectionId first = here.path(held).links.front().connection;
+  const PathLink& link = here.path(own).links.front();
+  const auto& zones = here.model.conflicts[index_of(link.connection)];
+  const auto zone = std::find_if(zones.begin(), zones.end(), [&](const ConflictZone& candidate) {
+    return candidate.foe == first;
+  });
+  ASSERT_NE(zone, zones.end());
+  here.move(own, link.stop_line + zone->begin + 0.5);
+  here.move(held, here.path(held).links.front().stop_line - 0.6 - 2.25);
+  here.move(other, here.path(other).links.front().stop_line - 12.0 - 2.25);
+  for (const double stood : {1.0, 4.0}) {
+    here.scene.standing_time[held] = stood;
+    here.update(2);
+    ASSERT_EQ(here.context(held).foe, here.scene.id[own].value);
+    const bool lets_past = here.context(other).foe == here.scene.id[own].value;
+    EXPECT_EQ(lets_past, stood > 2.0);
+    const bool waits = here.context(own).foe == here.scene.id[other].value;
+    EXPECT_EQ(waits, stood < 2.0);
+  }
+}
+
 // --- who turns left out of the lane at the kerb, over the lane beside, which has the same green
 
 class LeftFromTheKerb : public ::testing::Test {
@@ -1737,10 +1766,13 @@ TEST_F(CrossingTest, WhoStepsBackHasWaitedSinceItCame) {
   here_.move(walker, link.stop_line - 0.3);
   const std::size_t driver = here_.add("car", {"WC", "CE"}, 0, 12, 0, -1, "WC_1");
   here_.move(driver, here_.path(driver).links.at(0).stop_line - 2.25 - 48);
-  here_.scene.time = 100;
-  here_.scene.halted_for[walker] = link.connection;
-  const auto waits = [&](double halted_at) {
-    here_.scene.halted_at[walker] = halted_at;
+  const auto waits = [&](double came) {
+    here_.scene.halted_for[walker] = kNoConnection;
+    here_.scene.time = came;
+    here_.scene.standing_time[walker] = 1.0;
+    here_.update();
+    here_.scene.time = 100;
+    here_.scene.standing_time[walker] = 0.0;
     here_.update();
     return here_.context(walker).foe == here_.scene.id[driver].value;
   };

@@ -129,6 +129,23 @@ TEST_F(Flow, StuckAgentsKnowTheHeadOfTheirQueue) {
   EXPECT_FALSE(monitor_.stuck()[0].ring);
 }
 
+// a bus stood on the way that leaves a junction to the right behind cars that waited there for a
+// light straight on
+TEST_F(Flow, WhoWaitsForSomebodyAtARedLightIsNotStuck) {
+  const std::size_t behind = add("bus", {0, 0}), middle = add("car", {10, 0}),
+                    head = add("car", {20, 0});
+  for (const std::size_t row : {behind, middle, head}) scene_.context[row].active = true;
+  scene_.context[behind].reason = scene_.context[middle].reason = LimitReason::Leader;
+  scene_.context[behind].foe = scene_.id[middle].value;
+  scene_.context[middle].foe = scene_.id[head].value;
+  scene_.context[head].reason = LimitReason::Signal;
+  run(70);
+  EXPECT_TRUE(monitor_.stuck().empty());
+  scene_.context[head].reason = LimitReason::None;
+  run(70);
+  EXPECT_EQ(monitor_.stuck().size(), 3u);
+}
+
 TEST_F(Flow, WhoWaitForOneAnotherAreARing) {
   for (int k = 0; k < 3; ++k) {
     const std::size_t row = add("car", {50.0 + 8 * k, 0}, "out_0", 30.0 + 8 * k);
