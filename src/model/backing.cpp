@@ -193,6 +193,22 @@ bool is_still_in_the_way(const Model& model, const Scene& scene, const TickGeome
                        [&](std::size_t other) { return scene.blocked_time[other] > kSees; });
 }
 
+/// Is somebody near in front of a row that lets others go first held up for other reasons than the
+/// row?
+bool lets_somebody_go(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                      std::size_t row) {
+  constexpr double kHeld = 2.0;  // [s]
+  const AgentGeometry& own = geometry.agent[row];
+  bool found = false;
+  visit_wheeled(model, scene, geometry, row, [&](std::size_t other) {
+    const Vec2 way = geometry.agent[other].position - own.position;
+    found = found || (way.dot(own.forward) > 0.0 && scene.waiting_time[other] > kHeld &&
+                      !waits_for(scene, other, row, kLongest,
+                                 [&](std::size_t waiting) { return foe_row(scene, waiting); }));
+  });
+  return found;
+}
+
 }  // namespace
 
 void update_backing(const Model& model, const TickGeometry& geometry, double dt, Scene& scene,
@@ -201,6 +217,9 @@ void update_backing(const Model& model, const TickGeometry& geometry, double dt,
   double& gives_way = scene.gives_way_left[row];
   gives_way = std::max(0.0, gives_way - dt);
   if (finds_gap(scene, row)) left = gives_way = 0.0;
+  if (gives_way > 0.0 && left <= 0.0 && scene.standing_time[row] > kGivesWay &&
+      !lets_somebody_go(model, scene, geometry, row))
+    gives_way = 0.0;
   if (left > 0.0) {
     const bool moved_on = scene.speed[row] > kPace;
     // who finds no gap to change lanes and comes up against somebody behind gives way from there.

@@ -90,7 +90,8 @@ LaneId better_lane(const Model& model, const LaneQueues& queues, const Path& pat
     const double shift = shift_to(model, lane, other);
     const double there =
         hoped_speed(around, shift, std::min(free_speed, other.speed_limit * 1.2), 0.3);
-    if (there <= most || there < kSlowest || !is_gap(scene, around, row, {shift}, kSafeBraking) ||
+    if (there <= most || there < kSlowest ||
+        !is_gap(scene, around, row, {.shift = shift, .middle = &other.centerline}, kSafeBraking) ||
         run_together_soon(model, path, around.along, id))
       continue;
     most = there;
@@ -116,34 +117,44 @@ bool filters(const Scene& scene, const Surroundings& around, std::size_t row) {
 }
 
 /// A lane change that the trip needs waits for its gap: says so to whoever may leave one, closes
-/// the gate at its begin while there is none, and begins it over the way that its speed asks for.
+/// the gate at its begin while there is none, also of one right behind another, and begins it over
+/// the way that its speed asks for.
 void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
                   const Surroundings& around, std::size_t row, LaneIntent& intent) {
   constexpr double kPressed = 3.0, kCreeps = 3.0;  // [m/s^2], [m/s]
   constexpr double kTooLong = 1.3;                 // times the way that it takes
   const PathStretch& here = path.stretch_at(around.along);
+  const double speed = around.speed;
+  const PathStretch* change = next_change(path, around.along, 12.0 + 3.0 * speed);
+  const Lane& from = model.road.lane(here.lane);
+  if (change != nullptr && from.edge != model.road.lane(change->lane).edge) change = nullptr;
+  const auto is_free = [&](const LaneBeside& beside) {
+    return !is_contested(scene, around, row, change->lane, beside) &&
+           is_gap(scene, around, row, beside, speed < 2.0 ? kPressed : kSafeBraking);
+  };
+  const auto beside_here = [&] {
+    const Lane& to = model.road.lane(change->lane);
+    return LaneBeside{shift_to(model, from, to), change->from, change->to, &to.centerline};
+  };
   if (here.changing) {
     // who goes on between the lanes is in no lane's way until it has got past
     if (filters(scene, around, row)) return;
     intent.merge_to = here.lane;
-    if (is_beside(scene, around, row)) intent.gate = around.along;
+    if (is_beside(scene, around, row))
+      intent.gate = around.along;
+    else if (change != nullptr && change->lane != here.lane && !is_free(beside_here()))
+      intent.gate = change->from;
     const LimitReason reason = scene.context[row].reason;
     intent.abort = scene.standing_time[row] > kPatience &&
                    (reason == LimitReason::None || reason == LimitReason::Merge);
     return;
   }
-  const double speed = around.speed;
-  const PathStretch* change = next_change(path, around.along, 12.0 + 3.0 * speed);
   if (change == nullptr) return;
-  const Lane &from = model.road.lane(here.lane), &to = model.road.lane(change->lane);
-  if (from.edge != to.edge) return;
   intent.merge_to = change->lane;
-  const LaneBeside beside{shift_to(model, from, to), change->from, change->to};
-  const double braking = speed < 2.0 ? kPressed : kSafeBraking;
+  const LaneBeside beside = beside_here();
   const bool due = change->from - around.along < 2.0 + 1.2 * speed;
   const bool let_in = speed < kCreeps && is_let_in(scene, around, row, beside);
-  if (!is_contested(scene, around, row, change->lane, beside) &&
-      is_gap(scene, around, row, beside, braking)) {
+  if (is_free(beside)) {
     // planned over the way that it takes at full speed: in a queue, that long over two lanes
     if ((due || let_in) && change->to - change->from > kTooLong * way_of_change(speed))
       intent.wanted = change->lane;

@@ -13,7 +13,11 @@ namespace sumogamma {
 namespace {
 
 /// How far somebody's middle is beside the middle of the lane [m].
-double aside_of(const RoadUser& user, const LaneBeside& lane) {
+double aside_of(const Scene& scene, const RoadUser& user, const LaneBeside& lane) {
+  if (lane.middle != nullptr) {
+    const PolylinePosition place = lane.middle->project(scene.position[user.row]);
+    if (place.along > 0.0 && place.along < lane.middle->length()) return place.offset;
+  }
   return user.offset - lane.offset_at(0.5 * (user.rear + user.front));
 }
 
@@ -49,7 +53,7 @@ bool is_gap(const Scene& scene, const Surroundings& around, std::size_t row, con
     // a path that moves over is askew to the lanes
     const double half_width =
         std::min(user.half_width, half_extent(scene, user.row, left_of(around.tangent)));
-    if (std::abs(aside_of(user, lane)) > half_width + around.half_width + kSides) continue;
+    if (std::abs(aside_of(scene, user, lane)) > half_width + around.half_width + kSides) continue;
     // who lets us in keeps no headway for it, but brakes no harder than is courteous
     const bool lets_us_in = user.front < front && waits_for_row(scene, user, row);
     // who stands beside our tail or behind it and holds, or has stepped back to let others go
@@ -78,7 +82,7 @@ bool is_contested(const Scene& scene, const Surroundings& around, std::size_t ro
   constexpr double kHalts = 2.0, kNear = 2.0;  // [s], [m]
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
-    const bool other_side = aside_of(user, lane) * lane.shift > 0.0;
+    const bool other_side = aside_of(scene, user, lane) * lane.shift > 0.0;
     const bool waits = std::isfinite(scene.gate[user.row]) ||
                        scene.standing_time[user.row] > kHalts || waits_for_row(scene, user, row);
     return other_side && scene.merge_to[user.row] == target && !waits &&
@@ -90,7 +94,7 @@ bool is_contested(const Scene& scene, const Surroundings& around, std::size_t ro
 bool is_let_in(const Scene& scene, const Surroundings& around, std::size_t row,
                const LaneBeside& lane) {
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
-    const double aside = std::abs(aside_of(user, lane));
+    const double aside = std::abs(aside_of(scene, user, lane));
     // who follows in our own lane, be it half in the other, waits for us but leaves no gap there
     return leaves_room_for_nose(around, user) && waits_for_row(scene, user, row) &&
            aside < user.half_width + around.half_width && aside < std::abs(user.offset);

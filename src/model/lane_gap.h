@@ -13,6 +13,8 @@ struct LaneBeside {
   double from = std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
 
+  const Polyline* middle = nullptr;  ///< where known: behind, the path may come from further aside
+
   /// Its middle beside the path there [m].
   double offset_at(double along) const;
 };

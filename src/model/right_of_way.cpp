@@ -218,7 +218,8 @@ struct Judge : RoadView {
     if (foe_inside && in_deadlock(foe)) return Verdict::Held;
     if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
     if (waits_behind(foe) || ends_in_queue(zone, foe)) return Verdict::Held;
-    if (zone.yields && goes_first(zone, foe)) return Verdict::Free;
+    if (zone.yields && holds_up(traveller.row, -to_line()) && goes_first(zone, foe))
+      return Verdict::Free;
     // no rule for this pair, or whoever has to wait is past the line already: who gets there first
     // goes first, the other waits for it. Nobody who has to wait makes a foe brake hard
     const bool cuts_off = zone.yields && !foe_may_halt(zone, foe);
@@ -233,7 +234,7 @@ struct Judge : RoadView {
                                0.7 * foe_type.max_deceleration;
       return blocks_if(vulnerable && unstoppable && foe_type.kinematics != Kinematics::Holonomic);
     }
-    if (steps_out(zone, foe) || noses_out(zone, foe)) return Verdict::Free;
+    if (steps_out(zone, foe) || noses_out(zone, foe) || goes_first(zone, foe)) return Verdict::Free;
     return Verdict::Blocks;
   }
 

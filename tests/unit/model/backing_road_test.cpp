@@ -327,6 +327,28 @@ TEST_F(BackingTest, GivingWayHoldsIt) {
   EXPECT_EQ(here_.context(own).allowed_speed, 0.0);
 }
 
+// two stood for a minute behind a car that went on giving way when the truck before it was gone
+TEST_F(BackingTest, GivingWayEndsOnceNobodyNeedsIt) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
+  const std::size_t other = here_.add("truck", {"EC", "CW"}, 50, 0);
+  here_.scene.position[other] = here_.scene.position[own] + Vec2(9.0, 2.0);
+  const auto gives_way_after = [&](double stood, double their_wait, std::int64_t their_foe) {
+    here_.scene.gives_way_left[own] = 15.0;
+    here_.scene.standing_time[own] = stood;
+    here_.scene.waiting_time[other] = their_wait;
+    here_.scene.context[other].active = true;
+    here_.scene.context[other].foe = their_foe;
+    update(own);
+    return here_.scene.gives_way_left[own] > 0.0;
+  };
+  EXPECT_TRUE(gives_way_after(8.0, 20.0, -1));
+  EXPECT_FALSE(gives_way_after(8.0, 0.0, -1)) << "it drives";
+  EXPECT_TRUE(gives_way_after(3.0, 0.0, -1)) << "not at once";
+  EXPECT_FALSE(gives_way_after(8.0, 20.0, here_.scene.id[own].value)) << "it waits for this one";
+  here_.scene.position[other] = here_.scene.position[own] - Vec2(9.0, 0.0);
+  EXPECT_FALSE(gives_way_after(8.0, 20.0, -1)) << "behind";
+}
+
 TEST_F(BackingTest, NobodyBacksIntoWhoStandsBehind) {
   const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
   here_.add("car", {"WC", "CE"}, 100 - 4.5 - 0.4, 0);

@@ -647,6 +647,34 @@ TEST(NoGapOnAFastRoad, IsWhereSomebodyComesFromFarBehind) {
   }
 }
 
+// over two lanes one after the other: beside the path of before, still in the first lane, whoever
+// came in the third seemed to be a lane further on, and who followed in the second to be in it
+TEST(NoGapOnAFastRoad, IsWhereSomebodyComesBesideTheLaneOfBefore) {
+  PlainNet net;
+  net.nodes = "<node id='W' x='0' y='0'/><node id='M' x='300' y='0'/><node id='E' x='400' y='0'/>";
+  net.edges =
+      "<edge id='WM' from='W' to='M' numLanes='3' speed='27.78'/>"
+      "<edge id='ME' from='M' to='E' numLanes='1' speed='27.78'/>";
+  net.connections = "<connection from='WM' to='ME' fromLane='2' toLane='0'/>";
+  const RoadNetwork network = testing::read_plain_net(net);
+  for (const double speed : {5.0, 25.0}) {
+    RoadScene here(network);
+    const std::size_t own = here.add("car", {"WM", "ME"}, 0, 5, 0, -1, "WM_0");
+    const LaneId middle = network.lane_by_name.at("WM_1");
+    const auto& stretches = here.path(own).stretches;
+    const auto first = std::find_if(stretches.begin(), stretches.end(), [&](const auto& stretch) {
+      return stretch.changing && stretch.lane == middle;
+    });
+    ASSERT_NE(first, stretches.end());
+    here.move(own, first->to - 0.5);
+    const std::size_t other = here.add("car", {"WM", "ME"}, 5, speed, 0, -1, "WM_2");
+    move_to_x(here, other, here.scene.position[own].x() - 45.0);
+    here.update();
+    let_all_look(here);
+    EXPECT_EQ(std::isfinite(here.scene.gate[own]), speed > 20.0) << speed;
+  }
+}
+
 // somebody who stood behind the begin of its path counted as beside it, and it waited for ever;
 // further back nobody was seen
 TEST(Surrounding, WhoIsBehindTheBeginOfAPathIsSeenWhereItIs) {
