@@ -57,6 +57,16 @@ bool run_together_soon(const Model& model, const Path& path, double along, LaneI
                      [&](ConnectionId id) { return runs_together(model, link->connection, id); });
 }
 
+/// Way from `along` to behind the last signal within `reach` [m], 0 where there is none.
+double way_to_last_light(const RoadNetwork& network, const Path& path, double along, double reach) {
+  double way = 0.0;
+  for (auto link = path.link_from(along); link != path.links.end(); ++link) {
+    if (link->end > along + reach) break;
+    if (network.connection(link->connection).signal != kNoSignal) way = link->end - along;
+  }
+  return way;
+}
+
 /// The neighbouring lane on which this agent would rather be, kNoLane where it stays.
 LaneId better_lane(const Model& model, const LaneQueues& queues, const Path& path,
                    const Scene& scene, const Surroundings& around, std::size_t row) {
@@ -82,9 +92,10 @@ LaneId better_lane(const Model& model, const LaneQueues& queues, const Path& pat
     if (option.cost == std::numeric_limits<double>::infinity()) continue;
     // it must lead on for long enough to be worth it, or as far as this one
     const double left_there = option.drivable - on_lane;
-    // who passes a queue has to get back into it
+    // who passes a queue has to get back into it; not at a light at which both lanes go on
+    const double light = way_to_last_light(model.road, path, around.along, left_there);
     if (left_there < left_here - 1.0 &&
-        left_there - queue_ahead(queues, path, around.along, left_there) <
+        left_there - queue_ahead(queues, path, around.along + light, left_there - light) <
             std::max(150.0, 12.0 * around.speed))
       continue;
     const double shift = shift_to(model, lane, other);
@@ -117,44 +128,34 @@ bool filters(const Scene& scene, const Surroundings& around, std::size_t row) {
 }
 
 /// A lane change that the trip needs waits for its gap: says so to whoever may leave one, closes
-/// the gate at its begin while there is none, also of one right behind another, and begins it over
-/// the way that its speed asks for.
+/// the gate at its begin while there is none, and begins it over the way that its speed asks for.
 void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
                   const Surroundings& around, std::size_t row, LaneIntent& intent) {
   constexpr double kPressed = 3.0, kCreeps = 3.0;  // [m/s^2], [m/s]
   constexpr double kTooLong = 1.3;                 // times the way that it takes
   const PathStretch& here = path.stretch_at(around.along);
-  const double speed = around.speed;
-  const PathStretch* change = next_change(path, around.along, 12.0 + 3.0 * speed);
-  const Lane& from = model.road.lane(here.lane);
-  if (change != nullptr && from.edge != model.road.lane(change->lane).edge) change = nullptr;
-  const auto is_free = [&](const LaneBeside& beside) {
-    return !is_contested(scene, around, row, change->lane, beside) &&
-           is_gap(scene, around, row, beside, speed < 2.0 ? kPressed : kSafeBraking);
-  };
-  const auto beside_here = [&] {
-    const Lane& to = model.road.lane(change->lane);
-    return LaneBeside{shift_to(model, from, to), change->from, change->to, &to.centerline};
-  };
   if (here.changing) {
     // who goes on between the lanes is in no lane's way until it has got past
     if (filters(scene, around, row)) return;
     intent.merge_to = here.lane;
-    if (is_beside(scene, around, row))
-      intent.gate = around.along;
-    else if (change != nullptr && change->lane != here.lane && !is_free(beside_here()))
-      intent.gate = change->from;
+    if (is_beside(scene, around, row)) intent.gate = around.along;
     const LimitReason reason = scene.context[row].reason;
     intent.abort = scene.standing_time[row] > kPatience &&
                    (reason == LimitReason::None || reason == LimitReason::Merge);
     return;
   }
+  const double speed = around.speed;
+  const PathStretch* change = next_change(path, around.along, 12.0 + 3.0 * speed);
   if (change == nullptr) return;
+  const Lane &from = model.road.lane(here.lane), &to = model.road.lane(change->lane);
+  if (from.edge != to.edge) return;
   intent.merge_to = change->lane;
-  const LaneBeside beside = beside_here();
+  const LaneBeside beside{shift_to(model, from, to), change->from, change->to, &to.centerline};
+  const double braking = speed < 2.0 ? kPressed : kSafeBraking;
   const bool due = change->from - around.along < 2.0 + 1.2 * speed;
   const bool let_in = speed < kCreeps && is_let_in(scene, around, row, beside);
-  if (is_free(beside)) {
+  if (!is_contested(scene, around, row, change->lane, beside) &&
+      is_gap(scene, around, row, beside, braking)) {
     // planned over the way that it takes at full speed: in a queue, that long over two lanes
     if ((due || let_in) && change->to - change->from > kTooLong * way_of_change(speed))
       intent.wanted = change->lane;

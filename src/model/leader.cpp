@@ -75,7 +75,7 @@ bool shuffles_before(const Scene& scene, std::size_t vehicle, std::size_t walker
 /// Is somebody amid a lane change, and hasn't halted there to let others past?
 bool is_changing(const RoadState& road, const Scene& scene, std::size_t row) {
   const Path* path = road.path(scene.path[row]);
-  return path != nullptr && scene.gate[row] > scene.path_along[row] &&
+  return path != nullptr && !std::isfinite(scene.gate[row]) &&
          path->stretch_at(scene.path_along[row]).changing;
 }
 

@@ -217,7 +217,8 @@ struct Judge : RoadView {
       return Verdict::Held;
     if (foe_inside && in_deadlock(foe)) return Verdict::Held;
     if (foe_inside) return blocks_if(theirs.end + 0.3 > ours.begin);
-    if (waits_behind(foe) || ends_in_queue(zone, foe)) return Verdict::Held;
+    if ((waits_behind(foe) && !is_starved_by(zone, foe)) || ends_in_queue(zone, foe))
+      return Verdict::Held;
     if (zone.yields && holds_up(traveller.row, -to_line()) && goes_first(zone, foe))
       return Verdict::Free;
     // no rule for this pair, or whoever has to wait is past the line already: who gets there first
@@ -254,6 +255,14 @@ struct Judge : RoadView {
   bool waits_behind(const Approach& foe) const {
     return lets_go_first(model, scene, approaches, foe, traveller.row,
                          foe.front > 0.0 && on_junction(), has_set_out());
+  }
+  /// Has a foe on wheels with the right of way stood for so long for others in the zone that the
+  /// traveller lets it come next, from its line? One after the other went in there before it.
+  bool is_starved_by(const ConflictZone& zone, const Approach& foe) const {
+    constexpr double kLong = 20.0;  // [s]
+    return zone.yields && to_line() > -kEdge && !on_foot(foe.row) &&
+           approaches.waiting(foe.row).reason == LimitReason::Yield &&
+           scene.standing_time[foe.row] > kLong;
   }
   /// Somebody who hasn't stepped on an unsignalled crossing, where the traveller doesn't let people
   /// go first.

@@ -258,8 +258,6 @@ LaneId cover_edge(const RoadNetwork& network, const Edge& edge, int entry, int e
     const double speed = network.lane(edge.lanes[static_cast<std::size_t>(entry)]).speed_limit;
     double each = std::min(std::clamp(3.5 * speed, 15.0, 60.0), 0.85 * room / changes);
     const double lead_in = std::min(0.1 * room, 20.0);
-    // who finds no gap for the next change halts before it, in the lane that it has got to
-    const double between = changes > 1 ? std::min(0.04 * room / (changes - 1), 4.0) : 0.0;
     builder.follow(edge.lanes[static_cast<std::size_t>(index)], along, along + lead_in);
     along += lead_in;
     for (int k = 0; k < changes; ++k) {
@@ -271,9 +269,6 @@ LaneId cover_edge(const RoadNetwork& network, const Edge& edge, int entry, int e
       each *= scale;
       to *= scale;
       index = next;
-      if (k + 1 == changes) break;
-      builder.follow(edge.lanes[static_cast<std::size_t>(index)], along, along + between);
-      along += between;
     }
   }
   const LaneId lane = edge.lanes[static_cast<std::size_t>(index)];

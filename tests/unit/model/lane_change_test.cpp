@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "model/lane_choice.h"
+#include "model/lane_gap.h"
 #include "model/leader.h"
 #include "model/locate.h"
 #include "support/lane_looks.h"
@@ -194,6 +195,38 @@ TEST(BetterLane, WhoPassesAQueueHasToGetBackIntoIt) {
     for (const PathStretch& stretch : here.path(own).stretches)
       leaves = leaves || here.model.road.lane(stretch.lane).name == "WM_0";
     EXPECT_EQ(leaves, their_speed > 5.0);
+  }
+}
+
+// a queue before a light filled one of two lanes that both led on behind it for 85 m, the other was
+// empty through its greens
+TEST(BetterLane, WhoPassesAQueueAtALightGetsBackIntoItBehindThat) {
+  for (const char* type : {"priority", "traffic_light"}) {
+    PlainNet net;
+    net.nodes = "<node id='A' x='0' y='0'/><node id='L' x='260' y='0' type='" + std::string(type) +
+                "'/><node id='B' x='340' y='0'/><node id='C' x='500' y='0'/>"
+                "<node id='N' x='260' y='100'/><node id='S' x='260' y='-100'/>";
+    net.edges =
+        "<edge id='AL' from='A' to='L' numLanes='2' speed='13.89' priority='3'/>"
+        "<edge id='LB' from='L' to='B' numLanes='2' speed='13.89' priority='3'/>"
+        "<edge id='BC' from='B' to='C' numLanes='1' speed='13.89' priority='3'/>"
+        "<edge id='NL' from='N' to='L' numLanes='1' speed='13.89' priority='1'/>"
+        "<edge id='LS' from='L' to='S' numLanes='1' speed='13.89' priority='1'/>";
+    net.connections =
+        "<connection from='AL' to='LB' fromLane='0' toLane='0'/>"
+        "<connection from='AL' to='LB' fromLane='1' toLane='1'/>"
+        "<connection from='NL' to='LS' fromLane='0' toLane='0'/>"
+        "<connection from='LB' to='BC' fromLane='1' toLane='0'/>";
+    RoadScene here{testing::read_plain_net(net)};
+    const std::size_t own = here.add("car", {"AL", "LB", "BC"}, 120, 8, 0, -1, "AL_1");
+    here.add("bus", {"AL", "LB", "BC"}, 142, 3, 0, -1, "AL_1");
+    for (double place = 160; place < 245; place += 6.5)
+      here.add("car", {"AL", "LB", "BC"}, place, 0, 0, -1, "AL_1");
+    here.update();
+    let_all_look(here);
+    const PathStretch* change = first_change(here, own);
+    const bool leaves = change != nullptr && here.model.road.lane(change->lane).name == "AL_0";
+    EXPECT_EQ(leaves, std::string(type) == "traffic_light");
   }
 }
 
@@ -647,8 +680,8 @@ TEST(NoGapOnAFastRoad, IsWhereSomebodyComesFromFarBehind) {
   }
 }
 
-// over two lanes one after the other: beside the path of before, still in the first lane, whoever
-// came in the third seemed to be a lane further on, and who followed in the second to be in it
+// after one change to the left, before another: beside the path behind, still in the first lane,
+// whoever came in the third seemed to be a lane further on, and who followed in the second in it
 TEST(NoGapOnAFastRoad, IsWhereSomebodyComesBesideTheLaneOfBefore) {
   PlainNet net;
   net.nodes = "<node id='W' x='0' y='0'/><node id='M' x='300' y='0'/><node id='E' x='400' y='0'/>";
@@ -670,8 +703,12 @@ TEST(NoGapOnAFastRoad, IsWhereSomebodyComesBesideTheLaneOfBefore) {
     const std::size_t other = here.add("car", {"WM", "ME"}, 5, speed, 0, -1, "WM_2");
     move_to_x(here, other, here.scene.position[own].x() - 45.0);
     here.update();
-    let_all_look(here);
-    EXPECT_EQ(std::isfinite(here.scene.gate[own]), speed > 20.0) << speed;
+    Surroundings around;
+    look_around(here.model, here.road, here.scene, here.geometry.grid, own, 80.0, 8.0, around);
+    const Lane& wanted = network.lane(network.lane_by_name.at("WM_2"));
+    EXPECT_EQ(is_gap(here.scene, around, own, {.shift = 3.2, .middle = &wanted.centerline}, 1.5),
+              speed < 20.0)
+        << speed;
   }
 }
 

@@ -582,6 +582,27 @@ TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
 
 // the next of the row drove on behind whoever stood on the junction before it, and who had the
 // longer wait for that one never got in
+// a truck stood for two minutes at a line with priority, one after the other from the minor road
+// before it, in the queue before the next light
+TEST_F(PriorityTest, WhoHasStoodForLongWithTheRightOfWayComesNext) {
+  const std::size_t major = add_at_line({"WC", "CE"}, "WC_0");
+  const std::size_t minor = add_at_line({"SC", "CN"});
+  const std::size_t third = here_.add("car", {"NC", "CS"}, 0, 0);
+  here_.move(third, here_.path(third).links.front().stop_line + 8.0);
+  const auto waits_after = [&](double stood) {
+    RoadContext& context = here_.scene.context[major];
+    context.active = true;
+    context.reason = LimitReason::Yield;
+    context.foe = here_.scene.id[third].value;
+    here_.scene.standing_time[major] = here_.scene.waiting_time[major] = stood;
+    here_.scene.waiting_time[minor] = 5.0;
+    here_.update();
+    return here_.context(minor).foe == here_.scene.id[major].value;
+  };
+  EXPECT_FALSE(waits_after(10.0));
+  EXPECT_TRUE(waits_after(25.0));
+}
+
 TEST_F(PriorityTest, WhoWaitsForTheRowToLeaveTheJunctionIsLetInBehindIt) {
   const std::size_t own = add_at_line({"WC", "CE"}, "WC_0");
   const PathLink& link = here_.path(own).links.front();
