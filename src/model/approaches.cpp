@@ -19,16 +19,15 @@ bool is_wide(const Scene& scene, std::size_t row) {
 
 namespace {
 
-/// Does a row wait at the line of a link at which others have to give way to it?
-bool has_right_of_way(const Model& model, const RoadState& road, const Scene& scene,
-                      std::size_t row) {
+/// Is the next link of a row, on wheels, one with the right of way?
+bool comes_with_right_of_way(const Model& model, const RoadState& road, const Scene& scene,
+                             std::size_t row) {
   const Path* path = road.path(scene.path[row]);
   if (path == nullptr || path->walking) return false;
   const auto link = path->link_from(scene.path_along[row]);
   if (link == path->links.end()) return false;
   const Connection& connection = model.road.connection(link->connection);
-  const char signal = road.signal(connection);
-  return signal == 'G' || (signal == 'O' && connection.state == 'M');
+  return has_right_of_way(connection, road.signal(connection));
 }
 
 }  // namespace
@@ -53,7 +52,7 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
     if (waiting_[row].reason != LimitReason::Yield || scene.standing_time[row] < kSomeTime)
       continue;
     const std::size_t foe = find_foe(scene, waiting_[row].foe);
-    if (foe < scene.size() && has_right_of_way(model, road, scene, row))
+    if (foe < scene.size() && comes_with_right_of_way(model, road, scene, row))
       waiting_[foe].holds_up = true;
   }
 

@@ -21,9 +21,9 @@ double next_queue_head(const RoadView& view, const Course& course, const PathLin
     if (next.stop_line <= link.stop_line) continue;
     if (next.stop_line > link.end + kQueue) break;
     const Connection& connection = view.model.road.connection(next.connection);
-    const char signal = view.road.signal(connection);
-    const bool first = signal == 'G' || (signal == 'O' && connection.state == 'M');
-    if (!first && has_crossing_traffic(view.model, next.connection)) return next.halt;
+    if (!has_right_of_way(connection, view.road.signal(connection)) &&
+        has_crossing_traffic(view.model, next.connection))
+      return next.halt;
   }
   return std::numeric_limits<double>::infinity();
 }

@@ -40,4 +40,9 @@ inline double signal_since(const RoadState& road, const Connection& connection, 
 inline bool is_red(char signal) { return signal == 'r' || signal == 'u'; }
 inline bool is_amber(char signal) { return signal == 'y' || signal == 'Y'; }
 
+/// Does nobody who crosses a link now go first there? `signal`: what it shows, 'O' without one.
+inline bool has_right_of_way(const Connection& connection, char signal) {
+  return signal == 'G' || (signal == 'O' && connection.state == 'M');
+}
+
 }  // namespace sumogamma
