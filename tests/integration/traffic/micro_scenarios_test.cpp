@@ -1,6 +1,10 @@
 // One test a small scenario: what traffic does there, as tools/measure_traffic.py computes it from
 // the trajectories. Bands: docs/micro_scenarios.md.
+#include <algorithm>
 #include <fstream>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "traffic_run.h"
 
@@ -149,16 +153,29 @@ TEST_P(MicroScenarios, BusesHaltAtTheirStopAndArePassedWhereThereIsALane) {
   EXPECT_GE(figures["oncoming_slowest"], 8.0) << figures;
 }
 
-TEST_P(MicroScenarios, TwoWheelersFilterToTheFrontOfAQueue) {
-  const json figures = run("mixed_queue");
-  expect_sound(figures);
-  expect_all_arrive(figures, 26);
-  for (const char* kind : {"motorcycles", "bicycles"}) {
-    EXPECT_GE(figures[kind]["filtered_share"], 0.5) << figures;
-    EXPECT_GE(figures[kind]["cars_passed_each"], 1.0) << figures;
+// of eight motorcycles and four bicycles it is chance how many do, of 64 and 32 it is not
+TEST(MicroScenariosOverSeeds, TwoWheelersFilterToTheFrontOfAQueue) {
+  constexpr int kSeeds = 8;
+  std::map<std::string, double> filtered, passed;
+  std::vector<double> gaps;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    const json figures = figures_of("mixed_queue", std::to_string(seed));
+    expect_sound(figures);
+    expect_all_arrive(figures, 26);
+    EXPECT_EQ(figures["crossed_in_green"], 1.0) << figures;
+    for (const char* kind : {"motorcycles", "bicycles"}) {
+      filtered[kind] += figures[kind]["filtered_share"].get<double>() / kSeeds;
+      passed[kind] += figures[kind]["cars_passed_each"].get<double>() / kSeeds;
+    }
+    gaps.push_back(figures["least_gap_while_filtering"].get<double>());
   }
-  EXPECT_GE(figures["least_gap_while_filtering"], 0.15) << figures;
-  EXPECT_EQ(figures["crossed_in_green"], 1.0) << figures;
+  for (const char* kind : {"motorcycles", "bicycles"}) {
+    EXPECT_GE(filtered[kind], 0.6) << kind;
+    EXPECT_GE(passed[kind], 4.0) << kind;
+  }
+  // the least of a whole run: in half of them at the least
+  std::sort(gaps.begin(), gaps.end());
+  EXPECT_GE(gaps[kSeeds / 2 - 1], 0.15);
 }
 
 TEST_P(MicroScenarios, PeopleBothWaysOnASidewalkWalkAsFastAsWeidmannSays) {
