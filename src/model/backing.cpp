@@ -111,19 +111,20 @@ bool makes_room(const Scene& scene, std::size_t row) {
          scene.backing_left[leader] > 0.0 && scene.backing_left[leader] < kTries - kTried;
 }
 
-/// Calls `visit` for everybody on wheels near a row, one that is itself on wheels.
-template <typename Visit>
-void visit_wheeled(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                   std::size_t row, Visit visit) {
+/// Is `holds` true of anybody on wheels near a row, one that is itself on wheels?
+template <typename Holds>
+bool any_wheeled(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                 std::size_t row, Holds holds) {
   const AgentGeometry& own = geometry.agent[row];
-  if (!own.on_wheels || !own.is_box) return;
-  geometry.grid.visit_within(own.position, own.radius + kFarthestCorner,
-                             [&](std::size_t other, double) {
-                               const AgentGeometry& their = geometry.agent[other];
-                               if (other != row && their.on_wheels && their.is_box &&
-                                   !on_other_storey(model.road, scene, row, other))
-                                 visit(other);
-                             });
+  if (!own.on_wheels || !own.is_box) return false;
+  bool found = false;
+  geometry.grid.visit_within(
+      own.position, own.radius + kFarthestCorner, [&](std::size_t other, double) {
+        const AgentGeometry& their = geometry.agent[other];
+        found = found || (other != row && their.on_wheels && their.is_box &&
+                          !on_other_storey(model.road, scene, row, other) && holds(other));
+      });
+  return found;
 }
 
 /// Is a body in the room that another one needs to drive on?
@@ -139,23 +140,25 @@ bool is_in_room_of(const AgentGeometry& body, const AgentGeometry& other) {
 template <typename Concerns>
 bool stands_before(const Model& model, const Scene& scene, const TickGeometry& geometry,
                    std::size_t row, Concerns concerns) {
-  bool found = false;
-  visit_wheeled(model, scene, geometry, row, [&](std::size_t other) {
-    found = found || (is_wedged(scene, other) &&
-                      is_in_room_of(geometry.agent[row], geometry.agent[other]) && concerns(other));
+  return any_wheeled(model, scene, geometry, row, [&](std::size_t other) {
+    return is_wedged(scene, other) && is_in_room_of(geometry.agent[row], geometry.agent[other]) &&
+           concerns(other);
   });
-  return found;
 }
 
 /// Does somebody who lets others go first stand in this row's way? It steps back further.
 bool is_made_way_for(const Model& model, const Scene& scene, const TickGeometry& geometry,
                      std::size_t row) {
-  bool found = false;
-  visit_wheeled(model, scene, geometry, row, [&](std::size_t other) {
-    found = found || (scene.gives_way_left[other] > 0.0 &&
-                      is_in_room_of(geometry.agent[other], geometry.agent[row]));
+  return any_wheeled(model, scene, geometry, row, [&](std::size_t other) {
+    return scene.gives_way_left[other] > 0.0 &&
+           is_in_room_of(geometry.agent[other], geometry.agent[row]);
   });
-  return found;
+}
+
+/// Does a row wait for another, be it over others?
+bool is_in_chain_behind(const Scene& scene, std::size_t row, std::size_t other) {
+  return waits_for(scene, row, other, kLongest,
+                   [&](std::size_t waiting) { return foe_row(scene, waiting); });
 }
 
 /// Is there somebody wedged at the end of the chain of those who wait for one another from this row
@@ -178,9 +181,7 @@ bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometr
   return scene.standing_time[row] > kLong && !is_wedged(scene, row) && !scene.context[row].at_red &&
          stands_before(model, scene, geometry, row, [&](std::size_t other) {
            return scene.blocked_time[other] > kHeldUp &&
-                  (waits_for(scene, row, other, kLongest,
-                             [&](std::size_t waiting) { return foe_row(scene, waiting); }) ||
-                   waits_for_wedged(scene, row));
+                  (is_in_chain_behind(scene, row, other) || waits_for_wedged(scene, row));
          });
 }
 
@@ -199,14 +200,11 @@ bool lets_somebody_go(const Model& model, const Scene& scene, const TickGeometry
                       std::size_t row) {
   constexpr double kHeld = 2.0;  // [s]
   const AgentGeometry& own = geometry.agent[row];
-  bool found = false;
-  visit_wheeled(model, scene, geometry, row, [&](std::size_t other) {
+  return any_wheeled(model, scene, geometry, row, [&](std::size_t other) {
     const Vec2 way = geometry.agent[other].position - own.position;
-    found = found || (way.dot(own.forward) > 0.0 && scene.waiting_time[other] > kHeld &&
-                      !waits_for(scene, other, row, kLongest,
-                                 [&](std::size_t waiting) { return foe_row(scene, waiting); }));
+    return way.dot(own.forward) > 0.0 && scene.waiting_time[other] > kHeld &&
+           !is_in_chain_behind(scene, other, row);
   });
-  return found;
 }
 
 }  // namespace

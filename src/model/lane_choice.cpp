@@ -92,12 +92,13 @@ LaneId better_lane(const Model& model, const LaneQueues& queues, const Path& pat
     if (option.cost == std::numeric_limits<double>::infinity()) continue;
     // it must lead on for long enough to be worth it, or as far as this one
     const double left_there = option.drivable - on_lane;
-    // who passes a queue has to get back into it; not at a light at which both lanes go on
-    const double light = way_to_last_light(model.road, path, around.along, left_there);
-    if (left_there < left_here - 1.0 &&
-        left_there - queue_ahead(queues, path, around.along + light, left_there - light) <
-            std::max(150.0, 12.0 * around.speed))
-      continue;
+    if (left_there < left_here - 1.0) {
+      // who passes a queue has to get back into it; not at a light at which both lanes go on
+      const double light = way_to_last_light(model.road, path, around.along, left_there);
+      if (left_there - queue_ahead(queues, path, around.along + light, left_there - light) <
+          std::max(150.0, 12.0 * around.speed))
+        continue;
+    }
     const double shift = shift_to(model, lane, other);
     const double there =
         hoped_speed(around, shift, std::min(free_speed, other.speed_limit * 1.2), 0.3);

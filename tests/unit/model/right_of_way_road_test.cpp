@@ -580,8 +580,6 @@ TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
   EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn);
 }
 
-// the next of the row drove on behind whoever stood on the junction before it, and who had the
-// longer wait for that one never got in
 // a truck stood for two minutes at a line with priority, one after the other from the minor road
 // before it, in the queue before the next light
 TEST_F(PriorityTest, WhoHasStoodForLongWithTheRightOfWayComesNext) {
@@ -603,6 +601,8 @@ TEST_F(PriorityTest, WhoHasStoodForLongWithTheRightOfWayComesNext) {
   EXPECT_TRUE(waits_after(25.0));
 }
 
+// the next of the row drove on behind whoever stood on the junction before it, and who had the
+// longer wait for that one never got in
 TEST_F(PriorityTest, WhoWaitsForTheRowToLeaveTheJunctionIsLetInBehindIt) {
   const std::size_t own = add_at_line({"WC", "CE"}, "WC_0");
   const PathLink& link = here_.path(own).links.front();
