@@ -51,9 +51,14 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
   for (std::size_t row = 0; row < scene.size(); ++row) {
     if (waiting_[row].reason != LimitReason::Yield || scene.standing_time[row] < kSomeTime)
       continue;
-    const std::size_t foe = find_foe(scene, waiting_[row].foe);
-    if (foe < scene.size() && comes_with_right_of_way(model, road, scene, row))
+    if (!comes_with_right_of_way(model, road, scene, row)) continue;
+    // whoever that one stands behind holds it up, too
+    std::size_t foe = find_foe(scene, waiting_[row].foe);
+    while (foe < scene.size() && !waiting_[foe].holds_up) {
       waiting_[foe].holds_up = true;
+      if (waiting_[foe].reason != LimitReason::Leader) break;
+      foe = find_foe(scene, waiting_[foe].foe);
+    }
   }
 
   for (std::size_t row = 0; row < scene.size(); ++row) {

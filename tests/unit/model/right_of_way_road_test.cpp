@@ -188,6 +188,30 @@ TEST(HoldingUp, WhoStandsInTheWayOfOneLaneIsLetPastByTheOther) {
   }
 }
 
+// two bicycles turned left, and the second stood in the way of a lane through all of its green: the
+// first one, for which it waited, was in nobody's way and let everybody past
+TEST(HoldingUp, SoDoesWhoeverThatOneStandsBehind) {
+  RoadScene here{read_plain_net(crossroads("traffic_light"))};
+  show(here, "EC_1", 'G');
+  const std::size_t held = here.add("car", {"EC", "CW"}, 20, 0, 0, -1, "EC_1");
+  const std::size_t second = here.add("bicycle", {"WC", "CN"}, 20, 0, 0, -1, "WC_1");
+  const std::size_t first = here.add("bicycle", {"WC", "CN"}, 23, 0, 0, -1, "WC_1");
+  const auto waits_for = [&](std::size_t row, LimitReason reason, std::size_t other) {
+    here.scene.context[row].reason = reason;
+    here.scene.context[row].foe = static_cast<std::int64_t>(here.scene.id[other].value);
+  };
+  waits_for(held, LimitReason::Yield, second);
+  here.scene.standing_time[held] = 4.0;
+  for (const LimitReason reason : {LimitReason::Leader, LimitReason::Yield}) {
+    waits_for(second, reason, first);
+    ApproachTable approaches;
+    approaches.rebuild(here.model, here.road, here.scene);
+    EXPECT_TRUE(approaches.waiting(second).holds_up);
+    EXPECT_EQ(approaches.waiting(first).holds_up, reason == LimitReason::Leader);
+    EXPECT_FALSE(approaches.waiting(held).holds_up);
+  }
+}
+
 // --- who turns left out of the lane at the kerb, over the lane beside, which has the same green
 
 class LeftFromTheKerb : public ::testing::Test {
