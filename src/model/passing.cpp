@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "model/overtaking.h"
 
@@ -248,7 +249,41 @@ void keep_to_exit(const RoadNetwork& network, const Path& path, const Surroundin
   most_right = std::max(most_right, farthest_right(exit.room_right, around.half_width));
 }
 
+/// Where in its own lane a wide vehicle gets past the tails of those who stand in a lane beside, if
+/// there is such a place: who changed into a full lane stands with a corner of its body in this
+/// one.
+std::optional<double> place_beside_tails(const Model& model, const Scene& scene, LaneId id,
+                                         const Surroundings& around, double liked) {
+  constexpr double kGap = 0.35;  // to the side [m]
+  const Lane& lane = model.road.lane(id);
+  if (lane.kind != LaneKind::Normal) return std::nullopt;
+  const double within = 0.5 * lane.width - around.half_width - kOffEdge;
+  double least = -within, most = within;
+  bool any = false;
+  for (const RoadUser& user : around.users) {
+    if (user.front < around.along - around.half_length ||
+        user.rear > around.along + around.half_length + 10.0 + 3.0 * around.speed ||
+        !stands_beside_lane(model, scene, user.row, id, user.offset))
+      continue;
+    const double apart = user.half_width + around.half_width + kGap;
+    any = any || std::abs(user.offset - liked) < apart;
+    if (user.offset > 0.0) most = std::min(most, user.offset - apart);
+    if (user.offset < 0.0) least = std::max(least, user.offset + apart);
+  }
+  if (!any || least > most) return std::nullopt;
+  return std::clamp(liked, least, most);
+}
+
 }  // namespace
+
+bool stands_beside_lane(const Model& model, const Scene& scene, std::size_t other, LaneId lane,
+                        double offset) {
+  constexpr double kStands = 0.5;  // [m/s]
+  const AgentType& type = type_of(model.types, scene.type[other]);
+  return type.kinematics != Kinematics::Holonomic && !is_narrow(type.width) &&
+         scene.speed[other] < kStands && std::abs(offset) > 0.5 * model.road.lane(lane).width &&
+         scene.merge_to[other] != lane;
+}
 
 double passing_offset(const Model& model, const RoadState& road, const Path& path,
                       const Scene& scene, const Surroundings& around, std::size_t row) {
@@ -279,7 +314,8 @@ double passing_offset(const Model& model, const RoadState& road, const Path& pat
   };
   const double margin = 0.15;
   double best = liked;
-  double most = hope(liked, margin);
+  const double as_liked = hope(liked, margin);
+  double most = as_liked;
   // what was begun is gone on with unless something is clearly better
   const double present = scene.passing_offset[row];
   if (std::abs(present - liked) > 0.2 && present <= most_left && present >= most_right) {
@@ -290,6 +326,10 @@ double passing_offset(const Model& model, const RoadState& road, const Path& pat
     }
   }
   if (most > 0.8 * free_speed) return best;
+  if (!narrow && over == 0.0) {
+    const auto place = place_beside_tails(model, scene, here.lane, around, liked);
+    if (place && hope(*place, margin) > as_liked + kSmallGain) return *place;
+  }
 
   // wide vehicles keep to their lane where ways cross
   if (!narrow && is_near_junction(path, around)) return liked;

@@ -168,6 +168,54 @@ TEST_F(Filtering, WhoStandsAmidItsLaneChangeIsPassed) {
   EXPECT_EQ(lets_in(), -1);
 }
 
+// a car stood through a green behind the tail of one that had changed into the full lane beside
+class TailInTheLane : public ::testing::Test {
+ protected:
+  TailInTheLane() {
+    other_ = here_.add("car", {"WE"}, 100, 0, 0, -1, "WE_1");
+    own_ = here_.add("car", {"WE"}, 85, 3, 0, -1, "WE_0");
+    stand(1.1);
+  }
+  /// The one ahead stands so far towards the own lane [m], its nose away from it.
+  void stand(double aside) {
+    here_.move(other_, 100, -aside);
+    here_.scene.heading[other_] = 0.3;
+  }
+  double place() {
+    here_.update();
+    Surroundings around;
+    look_around(here_.model, here_.road, here_.scene, here_.geometry.grid, own_, 60.0, 8.0, around);
+    return passing_offset(here_.model, here_.road, here_.path(own_), here_.scene, around, own_);
+  }
+  std::int64_t leader() {
+    here_.scene.passing_offset[own_] = here_.scene.lateral_aim[own_] = place();
+    DrivingAhead ahead;
+    return find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, own_, 60.0, ahead)
+        .id;
+  }
+  RoadScene here_{testing::read_plain_net(two_lanes())};
+  std::size_t own_ = 0, other_ = 0;
+};
+
+TEST_F(TailInTheLane, IsPassedWithinTheLane) {
+  EXPECT_LT(place(), -0.2);
+  EXPECT_GE(place(), -(1.75 - 0.9 - 0.15) - 1e-9);
+  EXPECT_EQ(leader(), -1);
+}
+
+TEST_F(TailInTheLane, IsWaitedForWhereThereIsNoRoom) {
+  stand(1.6);
+  EXPECT_EQ(leader(), static_cast<std::int64_t>(here_.scene.id[other_].value));
+}
+
+TEST_F(TailInTheLane, IsWaitedForWhileItMovesOrWantsToComeIn) {
+  here_.scene.merge_to[other_] = here_.model.road.lane_by_name.at("WE_0");
+  EXPECT_NEAR(place(), 0.0, 0.2);
+  here_.scene.merge_to[other_] = kNoLane;
+  here_.set_speed(other_, 2.0);
+  EXPECT_NEAR(place(), 0.0, 0.2);
+}
+
 // who filtered to the left of a bus and then turned right, across its way, was pressed against it
 TEST(FilteringBeforeAJunction, IsOnTheSideOfTheTurn) {
   const RoadNetwork network = testing::read_plain_net(testing::crossroads("priority"));
