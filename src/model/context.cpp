@@ -27,7 +27,7 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
 
   // lane boundaries: lateral speed under d/tau (III-C); beyond a boundary no further, but standing
   // stays allowed
-  auto boundary = [&](double room, const Vec2& outward) {
+  auto boundary = [&](double room, double edge, const Vec2& outward) {
     if (!std::isfinite(room)) return;
     double limit = std::max(room, 0.0) / type.horizon;
     // differs from the paper: a wheeled body that points outward can only come back by rolling on
@@ -39,8 +39,9 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
       const double turn =
           0.9 * std::abs(heading_of(back_is_right ? trackable.right : trackable.left));
       const double away = std::asin(std::clamp(forward.dot(outward), -1.0, 1.0));
-      // who is wedged may find its way round whoever it is wedged against
-      const double farthest = is_wedged(scene, row) ? -kRoundOthers * type.width : 0.0;
+      // who is wedged may find its way round whoever it is wedged against, on its own carriageway
+      const bool may_leave_lane = is_wedged(scene, row) && edge > 0.0;
+      const double farthest = may_leave_lane ? -kRoundOthers * type.width : 0.0;
       if (room < farthest && away > turn) {
         const Vec2 inmost = from_body(direction_of(back_is_right ? -turn : turn), forward);
         constraints.append({Vec2::Zero(), back_is_right ? Vec2(-left_of(inmost)) : left_of(inmost)},
@@ -53,8 +54,8 @@ void append_contextual_constraints(const Model& model, const Scene& scene, std::
     }
     constraints.append({limit * outward, -outward}, {ConstraintKind::LaneBoundary, -1});
   };
-  boundary(context.room_left, left);
-  boundary(context.room_right, -left);
+  boundary(context.room_left, context.edge_left, left);
+  boundary(context.room_right, context.edge_right, -left);
   for (const Vec2& way : context.to_red) {
     if (way.isZero()) continue;
     constraints.append({way / kToRed, -way.normalized()}, {ConstraintKind::RoadLimit, -1});

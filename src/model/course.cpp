@@ -156,6 +156,14 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
   const double extent = half_extent(scene, course.row, left_of(context.tangent));
   double left = here.room_left + over_left, right = here.room_right + over_right;
   if (!course.path.walking) {
+    constexpr double kSoon = 1.5;  // amid a junction there is no carriageway to keep to [m]
+    const LaneId soon = course.path.stretch_at(course.along + kSoon).lane;
+    if (model.road.lane(soon).kind != LaneKind::Internal) {
+      const Vec2 heading = to_body(direction_of(scene.heading[course.row]), context.tangent);
+      const double to_turn = (1.0 - heading.x()) / tightest_bend(course.type);
+      context.edge_left = left - course.offset - (heading.y() > 0.0 ? to_turn : 0.0);
+      context.edge_right = right + course.offset - (heading.y() < 0.0 ? to_turn : 0.0);
+    }
     // differs from the paper: who drives keeps to its lane, not just to its carriageway, but for
     // where it means to pass; whoever is in the way is slowed down for, not swerved around
     const Lane& lane = model.road.lane(here.lane);

@@ -61,7 +61,7 @@ void ease_violation(double fastest, Workspace& work) {
 }
 
 /// Hard planes that a body which creeps out of the way must keep. A vehicle that is wedged may use
-/// what lies beside its lane to get out, not far.
+/// what lies beside its lane to get out, not far, and its middle stays on its own carriageway.
 std::span<const HalfPlane> planes_for_creeping(const Scene& scene, std::size_t row,
                                                Workspace& work) {
   constexpr double kFarthest = 0.8;  // beyond the boundary [m]
@@ -73,7 +73,9 @@ std::span<const HalfPlane> planes_for_creeping(const Scene& scene, std::size_t r
   for (std::size_t k = 0; k < hard.size(); ++k) {
     const bool on_left = hard[k].normal.dot(left_of(context.tangent)) < 0.0;
     const double room = on_left ? context.room_left : context.room_right;
-    if (constraints.sources[k].kind != ConstraintKind::LaneBoundary || room < -kFarthest)
+    const double edge = on_left ? context.edge_left : context.edge_right;
+    const bool firm = room < -kFarthest || edge < 0.0;
+    if (firm || constraints.sources[k].kind != ConstraintKind::LaneBoundary)
       work.firm.push_back(hard[k]);
   }
   return work.firm;

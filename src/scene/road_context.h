@@ -43,6 +43,10 @@ struct RoadContext {
   double room_left = std::numeric_limits<double>::infinity();   ///< footprint's side to the left
                                                                 ///< boundary [m], < 0 beyond it
   double room_right = std::numeric_limits<double>::infinity();  ///< likewise to the right [m]
+  /// To the left edge of its carriageway [m], from as far out as its middle gets if it turns back
+  /// to `tangent` as tightly as it can; < 0 beyond it.
+  double edge_left = std::numeric_limits<double>::infinity();
+  double edge_right = std::numeric_limits<double>::infinity();  ///< likewise to the right [m]
   /// On foot: the ways from the outline to the nearest red crossings that it isn't on [m], and the
   /// last one on over its own while it steps back from that; zero where there is none.
   std::array<Vec2, 3> to_red = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};

@@ -2,6 +2,7 @@
 
 #include "model/context.h"
 #include "model/gamma_velocity.h"
+#include "model/locate.h"
 #include "model/preferred_velocity.h"
 #include "model/tracking.h"
 #include "support/road_scene.h"
@@ -168,19 +169,56 @@ TEST_F(ContextTest, WhoPointsOutwardComesBackTheShortWay) {
   }
 }
 
-// who is wedged finds its way round others beyond the boundary, no further than its own width asks
-// for: bicycles left a path of a metre by three, and came back through those who came
-TEST_F(ContextTest, WhoIsWedgedGetsRoundByItsOwnWidth) {
+// who is wedged on a junction finds its way round others beyond the boundary, no further than its
+// own width asks for: bicycles left a path of a metre by three, and came back through those who
+// came
+TEST_F(ContextTest, WhoIsWedgedGetsRoundByItsOwnWidthOnAJunction) {
   const std::vector<Vec2> line = {{-10, 0}, {60, 0}};
-  for (const auto& [name, goes] : {std::pair{"bicycle", false}, std::pair{"car", true}}) {
-    const std::size_t own = add_on(line, name, "in_1", -1.5, 20.0, 0.3);
+  for (const auto& [name, lane, goes] :
+       {std::tuple{"bicycle", ":C_0_0", false}, {"car", ":C_0_0", true}, {"car", "in_1", false}}) {
+    const std::size_t own = add_on(line, name, lane, -1.5, 20.0, 0.3);
     here_.scene.wedge_left[own] = 5.0;
     here_.scene.heading[own] = 0.5 * kPi;
     here_.scene.velocity[own] = Vec2(0, 0.3);
     here_.update();
     EXPECT_LT(here_.context(own).room_left, -1.5);
-    EXPECT_EQ(admits(own, {0, 0.3}), goes) << name;
+    EXPECT_EQ(admits(own, {0, 0.3}), goes) << name << " on " << lane;
   }
+}
+
+// a bicycle wedged in a crowd turned out over the middle of a path of two metres, and rode there
+// until it had turned back
+TEST_F(ContextTest, TheMiddleOfWhoIsWedgedStaysOnItsCarriageway) {
+  const std::size_t own = add_on({{-10, 0}, {60, 0}}, "bicycle", "in_1", 0.5, 20.0, 0.3);
+  const auto edge_at = [&](double offset, double heading) {
+    here_.move(own, 20.0, offset);
+    here_.scene.heading[own] = heading;
+    here_.update();
+    return here_.context(own).edge_left;
+  };
+  EXPECT_NEAR(edge_at(0.2, 0.0), 0.3, 1e-6);
+  EXPECT_NEAR(edge_at(0.2, -0.5), 0.3, 1e-6) << "it comes back anyway";
+  EXPECT_LT(edge_at(0.2, 0.8), 0.1) << "by turning back it gets further out";
+  EXPECT_LT(edge_at(0.55, 0.0), 0.0);
+}
+
+TEST_F(ContextTest, WhoIsWedgedCreepsRoundOthersOnItsCarriageway) {
+  const std::size_t own = add_on({{-10, 0}, {60, 0}}, "bicycle", "in_1", 0.5, 20.0, 2.0);
+  const std::size_t wall = add_on({{-10, 0}, {60, 0}}, "pedestrian", "in_1", 3.0, 22.0, 0.0);
+  here_.move(wall, 21.5, 0.2);
+  here_.move(own, 20.0, -0.2);
+  here_.scene.heading[own] = -0.8;
+  Workspace work;
+  double most = 0;
+  for (int tick = 0; tick < 200; ++tick) {
+    here_.scene.wedge_left[own] = 5.0;
+    here_.scene.standing_time[wall] = 60.0;
+    drive(own, work);
+    locate_on_path(here_.model.road, here_.road, here_.scene, own);
+    most = std::max(most, std::abs(here_.scene.position[own].y()));
+  }
+  EXPECT_LT(most, 0.5 + 0.05);
+  EXPECT_GT(here_.scene.position[own].x(), here_.scene.position[wall].x() + 1.0) << "it got round";
 }
 
 // bicycles that a turn had carried onto the other side took 20 m to come back
