@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "model/overtaking.h"
 
@@ -181,18 +182,27 @@ namespace {
 
 constexpr double kBeforeJunction = 40.0;  ///< from here on it says where to filter [m]
 
+/// Those links, one close behind the other where roads between junctions are short.
+std::span<const PathLink> links_ahead(const Path& path, const Surroundings& around) {
+  const auto first = path.link_from(around.along);
+  const auto last = std::find_if(first, path.links.end(), [&](const PathLink& link) {
+    return link.stop_line - around.along > kBeforeJunction;
+  });
+  return {first, last};
+}
+
 /// Who is about to turn filters beside its lane only on the side to which it turns: on the other
 /// one the way of the lane beside, or of who goes straight on from its own, crosses its way, and
 /// the two press against each other on the junction.
 void keep_to_turning_side(const RoadNetwork& network, const Path& path, const Surroundings& around,
                           double& most_left, double& most_right) {
-  const auto link = path.link_from(around.along);
-  if (link == path.links.end() || link->stop_line - around.along > kBeforeJunction) return;
-  const int side = side_of_turn(network, *link);
-  const Lane& lane = network.lane(path.stretch_at(around.along).lane);
-  const double within = std::max(0.5 * lane.width - around.half_width, 0.0);
-  if (side < 0) most_left = std::min(most_left, within);
-  if (side > 0) most_right = std::max(most_right, -within);
+  for (const PathLink& link : links_ahead(path, around)) {
+    const int side = side_of_turn(network, link);
+    const Lane& lane = network.lane(path.stretch_at(link.stop_line - 0.1).lane);
+    const double within = std::max(0.5 * lane.width - around.half_width, 0.0);
+    if (side < 0) most_left = std::min(most_left, within);
+    if (side > 0) most_right = std::max(most_right, -within);
+  }
 }
 
 /// Before a signal who filters stays over the edge of its own lane, whose light it goes by: the one
@@ -226,7 +236,7 @@ double farthest_right(double room, double half_width) {
 /// there the path lies nearer to it than the middle of the lane does.
 Sides sides_of(const RoadNetwork& network, const Path& path, const Surroundings& around) {
   constexpr double kSteers = 1.0;  // it takes to get to another place beside the path [s]
-  constexpr double kSpare = 0.25;  // bends are smoothed by nearly as much [m]
+  constexpr double kSpare = 0.15;  // bends are smoothed by as much [m]
   const PathStretch& here = path.stretch_at(around.along);
   const Cut cut = path.cut_between(around.along - around.half_length,
                                    around.along + around.half_length + kSteers * around.speed);
@@ -241,12 +251,12 @@ Sides sides_of(const RoadNetwork& network, const Path& path, const Surroundings&
 /// into a road with fewer lanes comes out over the middle of that or on its sidewalk.
 void keep_to_exit(const RoadNetwork& network, const Path& path, const Surroundings& around,
                   double& most_left, double& most_right) {
-  const auto link = path.link_from(around.along);
-  if (link == path.links.end() || link->stop_line - around.along > kBeforeJunction) return;
-  const PathStretch& exit = path.stretch_at(link->end + 0.1);
-  if (network.lane(exit.lane).kind != LaneKind::Normal) return;
-  most_left = std::min(most_left, farthest_left(exit.room_left, around.half_width));
-  most_right = std::max(most_right, farthest_right(exit.room_right, around.half_width));
+  for (const PathLink& link : links_ahead(path, around)) {
+    const PathStretch& exit = path.stretch_at(link.end + 0.1);
+    if (network.lane(exit.lane).kind != LaneKind::Normal) continue;
+    most_left = std::min(most_left, farthest_left(exit.room_left, around.half_width));
+    most_right = std::max(most_right, farthest_right(exit.room_right, around.half_width));
+  }
 }
 
 /// Where in its own lane a wide vehicle gets past the tails of those who stand in a lane beside, if

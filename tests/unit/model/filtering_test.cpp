@@ -236,6 +236,35 @@ TEST(FilteringBeforeAJunction, IsOnTheSideOfTheTurn) {
   EXPECT_LT(place("CS"), 1.3) << "to the right: within its lane";
 }
 
+// one that rode on the right of a car over a junction and turned left right behind that came out on
+// the sidewalk
+TEST(FilteringBeforeAJunction, IsOnTheSideOfATurnCloseBehindIt) {
+  PlainNet net;
+  net.nodes =
+      "<node id='W' x='0' y='0'/><node id='M' x='200' y='0'/><node id='C' x='215' y='0'/>"
+      "<node id='N' x='215' y='150'/><node id='E' x='400' y='0'/><node id='S' x='200' y='-100'/>";
+  net.edges =
+      "<edge id='WM' from='W' to='M' numLanes='2' speed='13.89'/>"
+      "<edge id='MC' from='M' to='C' numLanes='2' speed='13.89'/>"
+      "<edge id='CE' from='C' to='E' numLanes='2' speed='13.89'/>"
+      "<edge id='CN' from='C' to='N' numLanes='2' speed='13.89'/>"
+      "<edge id='SM' from='S' to='M' numLanes='1' speed='13.89'/>";
+  const RoadNetwork network = testing::read_plain_net(net);
+  auto place = [&](const std::string& to) {
+    RoadScene here(network);
+    for (const char* lane : {"WM_0", "WM_1"})
+      for (const double before : {6.0, 12.5})
+        here.add("car", {"WM", "MC", "CE"}, 197.0 - before, 0, 0, -1, lane);
+    const std::size_t rider = here.add("motorcycle", {"WM", "MC", to}, 175.0, 5, 0, -1, "WM_1");
+    here.update();
+    Surroundings around;
+    look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
+    return passing_offset(here.model, here.road, here.path(rider), here.scene, around, rider);
+  };
+  EXPECT_NEAR(place("CE"), -1.6, 0.2) << "straight on: between the queues";
+  EXPECT_GT(place("CN"), -1.3) << "to the left: within its lane";
+}
+
 // who passed a bus as both turned into a road with one lane less came out over its middle
 TEST(FilteringBeforeAJunction, IsWhereThereIsRoomBehindIt) {
   auto place = [&](int lanes_behind, double before) {
