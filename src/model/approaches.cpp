@@ -19,16 +19,14 @@ bool is_wide(const Scene& scene, std::size_t row) {
 
 namespace {
 
-/// Is the next link of a row, on wheels, one with the right of way? Of who waits for room behind it
-/// one without a light, too: where there are lights others have their turn anyway.
+/// Is the next link of a row, on wheels, one with the right of way?
 bool comes_with_right_of_way(const Model& model, const RoadState& road, const Scene& scene,
-                             std::size_t row, LimitReason reason) {
+                             std::size_t row) {
   const Path* path = road.path(scene.path[row]);
   if (path == nullptr || path->walking) return false;
   const auto link = path->link_from(scene.path_along[row]);
   if (link == path->links.end()) return false;
   const Connection& connection = model.road.connection(link->connection);
-  if (reason == LimitReason::BlockedJunction && connection.signal != kNoSignal) return false;
   return has_right_of_way(connection, road.signal(connection));
 }
 
@@ -51,11 +49,9 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
                      context.to_halt,       shuffles || scene.blocked_time[row] > kPatience};
   }
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    const LimitReason reason = waiting_[row].reason;
-    const bool held = reason == LimitReason::Yield || reason == LimitReason::BlockedJunction;
-    if (!held || scene.standing_time[row] < kSomeTime ||
-        !comes_with_right_of_way(model, road, scene, row, reason))
+    if (waiting_[row].reason != LimitReason::Yield || scene.standing_time[row] < kSomeTime)
       continue;
+    if (!comes_with_right_of_way(model, road, scene, row)) continue;
     // whoever that one stands behind holds it up, too
     std::size_t foe = find_foe(scene, waiting_[row].foe);
     while (foe < scene.size() && !waiting_[foe].holds_up) {

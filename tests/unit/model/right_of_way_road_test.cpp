@@ -212,23 +212,6 @@ TEST(HoldingUp, SoDoesWhoeverThatOneStandsBehind) {
   }
 }
 
-// a bicycle that turned left off a main road let everybody past who came towards it, for half a
-// minute, and those behind it stood before the junction, where there was no room for them
-TEST(HoldingUp, SoDoesWhoKeepsOthersFromEnteringWhereThereAreNoLights) {
-  for (const char* type : {"priority", "traffic_light"}) {
-    RoadScene here{read_plain_net(crossroads(type))};
-    if (type[0] == 't') show(here, "WC_1", 'G');
-    const std::size_t held = here.add("car", {"WC", "CE"}, 20, 0, 0, -1, "WC_1");
-    const std::size_t turns = here.add("bicycle", {"WC", "CN"}, 30, 0, 0, -1, "WC_1");
-    here.scene.context[held].reason = LimitReason::BlockedJunction;
-    here.scene.context[held].foe = static_cast<std::int64_t>(here.scene.id[turns].value);
-    here.scene.standing_time[held] = 4.0;
-    ApproachTable approaches;
-    approaches.rebuild(here.model, here.road, here.scene);
-    EXPECT_EQ(approaches.waiting(turns).holds_up, type[0] == 'p') << type;
-  }
-}
-
 // --- who turns left out of the lane at the kerb, over the lane beside, which has the same green
 
 class LeftFromTheKerb : public ::testing::Test {
