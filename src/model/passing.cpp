@@ -292,7 +292,7 @@ bool stands_beside_lane(const Model& model, const Scene& scene, std::size_t othe
   const AgentType& type = type_of(model.types, scene.type[other]);
   return type.kinematics != Kinematics::Holonomic && !is_narrow(type.width) &&
          scene.speed[other] < kStands && std::abs(offset) > 0.5 * model.road.lane(lane).width &&
-         scene.merge_to[other] != lane;
+         scene.merge_to[other] != lane && scene.lane[other].lane != lane;
 }
 
 double passing_offset(const Model& model, const RoadState& road, const Path& path,

@@ -39,7 +39,8 @@ struct Passed {
 double passing_speed(const Passed& passed, const AgentType& type);
 
 /// Does a wide vehicle, its middle `offset` [m] from a path on `lane`, stand beside that lane and
-/// not wait to get into it, so that a wide vehicle, too, may pass what of its body is in there?
+/// neither wait to get into it nor be on its way there, so that a wide vehicle, too, may pass what
+/// of its body is in there?
 bool stands_beside_lane(const Model& model, const Scene& scene, std::size_t other, LaneId lane,
                         double offset);
 

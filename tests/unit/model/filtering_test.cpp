@@ -216,6 +216,15 @@ TEST_F(TailInTheLane, IsWaitedForWhileItMovesOrWantsToComeIn) {
   EXPECT_NEAR(place(), 0.0, 0.2);
 }
 
+// two buses abreast locked when the one meant to pass the other that was amid its change
+TEST_F(TailInTheLane, IsWaitedForWhileItIsOnItsWayIn) {
+  const LaneId own = here_.model.road.lane_by_name.at("WE_0");
+  here_.update();
+  EXPECT_TRUE(stands_beside_lane(here_.model, here_.scene, other_, own, 2.4));
+  here_.scene.lane[other_].lane = own;
+  EXPECT_FALSE(stands_beside_lane(here_.model, here_.scene, other_, own, 2.4));
+}
+
 // who filtered to the left of a bus and then turned right, across its way, was pressed against it
 TEST(FilteringBeforeAJunction, IsOnTheSideOfTheTurn) {
   const RoadNetwork network = testing::read_plain_net(testing::crossroads("priority"));
