@@ -220,11 +220,12 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     const double sides = own_half_width + half_width;
     // a narrow vehicle that means to pass is about to leave whoever is ahead of it now
     const double clearance = std::abs(place.offset - aim) - sides;
-    const bool may_pass =
-        narrow || (overtakes && is_narrow(2.0 * half_width)) ||
-        stands_beside_lane(model, scene, other, path->stretch_at(place.along).lane, place.offset);
-    const bool passes = may_pass && aligned && !on_foot && clearance > margin &&
-                        (place.offset - aim) * (place.offset - own_offset) >= 0.0;
+    const bool clear_aside = aligned && !on_foot && clearance > margin &&
+                             (place.offset - aim) * (place.offset - own_offset) >= 0.0;
+    const bool passes =
+        clear_aside &&
+        (narrow || (overtakes && is_narrow(2.0 * half_width)) ||
+         stands_beside_lane(model, scene, other, path->stretch_at(place.along).lane, place.offset));
     if (passes) {
       const double reach_aside =
           gap < 0.0 ? half_extent(scene, row, left_of(tangent)) : own_half_width;

@@ -259,6 +259,12 @@ void keep_to_exit(const RoadNetwork& network, const Path& path, const Surroundin
   }
 }
 
+/// Is somebody beside the agent, or so near ahead that it would pass that one next?
+bool may_be_passed(const Surroundings& around, const RoadUser& user) {
+  return user.front >= around.along - around.half_length &&
+         user.rear <= around.along + around.half_length + 10.0 + 3.0 * around.speed;
+}
+
 /// Where in its own lane a wide vehicle gets past the tails of those who stand in a lane beside, if
 /// there is such a place: who changed into a full lane stands with a corner of its body in this
 /// one.
@@ -271,8 +277,7 @@ std::optional<double> place_beside_tails(const Model& model, const Scene& scene,
   double least = -within, most = within;
   bool any = false;
   for (const RoadUser& user : around.users) {
-    if (user.front < around.along - around.half_length ||
-        user.rear > around.along + around.half_length + 10.0 + 3.0 * around.speed ||
+    if (!may_be_passed(around, user) ||
         !stands_beside_lane(model, scene, user.row, id, user.offset))
       continue;
     const double apart = user.half_width + around.half_width + kGap;
@@ -347,9 +352,7 @@ double passing_offset(const Model& model, const RoadState& road, const Path& pat
   const double base = most;
   const double gap_wanted = over > 0.0 ? kOvertakingGap : side_gap(narrow, around.speed);
   for (const RoadUser& user : around.users) {
-    if ((!user.aligned && !user.on_foot) || user.front < around.along - around.half_length ||
-        user.rear > around.along + around.half_length + 10.0 + 3.0 * around.speed)
-      continue;
+    if ((!user.aligned && !user.on_foot) || !may_be_passed(around, user)) continue;
     if (!narrow && user.half_width > 0.5 * kNarrow) continue;
     // only who is in the way is passed, and not by changing lanes
     if (std::abs(user.offset - liked) > user.half_width + half + gap_wanted) continue;

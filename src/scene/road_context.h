@@ -44,7 +44,7 @@ struct RoadContext {
                                                                 ///< boundary [m], < 0 beyond it
   double room_right = std::numeric_limits<double>::infinity();  ///< likewise to the right [m]
   /// To the left edge of its carriageway [m], from as far out as its middle gets if it turns back
-  /// to `tangent` as tightly as it can; < 0 beyond it.
+  /// to `tangent` as tightly as it can; < 0 beyond it, infinite on foot and amid a junction.
   double edge_left = std::numeric_limits<double>::infinity();
   double edge_right = std::numeric_limits<double>::infinity();  ///< likewise to the right [m]
   /// On foot: the ways from the outline to the nearest red crossings that it isn't on [m], and the
