@@ -35,19 +35,26 @@ bool is_in_way(const Surroundings& around, const RoadUser& user, double liked, d
          std::abs(user.offset - liked) < user.half_width + around.half_width + kInWay;
 }
 
-/// Would the body, which has got past everybody in its way, cut somebody off if it came back now?
-bool is_just_past(const Surroundings& around, double liked) {
-  constexpr double kNoseRoom = 1.0;  // [m]
+/// Is somebody narrow behind the body, by no more than that, in the way that it comes back into?
+bool has_passed(const Surroundings& around, double liked, double within, double seconds) {
   const double rear = around.along - around.half_length;
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
-    const double closes = std::max(user.speed - around.speed, 0.0);  // within a second [m]
+    const double closes = std::max(user.speed - around.speed, 0.0) * seconds;
     return user.aligned && is_narrow(2.0 * user.half_width) && user.front < rear &&
-           is_in_way(around, user, liked, kNoseRoom + closes);
+           is_in_way(around, user, liked, within + closes);
   });
 }
 
+/// Would the body, which has got past everybody in its way, cut somebody off if it came back now?
+bool is_just_past(const Surroundings& around, double liked) {
+  constexpr double kNoseRoom = 1.0, kSoon = 1.0;  // [m], [s]
+  return has_passed(around, liked, kNoseRoom, kSoon);
+}
+
+/// Gap between two who are overtaken that a body can come back into [m].
+double way_back(const Surroundings& around) { return 2.0 * (around.half_length + kRoomToReturn); }
+
 Overtaken find_overtaken(const Surroundings& around, double liked, double inner_side) {
-  const double needed = 2.0 * (around.half_length + kRoomToReturn);
   Overtaken found;
   // the nearest ahead again and again, until a gap
   for (double from = -std::numeric_limits<double>::infinity();;) {
@@ -63,7 +70,7 @@ Overtaken find_overtaken(const Surroundings& around, double liked, double inner_
     if (found.any) {
       // the gap that is left once it is past, should who is ahead be slower
       const double closes = kPassing * std::max(found.speed - next->speed, 0.0);
-      found.open = next->rear - found.front - closes > needed;
+      found.open = next->rear - found.front - closes > way_back(around);
       if (found.open) return found;
     }
     if (!next->aligned || next->on_foot || !is_narrow(2.0 * next->half_width)) return found;
@@ -107,10 +114,16 @@ double overtaking_room(const Model& model, const RoadState& road, const Scene& s
   const Overtaken overtaken = find_overtaken(around, liked, inner_side);
   const double aside_now = inner_side * around.offset;
   const bool over_now = aside_now + around.half_width > 0.5 * lane.width - kAtMiddle;
-  const bool begun = scene.overtaking_room[row] > 0.0 && over_now;
-  // past: back to its own side, but not right before a nose
-  if (!overtaken.any)
-    return begun && is_just_past(around, liked) ? scene.overtaking_room[row] : 0.0;
+  const double front = around.along + around.half_length;
+  // past, with room before the next, if any: back to its own side, but not right before a nose; the
+  // next one is overtaken only if that could be begun now
+  constexpr double kPassed = 20.0;  // [m]
+  const bool past_them = !overtaken.any || (overtaken.rear - front > way_back(around) &&
+                                            has_passed(around, liked, kPassed, 0.0));
+  const bool out = scene.overtaking_room[row] > 0.0 && over_now;
+  if (past_them && out && is_just_past(around, liked)) return scene.overtaking_room[row];
+  if (!overtaken.any) return 0.0;
+  const bool begun = out && !past_them;
 
   // how long it takes to get past and back
   const AgentType& type = type_of(model.types, scene.type[row]);
@@ -118,8 +131,7 @@ double overtaking_room(const Model& model, const RoadState& road, const Scene& s
   const double top = std::min(free_speed, overtaken.speed + kFaster);
   if (!overtaken.open || top < overtaken.speed + 2.0) return 0.0;
   const double target = overtaken.offset + kOvertakingGap + around.half_width;
-  const double front = around.along + around.half_length;
-  const double out = std::max(target - aside_now, 0.0) / kSideways;
+  const double getting_out = std::max(target - aside_now, 0.0) / kSideways;
   const double past = overtaken.front + kRoomToReturn - (around.along - around.half_length);
   const double beside = past - std::max(overtaken.rear - front, 0.0);
   auto time_for = [&](double way, double from) {
@@ -128,7 +140,7 @@ double overtaking_room(const Model& model, const RoadState& road, const Scene& s
   };
   // it gathers speed while it gets aside, and is aside before it gets beside
   const double passing = std::max(time_for(past, around.speed - overtaken.speed),
-                                  out + time_for(beside, 0.5 * (top - overtaken.speed)));
+                                  getting_out + time_for(beside, 0.5 * (top - overtaken.speed)));
   const double over = std::max(target + around.half_width - 0.5 * lane.width, 0.0);
   const double time = passing + over / kSideways;
   const double mean_speed = 0.5 * (std::max(around.speed, overtaken.speed) + top);

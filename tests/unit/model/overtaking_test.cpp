@@ -92,6 +92,24 @@ TEST_F(Overtaking, WhoIsPastGoesBackUnlessRightBeforeANose) {
   EXPECT_EQ(room(), 0.0);
 }
 
+// a van past one bicycle drove on over the middle towards the next, and gave that up
+TEST_F(Overtaking, WhoIsPastOneBeginsWithTheNextAnewOrGoesBack) {
+  here_.scene.overtaking_room[car_] = 3.2;
+  const std::size_t next = here_.add("bicycle", {"east_1", "east_2"}, 345, 4);
+  here_.move(car_, 318, 1.7);
+  here_.set_speed(car_, 10);
+  EXPECT_GT(room(), 0.0);
+  // near enough to be overtaken by who is at it, too near to begin
+  const std::size_t oncoming = here_.add("car", {"west_2"}, 1200 - 550, 13);
+  EXPECT_EQ(room(), 0.0);
+  here_.move(bicycle_, 200);
+  EXPECT_GT(room(), 0.0);
+  here_.move(bicycle_, 311);
+  here_.move(next, 328);
+  here_.move(oncoming, 1200 - 550);
+  EXPECT_GT(room(), 0.0) << "no room between the two";
+}
+
 TEST_F(Overtaking, WhoIsAbreastGetsPastAndThenBack) {
   here_.scene.overtaking_room[car_] = 3.2;
   here_.move(car_, 310, 1.7);
