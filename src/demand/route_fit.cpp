@@ -52,15 +52,16 @@ int lane_changes_on(const RoadNetwork& road, std::span<const std::string> edges,
 }
 
 /// True where the route leaves room for the lane changes that it needs: nobody who knows the place
-/// turns into a road to cross two of its lanes just before the next junction.
+/// turns into a road to cross two of its lanes just before the next junction. Over the few metres
+/// between the arms of a split junction one drives as over a junction.
 bool lane_changes_suit(const RoadNetwork& road, std::span<const std::string> edges,
                        VehicleClassMask mask) {
-  constexpr double kEach = 50.0;  // [m]
+  constexpr double kEach = 50.0, kRoad = 10.0;  // [m]
   for (std::size_t i = 0; i + 2 < edges.size(); ++i) {
     const int changes = lane_changes_on(road, edges.subspan(i, 3), mask);
     const Edge& edge = road.edge(road.edge_by_name.at(edges[i + 1]));
     const double length = road.lane(edge.lanes.front()).length;
-    if (changes > 1 && length < kEach * changes) return false;
+    if (changes > 1 && length > kRoad && length < kEach * changes) return false;
   }
   return true;
 }

@@ -53,6 +53,7 @@ TEST(RouteFit, NobodyCrossesTwoLanesWithin90Metres) {
   EXPECT_TRUE(car_takes(near, {"SA", "AB", "BE"})) << "its lane leads on";
   EXPECT_TRUE(car_takes(near, {"WA", "AB", "BN"})) << "the third lane comes from the third";
   EXPECT_TRUE(car_takes(weave(150), {"SA", "AB", "BN"}));
+  EXPECT_TRUE(car_takes(weave(15), {"SA", "AB", "BN"})) << "all one junction";
 }
 
 TEST(RouteFit, LongBodiesTakeNoSharpTurns) {
