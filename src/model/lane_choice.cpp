@@ -201,6 +201,7 @@ void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Worker
       if (looks && path->walking) {
         look_around(model, road, scene, grid, row, kSidewalk, kAside, around);
         look_at_walls(model, *path, scene, row, kWalls, kAside, around);
+        look_at_red_crossings(*path, scene, row, around);
         const double place = walking_place(*path, scene, around, row);
         scene.passing_offset[row] = place;
         scene.overtaking_room[row] = room_off_the_way(*path, around, place);

@@ -70,6 +70,22 @@ void look_at_walls(const Model& model, const Path& path, const Scene& scene, std
   }
 }
 
+void look_at_red_crossings(const Path& path, const Scene& scene, std::size_t row,
+                           Surroundings& around) {
+  constexpr double kLong = 4.0;                // [s]
+  constexpr double kTip = 0.25, kReach = 4.0;  // [m]
+  const RoadContext& context = scene.context[row];
+  if (scene.waiting_time[row] <= kLong || context.reason == LimitReason::Signal) return;
+  for (const Vec2& way : context.to_red) {
+    if (way.isZero()) continue;
+    const Vec2 onto = way.normalized();
+    const Vec2 tip = scene.position[row] + way + half_extent(scene, row, onto) * onto;
+    const PolylinePosition place =
+        path.line.project(tip, around.along - kReach, around.along + kReach);
+    around.walls.push_back({place.along - kTip, place.along + kTip, place.offset, kTip});
+  }
+}
+
 double hoped_speed(const Surroundings& around, double offset, double free_speed, double margin) {
   constexpr double kOutlook = 4.0;  // [s]
   const double front = around.along + around.half_length;

@@ -47,6 +47,12 @@ void look_around(const Model& model, const RoadState& road, const Scene& scene,
 void look_at_walls(const Model& model, const Path& path, const Scene& scene, std::size_t row,
                    double reach, double aside, Surroundings& around);
 
+/// Adds to around.walls, after look_at_walls, where a row that has been held up for long is about to
+/// get onto a red crossing that it doesn't wait for (RoadContext::to_red): who walked along beside
+/// the tip of one pressed on against it, for as long as it was red.
+void look_at_red_crossings(const Path& path, const Scene& scene, std::size_t row,
+                           Surroundings& around);
+
 /// Speed that can be hoped for over the next seconds with the body's centre at `offset` beside the
 /// path: as fast as `free_speed` where nobody is ahead, less the nearer and the slower somebody is,
 /// negative where somebody is beside. `margin` [m] is kept to the sides.

@@ -76,6 +76,24 @@ TEST_F(WalkingPlaceTest, WhoIsAloneWalksWhereItLikesToBe) {
   EXPECT_NEAR(place_of(own), -0.6, 1e-9);
 }
 
+// in Berlin somebody who was alone pressed on against the tip of a crossing for 61 s of red
+TEST_F(WalkingPlaceTest, WhoIsHeldUpByTheTipOfARedCrossingGoesRoundIt) {
+  const std::size_t own = walker(10, 0, 1.3);
+  auto place_before_a_tip = [&](double waited, LimitReason reason) {
+    here_.update();
+    here_.scene.waiting_time[own] = waited;
+    here_.scene.context[own].reason = reason;
+    here_.scene.context[own].to_red[0] = {0.1, -0.1};
+    look_around(here_.model, here_.road, here_.scene, here_.geometry.grid, own, 8, 2.5, around_);
+    look_at_walls(here_.model, here_.path(own), here_.scene, own, 4, 2.5, around_);
+    look_at_red_crossings(here_.path(own), here_.scene, own, around_);
+    return walking_place(here_.path(own), here_.scene, around_, own);
+  };
+  EXPECT_GT(place_before_a_tip(4.5, LimitReason::None), 0.3);
+  EXPECT_NEAR(place_before_a_tip(3.5, LimitReason::None), 0.0, 1e-9) << "not at once";
+  EXPECT_NEAR(place_before_a_tip(20.0, LimitReason::Signal), 0.0, 1e-9) << "it waits for it";
+}
+
 TEST_F(WalkingPlaceTest, APlaceThatTheSidewalkDoesNotHaveIsNotAimedAt) {
   const std::size_t own = walker(10, 0, 1.3);
   here_.scene.path_offset[own] = -4.0;
