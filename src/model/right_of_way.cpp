@@ -243,16 +243,14 @@ struct Judge : RoadView {
   bool on_foot(std::size_t row) const {
     return type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic;
   }
-  /// Was the traveller free to go a tick ago, and is it past the place where it would wait? Who has
-  /// looked and set out needn't look again: a lorry that drove past a van which waited at the
-  /// junction's edge halted amid it, in the van's way.
+  /// Is the traveller on foot, free to go a tick ago and past the place where it would wait? Who
+  /// has looked and set out needn't look again.
   bool has_set_out() const {
     constexpr double kPast = 0.1;  // [m]
     const RoadContext& before = scene.context[traveller.row];
-    const double place = on_foot(traveller.row) ? link.halt : link.stop_line;
-    return before.active &&
+    return on_foot(traveller.row) && before.active &&
            (before.reason == LimitReason::None || before.reason == LimitReason::Leader) &&
-           traveller.front > place + kPast;
+           traveller.front > link.halt + kPast;
   }
   bool waits_behind(const Approach& foe) const {
     return lets_go_first(model, scene, approaches, foe, traveller.row,

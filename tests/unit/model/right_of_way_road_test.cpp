@@ -625,39 +625,6 @@ TEST_F(PriorityTest, WhoHasStoodForLongWithTheRightOfWayComesNext) {
   EXPECT_TRUE(waits_after(25.0));
 }
 
-// a truck let a van that waited for others stand, drove past it, and halted amid the junction in the
-// van's way since it had forgotten its own wait: 42 vehicles stood for a minute
-TEST_F(PriorityTest, WhoHasSetOutBesideOneThatWaitsForAThirdDrivesOn) {
-  const std::size_t major = add_at_line({"WC", "CE"}, "WC_0");
-  const std::size_t minor = add_at_line({"SC", "CN"});
-  const std::size_t third = here_.add("car", {"NC", "CS"}, 0, 0);
-  here_.move(third, here_.path(third).links.front().stop_line + 8.0);
-  const PathLink &its = here_.path(major).links.front(), &own = here_.path(minor).links.front();
-  const auto& zones = here_.model.conflicts[index_of(its.connection)];
-  const auto zone = std::find_if(zones.begin(), zones.end(), [&](const ConflictZone& candidate) {
-    return candidate.foe == own.connection;
-  });
-  ASSERT_NE(zone, zones.end());
-  // in the zone by a little, and not in the way
-  here_.move(major, its.stop_line + zone->begin + 0.4 - 2.25);
-  const auto waits = [&](bool held) {
-    RoadContext& theirs = here_.scene.context[major];
-    theirs.active = true;
-    theirs.reason = LimitReason::Yield;
-    theirs.foe = here_.scene.id[third].value;
-    here_.scene.standing_time[major] = here_.scene.waiting_time[major] = 8.0;
-    here_.scene.context[minor].active = true;
-    here_.scene.context[minor].reason = held ? LimitReason::Yield : LimitReason::None;
-    here_.scene.waiting_time[minor] = 0.0;
-    here_.set_speed(minor, 0.8);
-    here_.move(minor, own.stop_line - 2.25 + 0.5);
-    here_.update();
-    return here_.context(minor).foe == here_.scene.id[major].value;
-  };
-  EXPECT_FALSE(waits(false));
-  EXPECT_TRUE(waits(true)) << "it was held there";
-}
-
 // the next of the row drove on behind whoever stood on the junction before it, and who had the
 // longer wait for that one never got in
 TEST_F(PriorityTest, WhoWaitsForTheRowToLeaveTheJunctionIsLetInBehindIt) {
