@@ -47,9 +47,9 @@ void look_around(const Model& model, const RoadState& road, const Scene& scene,
 void look_at_walls(const Model& model, const Path& path, const Scene& scene, std::size_t row,
                    double reach, double aside, Surroundings& around);
 
-/// Adds to around.walls, after look_at_walls, where a row that has been held up for long is about to
-/// get onto a red crossing that it doesn't wait for (RoadContext::to_red): who walked along beside
-/// the tip of one pressed on against it, for as long as it was red.
+/// Adds to around.walls, after look_at_walls, where a row that has been held up for long is about
+/// to get onto a red crossing that it doesn't wait for (RoadContext::to_red): who walked along
+/// beside the tip of one pressed on against it, for as long as it was red.
 void look_at_red_crossings(const Path& path, const Scene& scene, std::size_t row,
                            Surroundings& around);
 
