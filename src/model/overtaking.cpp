@@ -146,8 +146,10 @@ double overtaking_room(const Model& model, const RoadState& road, const Scene& s
   const double mean_speed = 0.5 * (std::max(around.speed, overtaken.speed) + top);
   const double way = mean_speed * time;
 
-  // abreast already it is safer to get past
-  if (begun && front > overtaken.rear) return opposite.width;
+  // abreast already, or as good as that, it is safer to get past than to brake hard beside it
+  constexpr double kAtEase = 1.5;  // [m/s^2]
+  const double faster = std::max(around.speed - overtaken.speed, 0.0);
+  if (begun && front + faster * faster / (2.0 * kAtEase) > overtaken.rear) return opposite.width;
 
   // the lane goes on, straight and clear of junctions
   if (here.to < around.along + way && !begun) return 0.0;

@@ -117,6 +117,11 @@ TEST_F(Overtaking, WhoIsAbreastGetsPastAndThenBack) {
   EXPECT_GT(room(), 0.0);
   here_.move(car_, 302, 1.7);  // behind yet: gives up
   EXPECT_EQ(room(), 0.0);
+  // a metre behind, but much faster: one braked with 7 m/s^2 over the middle
+  here_.move(car_, 306.8, 1.7);
+  EXPECT_EQ(room(), 0.0);
+  here_.set_speed(car_, 6.5);
+  EXPECT_GT(room(), 0.0);
 }
 
 }  // namespace
