@@ -13,7 +13,8 @@ namespace sumogamma {
 bool turns_back(const RoadNetwork& road, std::span<const std::string> edges);
 
 /// Would a driver of such a vehicle take a route? Its turns are not too sharp for the length, and
-/// two lane changes or more on one edge have 50 m each. `edges` by name, all of them known.
+/// two lane changes or more on one edge have 50 m each, but for edges of up to 10 m between the
+/// arms of a junction. `edges` by name, all of them known.
 bool suits(const RoadNetwork& road, const AgentType& type, std::span<const std::string> edges);
 
 }  // namespace sumogamma

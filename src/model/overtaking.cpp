@@ -35,7 +35,8 @@ bool is_in_way(const Surroundings& around, const RoadUser& user, double liked, d
          std::abs(user.offset - liked) < user.half_width + around.half_width + kInWay;
 }
 
-/// Is somebody narrow behind the body, by no more than that, in the way that it comes back into?
+/// Is somebody narrow in the way that the body comes back into, behind it by no more than `within`
+/// [m] and by what that one closes up in so many seconds?
 bool has_passed(const Surroundings& around, double liked, double within, double seconds) {
   const double rear = around.along - around.half_length;
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
