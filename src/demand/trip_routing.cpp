@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string_view>
 
 #include "base/error.h"
@@ -39,12 +40,11 @@ std::vector<std::string> words(std::string_view text) {
 
 /// Seconds lost at the junction between two edges: at a signal half a red of a usual program, where
 /// the way must be given some of a gap.
-double junction_delay(const RoadNetwork& road, const Edge& from, const Edge& to,
-                      VehicleClassMask mask) {
-  for (const LaneId lane : from.lanes)
+double junction_delay(const RoadNetwork& road, EdgeId from, EdgeId to, VehicleClassMask mask) {
+  for (const LaneId lane : road.edge(from).lanes)
     for (const ConnectionId id : road.lane(lane).outgoing) {
       const Connection& connection = road.connection(id);
-      if (road.lane(connection.to).edge != road.lane(to.lanes[0]).edge) continue;
+      if (road.lane(connection.to).edge != to) continue;
       if ((road.lane(connection.to).allowed & mask) == 0) continue;
       if (connection.signal != kNoSignal) return 12.0;
       return connection.state == 'M' ? 0.0 : 1.5;
@@ -53,15 +53,13 @@ double junction_delay(const RoadNetwork& road, const Edge& from, const Edge& to,
 }
 
 /// Ways from edge to edge that a class may take, one a lane.
-std::vector<ConnectionId> ways_between(const RoadNetwork& road, const Edge& from, const Edge& to,
+std::vector<ConnectionId> ways_between(const RoadNetwork& road, EdgeId from, EdgeId to,
                                        VehicleClassMask mask) {
   std::vector<ConnectionId> ways;
-  for (const LaneId lane : from.lanes) {
+  for (const LaneId lane : road.edge(from).lanes) {
     const auto& outgoing = road.lane(lane).outgoing;
     const auto found = std::find_if(outgoing.begin(), outgoing.end(), [&](ConnectionId id) {
-      const Lane& target = road.lane(road.connection(id).to);
-      return target.edge == road.lane(to.lanes[0]).edge &&
-             (target.allowed & road.lane(lane).allowed & mask) != 0;
+      return leads_onto(road, id, to, mask);
     });
     if (found != outgoing.end()) ways.push_back(*found);
   }
@@ -70,19 +68,31 @@ std::vector<ConnectionId> ways_between(const RoadNetwork& road, const Edge& from
 
 /// Length of a route, how long it takes with nobody else on the road, and the ways over its
 /// junctions.
-void measure(const RoadNetwork& road, const TypeDemand& demand, RoutedTrip& trip) {
+void measure(const RoadNetwork& road, const TypeDemand& demand, std::span<const EdgeId> route,
+             RoutedTrip& trip) {
   const VehicleClassMask mask = vehicle_class_from_name(demand.type->sumo_class);
-  const Edge* before = nullptr;
-  for (const std::string& name : trip.edges) {
-    const std::size_t edge = index_of(road.edge_by_name.at(name));
+  for (std::size_t i = 0; i < route.size(); ++i) {
+    const std::size_t edge = index_of(route[i]);
     trip.length += demand.graph.length[edge];
     trip.duration += edge_duration(demand, edge);
-    if (before && !demand.walks) {
-      trip.duration += junction_delay(road, *before, road.edges[edge], mask);
-      trip.steps.push_back(ways_between(road, *before, road.edges[edge], mask));
-    }
-    before = &road.edges[edge];
+    if (i == 0 || demand.walks) continue;
+    trip.duration += junction_delay(road, route[i - 1], route[i], mask);
+    trip.steps.push_back(ways_between(road, route[i - 1], route[i], mask));
   }
+}
+
+/// The edges of a route; none where one isn't there for the type.
+std::vector<EdgeId> route_over(const RoadNetwork& road, const TypeDemand& demand,
+                               const std::vector<std::string>& names) {
+  std::vector<EdgeId> route;
+  for (const std::string& name : names) {
+    const auto edge = road.edge_by_name.find(name);
+    if (edge == road.edge_by_name.end() ||
+        (!demand.walks && !demand.graph.usable[index_of(edge->second)]))
+      return {};
+    route.push_back(edge->second);
+  }
+  return route;
 }
 
 void take_routes(const RoadNetwork& road, const std::filesystem::path& file,
@@ -102,16 +112,10 @@ void take_routes(const RoadNetwork& road, const std::filesystem::path& file,
     if (!route || (demand.walks && route.next_sibling("walk"))) continue;
     RoutedTrip trip;
     trip.edges = words(route.attribute("edges").value());
-    const bool known =
-        std::all_of(trip.edges.begin(), trip.edges.end(), [&](const std::string& name) {
-          const auto edge = road.edge_by_name.find(name);
-          return edge != road.edge_by_name.end() &&
-                 (demand.walks || demand.graph.usable[index_of(edge->second)]);
-        });
-    if (trip.edges.size() < (demand.walks ? 2u : 1u) || !known) continue;
-    if (turns_back(road, trip.edges)) continue;
-    if (!demand.walks && !suits(road, *demand.type, trip.edges)) continue;
-    measure(road, demand, trip);
+    const std::vector<EdgeId> edges = route_over(road, demand, trip.edges);
+    if (edges.size() < (demand.walks ? 2u : 1u) || turns_back(road, edges)) continue;
+    if (!demand.walks && !suits(road, *demand.type, edges)) continue;
+    measure(road, demand, edges, trip);
     demand.pool.trips.push_back(std::move(trip));
   }
 }

@@ -116,13 +116,13 @@ double overtaking_room(const Model& model, const RoadState& road, const Scene& s
   const double aside_now = inner_side * around.offset;
   const bool over_now = aside_now + around.half_width > 0.5 * lane.width - kAtMiddle;
   const double front = around.along + around.half_length;
+  const bool out = scene.overtaking_room[row] > 0.0 && over_now;
   // past, with room before the next, if any: back to its own side, but not right before a nose; the
   // next one is overtaken only if that could be begun now
   constexpr double kPassed = 20.0;  // [m]
-  const bool past_them = !overtaken.any || (overtaken.rear - front > way_back(around) &&
-                                            has_passed(around, liked, kPassed, 0.0));
-  const bool out = scene.overtaking_room[row] > 0.0 && over_now;
-  if (past_them && out && is_just_past(around, liked)) return scene.overtaking_room[row];
+  const bool past_them = out && (!overtaken.any || (overtaken.rear - front > way_back(around) &&
+                                                    has_passed(around, liked, kPassed, 0.0)));
+  if (past_them && is_just_past(around, liked)) return scene.overtaking_room[row];
   if (!overtaken.any) return 0.0;
   const bool begun = out && !past_them;
 

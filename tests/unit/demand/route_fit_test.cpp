@@ -9,6 +9,7 @@ namespace sumogamma {
 namespace {
 
 using testing::PlainNet;
+using testing::route_of;
 
 // a side street joins a road of three lanes, of which the innermost alone turns left at the next
 // junction: who comes out of it crosses two lanes on the way
@@ -44,7 +45,7 @@ RoadNetwork weave(double length) {
 
 bool car_takes(const RoadNetwork& road, const std::vector<std::string>& edges) {
   const AgentTypeTable types = default_agent_types();
-  return suits(road, type_of(types, find_agent_type(types, "car")), edges);
+  return suits(road, type_of(types, find_agent_type(types, "car")), route_of(road, edges));
 }
 
 TEST(RouteFit, NobodyCrossesTwoLanesWithin90Metres) {
@@ -65,7 +66,8 @@ TEST(RouteFit, LongBodiesTakeNoSharpTurns) {
       "<edge id='BA' from='B' to='A' numLanes='1' speed='13.89'/>";
   const RoadNetwork road = testing::read_plain_net(net);
   const AgentTypeTable types = default_agent_types();
-  const std::vector<std::string> sharp = {"AB", "BC"}, back = {"AB", "BA"};
+  const std::vector<EdgeId> sharp = route_of(road, {"AB", "BC"}),
+                            back = route_of(road, {"AB", "BA"});
   EXPECT_FALSE(suits(road, type_of(types, find_agent_type(types, "bus")), sharp));
   EXPECT_TRUE(suits(road, type_of(types, find_agent_type(types, "motorcycle")), sharp));
   EXPECT_TRUE(turns_back(road, back));
