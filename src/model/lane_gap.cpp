@@ -33,6 +33,15 @@ bool leaves_room_for_nose(const Surroundings& around, const RoadUser& user) {
          around.along + around.half_length - nose_room(2.0 * around.half_length) + kTooFar;
 }
 
+/// Does somebody come from behind, faster, between the agent and the lane, so that whoever moves
+/// over cuts it off?
+bool comes_between(const Surroundings& around, const RoadUser& user, const LaneBeside& lane) {
+  const double side = std::copysign(1.0, lane.shift);
+  return user.aligned && user.front < around.along - around.half_length &&
+         user.speed > around.speed && side * (lane.shift - user.offset) > 0.0 &&
+         side * (user.offset - around.offset) > user.half_width + around.half_width;
+}
+
 }  // namespace
 
 double LaneBeside::offset_at(double along) const {
@@ -53,7 +62,9 @@ bool is_gap(const Scene& scene, const Surroundings& around, std::size_t row, con
     // a path that moves over is askew to the lanes
     const double half_width =
         std::min(user.half_width, half_extent(scene, user.row, left_of(around.tangent)));
-    if (std::abs(aside_of(scene, user, lane)) > half_width + around.half_width + kSides) continue;
+    const bool there =
+        std::abs(aside_of(scene, user, lane)) <= half_width + around.half_width + kSides;
+    if (!there && !comes_between(around, user, lane)) continue;
     // who lets us in keeps no headway for it, but brakes no harder than is courteous
     const bool lets_us_in = user.front < front && waits_for_row(scene, user, row);
     // who stands beside our tail or behind it and holds, or has stepped back to let others go

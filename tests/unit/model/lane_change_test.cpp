@@ -712,6 +712,30 @@ TEST(NoGapOnAFastRoad, IsWhereSomebodyComesBesideTheLaneOfBefore) {
   }
 }
 
+// a motorcycle changed lanes 2 m before another that came from behind between the two lanes
+TEST(NoGapBetweenLanes, IsWhereSomebodyComesFromBehindBetweenTheLanes) {
+  const RoadNetwork network = testing::read_plain_net(both_lanes_lead_on());
+  struct Case {
+    double behind, speed, offset;
+    bool gap;
+  };
+  for (const auto& [behind, speed, offset, gap] :
+       {Case{6, 10, 1.6, false}, Case{6, 3, 1.6, true}, Case{60, 10, 1.6, true},
+        Case{6, 10, -1.6, true}, Case{6, 10, 0.2, true}}) {
+    RoadScene here(network);
+    const std::size_t own = here.add("motorcycle", {"CE"}, 30, 4, 0, -1, "CE_0");
+    const std::size_t other = here.add("motorcycle", {"CE"}, 0, speed, 0, -1, "CE_0");
+    here.move(other, here.scene.path_along[own] - behind, offset);
+    here.update();
+    Surroundings around;
+    look_around(here.model, here.road, here.scene, here.geometry.grid, own, 80.0, 8.0, around);
+    const Lane& wanted = network.lane(network.lane_by_name.at("CE_1"));
+    EXPECT_EQ(is_gap(here.scene, around, own, {.shift = 3.2, .middle = &wanted.centerline}, 3.0),
+              gap)
+        << behind << " m behind, " << speed << " m/s, " << offset << " m to the left";
+  }
+}
+
 // somebody who stood behind the begin of its path counted as beside it, and it waited for ever;
 // further back nobody was seen
 TEST(Surrounding, WhoIsBehindTheBeginOfAPathIsSeenWhereItIs) {
