@@ -211,7 +211,7 @@ struct Judge : RoadView {
     if (waits_for_us) return !zone.yields && !foe_inside ? Verdict::Held : waiting_verdict(foe);
     // on foot one walks round what stands on the crossing, on wheels past what stands beside the
     // way
-    if (foe_inside && foe.stands && waits_behind(foe) &&
+    if (foe_inside && foe.stands && (waits_behind(foe) || drives_by(foe)) &&
         (own_type.kinematics == Kinematics::Holonomic ||
          stands_beside(*this, traveller, link, zone.begin, zone.end, foe)))
       return Verdict::Held;
@@ -243,18 +243,26 @@ struct Judge : RoadView {
   bool on_foot(std::size_t row) const {
     return type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic;
   }
-  /// Is the traveller on foot, free to go a tick ago and past the place where it would wait? Who
+  /// Was the traveller free to go a tick ago, and is it past `place` [m], where it would wait? Who
   /// has looked and set out needn't look again.
-  bool has_set_out() const {
+  bool has_set_out_from(double place) const {
     constexpr double kPast = 0.1;  // [m]
     const RoadContext& before = scene.context[traveller.row];
-    return on_foot(traveller.row) && before.active &&
+    return before.active &&
            (before.reason == LimitReason::None || before.reason == LimitReason::Leader) &&
-           traveller.front > link.halt + kPast;
+           traveller.front > place + kPast;
+  }
+  /// Is the traveller, on wheels, driving by somebody who has waited for long for a third one?
+  bool drives_by(const Approach& foe) const {
+    const Waiting& waiting = approaches.waiting(foe.row);
+    return !on_foot(traveller.row) && has_set_out_from(link.stop_line) &&
+           waiting.reason == LimitReason::Yield && waiting.foe != scene.id[traveller.row].value &&
+           scene.waiting_time[foe.row] > kPatience;
   }
   bool waits_behind(const Approach& foe) const {
     return lets_go_first(model, scene, approaches, foe, traveller.row,
-                         foe.front > 0.0 && on_junction(), has_set_out());
+                         foe.front > 0.0 && on_junction(),
+                         on_foot(traveller.row) && has_set_out_from(link.halt));
   }
   /// Has a foe on wheels with the right of way stood for so long for others in the zone that the
   /// traveller lets it come next, from its line? One after the other went in there before it.
@@ -678,8 +686,11 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
       zone.end = ours_to_cover.end;
       // already in it: go on, avoidance does the rest
       if (has_entered(-to_line, zone.begin)) continue;
+      // at its edge one goes past who stands, on wheels where there is room for that
       const bool at_edge = to_line + zone.begin < kEdge;
-      if (at_edge && foe.stands) continue;
+      if (at_edge && foe.stands &&
+          (own_path.walking || stands_beside(view, traveller, link, zone.begin, zone.end, foe)))
+        continue;
       const Verdict verdict = judge.of(zone, foe);
       // who comes behind a vehicle that lets us go can't get past it
       if (verdict == Verdict::Held && type_of(model.types, scene.type[foe.row]).width > kFillsLane)

@@ -679,19 +679,43 @@ TEST_F(PriorityTest, AQueueIsSeenUpToItsHead) {
 
 // a bus came to rest at the edge of the place where their ways cross, took itself for being in
 // there, rolled on and met the other nose to nose
-TEST_F(PriorityTest, WhoHasComeToRestAtAZonesEdgeWaitsThereForWhoMoves) {
+TEST_F(PriorityTest, WhoHasComeToRestAtAZonesEdgeWaitsThereForWhoIsInItsWay) {
   const std::size_t own = here_.add("car", {"SC", "CN"}, 0, 0.4);
   const std::size_t foe = here_.add("car", {"WC", "CE"}, 0, 2, 0, -1, "WC_0");
-  here_.move(foe, zone_of(foe, own) + 2.0);
   for (const double past : {-0.2, 0.2}) {
     here_.move(own, zone_of(own, foe) - 2.25 + past);
-    here_.set_speed(foe, 2);
-    here_.update();
-    EXPECT_EQ(here_.context(own).reason, LimitReason::Yield) << past;
-    here_.set_speed(foe, 0);
-    here_.update();
-    EXPECT_NE(here_.context(own).reason, LimitReason::Yield) << past << ": past who stands";
+    const auto waits = [&](double into, double speed) {
+      here_.move(foe, zone_of(foe, own) - 2.25 + into);
+      here_.set_speed(foe, speed);
+      here_.update();
+      return here_.context(own).reason == LimitReason::Yield;
+    };
+    EXPECT_TRUE(waits(4.25, 2.0)) << past;
+    // a bus drove on towards a van that stood there for a second and went on, too
+    EXPECT_TRUE(waits(4.25, 0.0)) << past << ": who stands in the way";
+    EXPECT_FALSE(waits(0.35, 0.0)) << past << ": past who stands beside it";
   }
+}
+
+// a truck that drove by a van forgot that it had waited itself, and halted in the van's way
+TEST_F(PriorityTest, WhoIsDrivingByWhoWaitsForAThirdGoesOn) {
+  const std::size_t own = here_.add("car", {"WC", "CE"}, 0, 3, 0, -1, "WC_0");
+  const std::size_t foe = here_.add("car", {"SC", "CN"}, 0, 0);
+  const std::size_t third = here_.add("car", {"EC", "CW"}, 0, 8, 0, -1, "EC_0");
+  const auto waits = [&](double begun, double wait) {
+    here_.move(own, here_.path(own).links.front().stop_line - 2.25 + begun);
+    here_.move(foe, zone_of(foe, own) - 2.25 + 0.35);
+    here_.scene.context[own].active = true;
+    here_.scene.context[own].reason = LimitReason::None;
+    here_.scene.context[foe].reason = LimitReason::Yield;
+    here_.scene.context[foe].foe = here_.scene.id[third].value;
+    here_.scene.waiting_time[foe] = wait;
+    here_.update();
+    return here_.context(own).reason == LimitReason::Yield;
+  };
+  EXPECT_FALSE(waits(0.2, 10));
+  EXPECT_TRUE(waits(0.2, 2)) << "it may go at any time";
+  EXPECT_TRUE(waits(-1, 10)) << "from the line one looks first";
 }
 
 // the second of a queue that sets out waited at the line until the first was fast
