@@ -115,6 +115,13 @@ WaitingPlace waiting_place(const PathLink& link, double zone_begin) {
   return {place, true};
 }
 
+/// Does somebody ride so far beside the middle of its lane that on the junction it would wait in
+/// the way of a long body that turns?
+bool is_aside_for(const Approach& foe, const Scene& scene, std::size_t row) {
+  constexpr double kAside = 0.7, kLong = 7.0;  // [m]
+  return foe.length > kLong && std::abs(scene.passing_offset[row]) >= kAside;
+}
+
 /// What a foe means for a traveller.
 enum class Verdict {
   Free,    ///< nothing: it has passed, is far away, or has to wait
@@ -699,8 +706,11 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
       // wait at the line; inside the junction where there is a place for that, or where the own
       // body is past the line already
       const WaitingPlace place = waiting_place(link, zone.begin);
-      double line = place.inside && !at_red && traveller.front < place.along + 0.3 ? place.along
-                    : to_line > -0.2                                               ? stop_at
+      const bool has_place =
+          place.inside && !at_red &&
+          (connection.signal != kNoSignal || !is_aside_for(foe, scene, traveller.row));
+      double line = has_place && traveller.front < place.along + 0.3 ? place.along
+                    : to_line > -0.2                                 ? stop_at
                                      : link.stop_line + zone.begin - kStopMargin;
       // on foot one halts at the kerb still
       const double last = own_path.walking ? std::max(line, link.stop_line) : line;

@@ -1170,6 +1170,25 @@ TEST_F(PriorityTest, WhoRollsOutBeyondItsPlaceOnTheJunctionStillWaitsThere) {
   }
 }
 
+// a motorcycle that had come along beside a queue waited on a junction in the way of a truck that
+// turned there
+TEST_F(PriorityTest, WhoRidesBesideTheMiddleOfItsLaneWaitsForLongBodiesBeforeTheJunction) {
+  for (const std::string oncoming_type : {"car", "bus"}) {
+    RoadScene here{net()};
+    const std::size_t own = here.add("motorcycle", {"WC", "CN"}, 0, 3);
+    const std::size_t oncoming = here.add(oncoming_type, {"EC", "CW"}, 0, 10);
+    here.move(oncoming, here.path(oncoming).links.front().stop_line - 15);
+    for (const double aside : {-1.0, 0.0, 1.0}) {
+      here.move(own, here.path(own).links.front().stop_line - 6, aside);
+      here.scene.passing_offset[own] = aside;
+      here.update();
+      ASSERT_EQ(here.context(own).foe, here.scene.id[oncoming].value) << aside;
+      const bool on_junction = here.context(own).to_halt > 6.0;
+      EXPECT_EQ(on_junction, oncoming_type == "car" || aside == 0.0) << oncoming_type << aside;
+    }
+  }
+}
+
 // where they come one after the other, left turns waited for a gap for 90 s
 class LongStand : public PriorityTest {
  protected:
