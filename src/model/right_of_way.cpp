@@ -115,8 +115,8 @@ WaitingPlace waiting_place(const PathLink& link, double zone_begin) {
   return {place, true};
 }
 
-/// Does somebody ride so far beside the middle of its lane that on the junction it would wait in
-/// the way of a long body that turns?
+/// Does somebody ride so far beside the middle of its lane that on the junction it might wait where
+/// a foe's long body sweeps? Whether that one turns isn't asked.
 bool is_aside_for(const Approach& foe, const Scene& scene, std::size_t row) {
   constexpr double kAside = 0.7, kLong = 7.0;  // [m]
   return foe.length > kLong && std::abs(scene.passing_offset[row]) >= kAside;
