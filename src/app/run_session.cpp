@@ -18,6 +18,7 @@
 #include "io/results.h"
 #include "io/trajectories.h"
 #include "model/kinematic_set.h"
+#include "osm/obstacles.h"
 #include "prediction/live_predictor.h"
 #include "road/lane_locator.h"
 #include "road/sumo_net_reader.h"
@@ -114,6 +115,20 @@ RunPlan make_plan(const RunOptions& options, const CommonOptions& common) {
   return plan;
 }
 
+/// Obstacles of the additional files. An import has looked at the lanes already; polyconvert's
+/// houses stand on sidewalks.
+void read_all_obstacles(const RunPlan& plan, RoadNetwork& road) {
+  for (const auto& file : plan.input.additional) read_obstacles(file, road);
+  if (!plan.input.settings.empty() || road.obstacles.empty()) return;
+  const std::size_t all = road.obstacles.size();
+  const osm::ClearedObstacles cleared = osm::clear_lanes(road);
+  if (cleared.cut + cleared.left_out > 0)
+    spdlog::warn(
+        "{}: {} of {} houses and walls of its polygons stand on lanes: what is on the ground of a "
+        "lane is no wall there",
+        plan.input.name, cleared.cut + cleared.left_out, all);
+}
+
 std::unique_ptr<Simulation> make_simulation(const RunPlan& plan, unsigned threads) {
   auto sim = std::make_unique<Simulation>();
   sim->dt = plan.step;
@@ -123,7 +138,7 @@ std::unique_ptr<Simulation> make_simulation(const RunPlan& plan, unsigned thread
   sim->model.options.step = plan.step;
   sim->model.kinematics = build_kinematic_tables(sim->model.types, *sim->workers);
   sim->model.road = read_sumo_net(plan.input.network);
-  for (const auto& file : plan.input.additional) read_obstacles(file, sim->model.road);
+  read_all_obstacles(plan, sim->model.road);
   sim->model.obstacles = ObstacleIndex(sim->model.road.obstacles);
   sim->model.conflicts = build_conflict_table(sim->model.road);
   sim->model.swept_ways = find_swept_ways(sim->model.road, sim->model.conflicts);
@@ -234,6 +249,8 @@ class Observers {
     const AgentName name = name_of();
     write_file(output_ / "stuck.csv",
                stuck_csv(flow_.stuck(), sim_.model.types, sim_.model.road, name));
+    write_file(output_ / "held.csv",
+               stuck_csv(flow_.held(), sim_.model.types, sim_.model.road, name));
     write_file(output_ / "trips.csv", trips_csv(world_.life_cycle().trips, sim_.model.types, name));
     write_file(output_ / "collisions.csv",
                collisions_csv(collisions_.pairs(), sim_.model.types, name));

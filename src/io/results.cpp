@@ -64,6 +64,8 @@ Json flow_json(const FlowResult& flow) {
           {"distance_km", flow.distance_km},
           {"stuck_agents", flow.stuck_agents},
           {"longest_standstill_s", flow.longest_standstill_s},
+          {"held_agents", flow.held_agents},
+          {"longest_held_s", flow.longest_held_s},
           {"waiting_time_mean_s", flow.waiting_time_mean_s}};
 }
 
@@ -290,6 +292,7 @@ void print_results_table(std::FILE* stream, const RunResults& results) {
   table.number("distance", results.flow.distance_km, "km");
   table.count("stuck agents", results.flow.stuck_agents);
   table.number("longest standstill", results.flow.longest_standstill_s, "s", 1);
+  table.count("held within 4 m for 100 s", results.flow.held_agents);
   table.number("mean waiting time", results.flow.waiting_time_mean_s, "s", 1);
   table.heading("rules");
   table.text("red lights run", std::to_string(results.rules.all.red_light_crossings) + " of " +

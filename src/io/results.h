@@ -79,7 +79,8 @@ void write_results(const std::filesystem::path& file, const RunResults& results)
 /// The table for people that a run ends with.
 void print_results_table(std::FILE* stream, const RunResults& results);
 
-/// stuck.csv: one line a standstill of a minute or more. `name_of` gives SUMO's id of an agent.
+/// stuck.csv: one line a standstill of a minute or more; held.csv: one line a stay of 100 s or more
+/// within 4 m. `name_of` gives SUMO's id of an agent.
 template <typename NameOf>
 std::string stuck_csv(const std::vector<StuckAgent>& stuck, const AgentTypeTable& types,
                       const RoadNetwork& network, NameOf&& name_of);

@@ -319,6 +319,31 @@ class ObstacleWriter {
 
 }  // namespace
 
+ClearedObstacles clear_lanes(RoadNetwork& road) {
+  const LaneClearing clearing(road);
+  ClearedObstacles counts;
+  std::vector<Obstacle> cleared;
+  for (Obstacle& obstacle : road.obstacles) {
+    bool whole = true;
+    std::vector<Ring> remains;
+    if (obstacle.kind == ObstacleKind::Barrier) {
+      remains = off_lanes(clearing, obstacle.outline, whole);
+    } else {
+      for (const std::vector<Ring>& polygon : cut_out_lanes(clearing, {obstacle.outline}, whole))
+        remains.push_back(join_courtyards(polygon[0], {polygon.begin() + 1, polygon.end()}));
+      if (obstacle.kind == ObstacleKind::Furniture && !whole) remains.clear();
+    }
+    if (whole) {
+      cleared.push_back(std::move(obstacle));
+      continue;
+    }
+    ++(remains.empty() ? counts.left_out : counts.cut);
+    for (Ring& ring : remains) cleared.push_back({obstacle.kind, std::move(ring)});
+  }
+  road.obstacles = std::move(cleared);
+  return counts;
+}
+
 std::map<std::string, long> write_obstacles(const OsmMap& map, const GeoProjection& projection,
                                             const RoadNetwork& road, const GeoBox& box,
                                             const std::filesystem::path& file, IssueLog& log) {

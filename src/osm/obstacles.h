@@ -24,4 +24,14 @@ std::map<std::string, long> write_obstacles(const OsmMap& map, const GeoProjecti
                                             const RoadNetwork& road, const GeoBox& box,
                                             const std::filesystem::path& file, IssueLog& log);
 
+/// How many of a network's obstacles stood on the ground of its lanes.
+struct ClearedObstacles {
+  std::size_t cut = 0, left_out = 0;
+};
+
+/// Cuts the ground of the network's lanes (LaneClearing) out of its obstacles, as write_obstacles()
+/// does: for polygons that were drawn without a look at the lanes, where houses stand on sidewalks
+/// and leave nobody through. Posts and trees on a lane are left out.
+ClearedObstacles clear_lanes(RoadNetwork& road);
+
 }  // namespace sumogamma::osm

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -18,6 +19,7 @@ class AgentTrack {
   /// called for those gone.
   template <typename Leave>
   void match(std::span<const AgentId> ids, Leave&& leave) {
+    if (std::equal(ids.begin(), ids.end(), ids_.begin(), ids_.end())) return;
     next_.clear();
     next_.resize(ids.size());
     std::size_t old = 0;

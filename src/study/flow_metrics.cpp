@@ -32,6 +32,25 @@ bool waits_behind_signal(const Scene& scene, std::size_t row) {
   return false;
 }
 
+/// What is known of a row at the moment when it becomes stuck, or held.
+StuckAgent stuck_agent(const Scene& scene, std::size_t row, double since) {
+  const RoadContext& context = scene.context[row];
+  StuckAgent agent;
+  agent.id = scene.id[row];
+  agent.type = scene.type[row];
+  agent.position = scene.position[row];
+  agent.lane = scene.lane[row].lane;
+  agent.since = since;
+  agent.reason = context.active ? context.reason : LimitReason::None;
+  agent.foe = context.active ? context.foe : -1;
+  find_head(scene, row, agent);
+  return agent;
+}
+
+bool at_planned_halt(const Scene& scene, std::size_t row) {
+  return scene.context[row].active && scene.context[row].reason == LimitReason::Stop;
+}
+
 }  // namespace
 
 void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const RoadState& road) {
@@ -54,6 +73,7 @@ void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
       if (moved <= 2.0 * type.max_speed * step_ + 1.0) distance_ += moved;
     }
     if (vehicle && speed < kWaiting) waiting_ += step_;
+    add_stay(scene, row, state);
     state.known = true;
     state.position = scene.position[row];
     const bool in_place = state.stands && (scene.position[row] - state.stopped).norm() < kInPlace;
@@ -75,28 +95,40 @@ void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
 }
 
 void FlowMonitor::add_standing(const Scene& scene, std::size_t row, State& state) {
-  const RoadContext& context = scene.context[row];
-  const bool excused = (context.active && context.reason == LimitReason::Stop) ||
-                       red_lights_.ahead(scene.lane[row].lane) || waits_behind_signal(scene, row);
+  const bool excused = at_planned_halt(scene, row) || red_lights_.ahead(scene.lane[row].lane) ||
+                       waits_behind_signal(scene, row);
   if (!excused) state.standing += step_;
   longest_ = std::max(longest_, state.standing);
   // half a step less: sums of steps don't meet a whole number of seconds exactly
   if (state.record < 0 && state.standing > kStuckTime - 0.5 * step_) {
     state.record = static_cast<std::int32_t>(stuck_.size());
-    StuckAgent agent;
-    agent.id = scene.id[row];
-    agent.type = scene.type[row];
-    agent.position = scene.position[row];
-    agent.lane = scene.lane[row].lane;
-    agent.since = state.stopped_at;
-    agent.reason = context.active ? context.reason : LimitReason::None;
-    agent.foe = context.active ? context.foe : -1;
-    find_head(scene, row, agent);
-    stuck_.push_back(agent);
+    stuck_.push_back(stuck_agent(scene, row, state.stopped_at));
     if (!state.ever_stuck) ++stuck_agents_;
     state.ever_stuck = true;
   }
   if (state.record >= 0) stuck_[static_cast<std::size_t>(state.record)].standing = state.standing;
+}
+
+void FlowMonitor::add_stay(const Scene& scene, std::size_t row, State& state) {
+  const Vec2& position = scene.position[row];
+  if (!state.known || (position - state.stays_at).squaredNorm() > kHeldWithin * kHeldWithin) {
+    if (state.held_record >= 0) held_[static_cast<std::size_t>(state.held_record)].moved_on = true;
+    state.held_record = -1;
+    state.stays_at = position;
+    state.stays_since = scene.time;
+    state.stays = 0;
+    return;
+  }
+  if (!at_planned_halt(scene, row)) state.stays += step_;
+  longest_held_ = std::max(longest_held_, state.stays);
+  if (state.held_record < 0 && state.stays > kHeldTime - 0.5 * step_) {
+    state.held_record = static_cast<std::int32_t>(held_.size());
+    held_.push_back(stuck_agent(scene, row, state.stays_since));
+    if (!state.ever_held) ++held_agents_;
+    state.ever_held = true;
+  }
+  if (state.held_record >= 0)
+    held_[static_cast<std::size_t>(state.held_record)].standing = state.stays;
 }
 
 FlowResult FlowMonitor::result(const AgentTypeTable& types) const {
@@ -114,6 +146,8 @@ FlowResult FlowMonitor::result(const AgentTypeTable& types) const {
   result.distance_km = distance_ / 1000.0;
   result.stuck_agents = stuck_agents_;
   result.longest_standstill_s = longest_;
+  result.held_agents = held_agents_;
+  result.longest_held_s = longest_held_;
   if (vehicles_ > 0) result.waiting_time_mean_s = waiting_ / static_cast<double>(vehicles_);
   return result;
 }

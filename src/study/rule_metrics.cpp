@@ -54,6 +54,31 @@ double past_line(const RoadNetwork& network, const Lane& lane, const Vec2& point
   return apart ? point.x() - its_end.x() * point.y() / its_end.y() : point.x();
 }
 
+/// Lanes on which somebody can be about to leave a lane with signals or have just done so
+/// (leads_over), by id.
+std::vector<bool> lanes_by_signals(const RoadNetwork& network) {
+  std::vector<bool> edges(network.edges.size(), false), lanes(network.lanes.size(), false);
+  const auto mark = [&](LaneId lane) { edges[index_of(network.lane(lane).edge)] = true; };
+  const auto is_signalled = [&](ConnectionId id) {
+    return network.connection(id).signal != kNoSignal;
+  };
+  for (const Lane& lane : network.lanes) {
+    if (std::none_of(lane.outgoing.begin(), lane.outgoing.end(), is_signalled)) continue;
+    for (const LaneId beside : network.edge(lane.edge).lanes) {
+      mark(beside);
+      for (const ConnectionId link : network.lane(beside).incoming)
+        lanes[index_of(network.connection(link).from)] = true;
+    }
+    for (const ConnectionId link : lane.outgoing) {
+      mark(network.connection(link).to);
+      if (network.connection(link).via != kNoLane) mark(network.connection(link).via);
+    }
+  }
+  for (std::size_t i = 0; i < lanes.size(); ++i)
+    if (edges[index_of(network.lanes[i].edge)]) lanes[i] = true;
+  return lanes;
+}
+
 double front_reach(const Footprint& footprint) {
   double reach = 0;
   for (const Vec2& vertex : footprint.outline()) reach = std::max(reach, vertex.x());
@@ -63,7 +88,11 @@ double front_reach(const Footprint& footprint) {
 }  // namespace
 
 RuleMonitor::RuleMonitor(double step, const RoadNetwork& network, const LaneLocator& locator)
-    : step_(step), network_(network), locator_(locator), has_storeys_(has_storeys(network)) {}
+    : step_(step),
+      network_(network),
+      locator_(locator),
+      has_storeys_(has_storeys(network)),
+      by_signal_(lanes_by_signals(network)) {}
 
 void RuleMonitor::add(const Scene& scene, const AgentTypeTable& types, const RoadState& road) {
   by_type_.resize(types.size());
@@ -173,11 +202,41 @@ RuleMonitor::Place RuleMonitor::place_at(const Row& agent, const Vec2& point) {
   return place;
 }
 
+bool RuleMonitor::in_gap(const Row& agent, const Vec2& point) {
+  auto is_road = [&](const Vec2& place) {
+    if (locator_.on_junction(place)) return true;
+    find_lanes(agent, place, front_hits_);
+    return std::any_of(front_hits_.begin(), front_hits_.end(),
+                       [&](const LaneHit& hit) { return for_vehicles(network_.lane(hit.lane)); });
+  };
+  // along, across and both diagonals of the agent
+  constexpr int kAxes = 4;
+  for (int k = 0; k < kAxes; ++k) {
+    const Vec2 reach = kGap * direction_of(agent.scene.heading[agent.row] + k * kPi / kAxes);
+    if (is_road(point + reach) && is_road(point - reach)) return true;
+  }
+  return false;
+}
+
+bool RuleMonitor::keeps_its_lane(const Row& agent) const {
+  constexpr double kMoved = 20.0;  // since its place on the lane was found [m]
+  const LanePosition& own = agent.scene.lane[agent.row];
+  if (own.lane == kNoLane) return false;
+  const Lane& lane = network_.lane(own.lane);
+  if (!for_vehicles(lane) || !(lane.allowed & kMotor)) return false;
+  const PolylinePosition place = lane.centerline.project(agent.scene.position[agent.row],
+                                                         own.along - kMoved, own.along + kMoved);
+  return place.along > 0.0 && place.along < lane.centerline.length() &&
+         place.distance <= 0.5 * lane.width &&
+         agent.scene.velocity[agent.row].dot(lane.centerline.direction_at(place.along)) >= 0.0;
+}
+
 void RuleMonitor::judge_ground(const Row& agent, State& state) {
+  if (keeps_its_lane(agent)) return;
   const Vec2& center = agent.scene.position[agent.row];
   const Place here = place_at(agent, center);
   if (here.none) {
-    if (!here.junction) {
+    if (!here.junction && !in_gap(agent, center)) {
       agent.counts.off_road_s += step_;
       extend(Offence::OffRoad, agent, state);
     }
@@ -230,13 +289,18 @@ void RuleMonitor::record_red(const Row& agent, State& state, const Vec2& place,
 void RuleMonitor::judge_stop_line(const Row& agent, State& state, const Vec2& front,
                                   const RoadState& road) {
   if (network_.signals.empty()) return;
+  const LaneId own = agent.scene.lane[agent.row].lane;
+  if (own != kNoLane && !by_signal_[index_of(own)]) {
+    state.short_of = kNoLane;
+    return;
+  }
   find_lanes(agent, state.front, front_hits_);
   if (state.short_of != kNoLane) front_hits_.push_back({state.short_of});
   state.short_of = kNoLane;
   for (const LaneHit& hit : front_hits_) {
     const Lane& lane = network_.lane(hit.lane);
     if (lane.kind != LaneKind::Normal || !for_vehicles(lane)) continue;
-    if (!leads_over(network_, agent.scene.lane[agent.row].lane, lane)) continue;
+    if (!leads_over(network_, own, lane)) continue;
     const Vec2& end = lane.centerline.points().back();
     const Vec2 forward = lane.centerline.direction_at(lane.centerline.length());
     const Vec2 now = to_body(front - end, forward), was = to_body(state.front - end, forward);
@@ -317,7 +381,7 @@ void RuleMonitor::judge_turn(const Row& agent, State& state) {
     state.passed = kNoLane;
     return;
   }
-  // judge_ground has just found the lanes of the centre
+  find_lanes(agent, agent.scene.position[agent.row], hits_);
   for (const LaneHit& hit : hits_) {
     const Lane& lane = network_.lane(hit.lane);
     if (lane.kind != LaneKind::Normal) continue;

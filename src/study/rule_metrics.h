@@ -90,6 +90,7 @@ class RuleMonitor {
   static constexpr double kMoving = 0.5;   ///< [m/s]
   static constexpr double kOver = 0.1;     ///< [m]
   static constexpr double kEntered = 0.5;  ///< [m]
+  static constexpr double kGap = 0.5;      ///< [m]
   static constexpr double kBeside = 20.0;  ///< from middle to middle [m]
   static constexpr double kSoon = 4.0;     ///< [s]
   static constexpr double kFaster = 1.0;   ///< [m/s]
@@ -145,7 +146,12 @@ class RuleMonitor {
     std::optional<LaneHit> against;  ///< lanes lead the other way alone; one of them
     bool walkway = false;            ///< people walk there, and no motor vehicle drives
   };
+  /// Does an agent drive on its own lane, the way that it leads? Nothing else of the place matters
+  /// to it then.
+  bool keeps_its_lane(const Row& agent) const;
   Place place_at(const Row& agent, const Vec2& point);
+  /// Is a point that is on no lane and no junction between two pieces of road?
+  bool in_gap(const Row& agent, const Vec2& point);
   void judge_ground(const Row& agent, State& state);
   void extend(Offence kind, const Row& agent, State& state);
   void judge_stop_line(const Row& agent, State& state, const Vec2& front, const RoadState& road);
@@ -167,6 +173,7 @@ class RuleMonitor {
   const RoadNetwork& network_;
   const LaneLocator& locator_;
   bool has_storeys_;
+  std::vector<bool> by_signal_;  ///< lanes from which the stop line of a signal may be passed next
   AgentTrack<State> track_;
   std::vector<RuleCounts> by_type_;
   RoadState before_;  ///< signals of the previous tick

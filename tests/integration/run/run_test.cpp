@@ -112,6 +112,7 @@ class RunTest : public ::testing::Test {
     EXPECT_THAT(content(out(output) / "replay.html"), HasSubstr("</html>"));
     EXPECT_GT(fs::file_size(out(output) / "replay.bin"), 0u);
     EXPECT_THAT(content(out(output) / "stuck.csv"), HasSubstr("agent,type"));
+    EXPECT_THAT(content(out(output) / "held.csv"), HasSubstr("agent,type"));
     EXPECT_THAT(content(out(output) / "trips.csv"), HasSubstr("agent,type,departed_s"));
     EXPECT_THAT(content(out(output) / "offences.csv"), HasSubstr("agent,type"));
     EXPECT_THAT(content(out(output) / "collisions.csv"), HasSubstr("agent,type,other"));
@@ -149,7 +150,7 @@ TEST_F(RunTest, EveryKeyOfTheResultsIsThere) {
               {"unique_pairs", "unique_pairs_per_agent_hour", "overlap_share_of_agent_steps",
                "deep_pairs", "by_types", "worst_penetration_m"});
   expect_keys(results["flow"], {"mean_speed", "distance_km", "stuck_agents", "longest_standstill_s",
-                                "waiting_time_mean_s"});
+                                "held_agents", "longest_held_s", "waiting_time_mean_s"});
   expect_keys(results["rules"], {"red_light_crossings", "wrong_way_s", "overtaking_s", "off_road_s",
                                  "sidewalk_by_vehicle_s", "by_types"});
   expect_keys(results["smoothness"],

@@ -186,6 +186,26 @@ TEST_F(ObstaclesTest, TreesStandBesideTheRoadOnly) {
   EXPECT_EQ(counts_.at("left_out_on_lane"), 1);
 }
 
+// polyconvert's houses on guessed sidewalks: two people circled before them until the run ended
+TEST(ClearLanes, CutsTheGroundOfLanesOutOfUsersPolygons) {
+  RoadNetwork road = one_lane(vehicle_class::kPedestrian);
+  const auto square = [](double x, double y, double half) {
+    return std::vector<Vec2>{
+        {x - half, y - half}, {x + half, y - half}, {x + half, y + half}, {x - half, y + half}};
+  };
+  road.obstacles = {{ObstacleKind::Building, square(0, 0, 5)},
+                    {ObstacleKind::Building, square(30, 10, 5)},
+                    {ObstacleKind::Barrier, {{50, -5}, {50, 5}}},
+                    {ObstacleKind::Furniture, square(60, 0.5, 0.2)}};
+  const ClearedObstacles counts = clear_lanes(road);
+  EXPECT_EQ(counts.cut, 2u);
+  EXPECT_EQ(counts.left_out, 1u);
+  ASSERT_EQ(road.obstacles.size(), 5u) << "two of a house, one whole, two of a wall";
+  for (const Obstacle& obstacle : road.obstacles)
+    for (const Vec2& corner : obstacle.outline) EXPECT_GE(std::abs(corner.y()), 0.79);
+  EXPECT_EQ(road.obstacles[2].outline, square(30, 10, 5)) << "off the lanes nothing changes";
+}
+
 TEST_F(ObstaclesTest, SaysWhereItCannotWrite) {
   const GeoBox box = builder_.box(-500, -500, 500, 500);
   EXPECT_THROW(write_obstacles(builder_.map, projection_, one_lane(), box, "/no/such/folder/o.xml",

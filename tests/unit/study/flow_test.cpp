@@ -184,6 +184,41 @@ TEST_F(Flow, PedestriansWaitWhereAllTheirCrossingsAreRed) {
   EXPECT_EQ(monitor_.result(types_).stuck_agents, 1u);
 }
 
+// two stood nose to nose over every red light for 270 s, rocked by 10 cm, and were never stuck
+TEST_F(Flow, WhoGetsNoFurtherIsHeldWhateverTheReason) {
+  const std::size_t row = add("truck", {50, 0}, "in_1", 50);
+  for (int k = 0; k < 98; ++k) {
+    road_.signal_states = {k / 30 % 2 ? "Gr" : "rr"};
+    scene_.velocity[row] = {k % 2 ? 1.5 : -1.5, 0};
+    run(1);
+  }
+  EXPECT_EQ(monitor_.result(types_).held_agents, 0u);
+  scene_.velocity[row] = {0, 0};
+  run(4);
+  EXPECT_EQ(monitor_.result(types_).stuck_agents, 0u);
+  EXPECT_EQ(monitor_.result(types_).held_agents, 1u);
+  ASSERT_EQ(monitor_.held().size(), 1u);
+  EXPECT_NEAR(monitor_.held()[0].since, kStep, 1e-6);
+  EXPECT_FALSE(monitor_.held()[0].moved_on);
+  scene_.velocity[row] = {5, 0};
+  run(1);
+  EXPECT_TRUE(monitor_.held()[0].moved_on);
+  scene_.velocity[row] = {0, 0};
+  run(110);
+  EXPECT_EQ(monitor_.result(types_).held_agents, 1u) << "an agent is counted once";
+  EXPECT_EQ(monitor_.held().size(), 2u) << "each stay is listed";
+}
+
+TEST_F(Flow, WhoCreepsOnOrHaltsAsPlannedIsNotHeld) {
+  scene_.velocity[add("car", {0, 0})] = {0.05, 0};
+  const std::size_t bus = add("bus", {50, 0}, "out_0", 30);
+  scene_.context[bus].active = true;
+  scene_.context[bus].reason = LimitReason::Stop;
+  run(300);
+  EXPECT_EQ(monitor_.result(types_).held_agents, 0u);
+  EXPECT_NEAR(monitor_.result(types_).longest_held_s, 80, 0.5);
+}
+
 TEST_F(Flow, LeavingAgentsAreForgotten) {
   add("car", {50, 0}, "out_0", 30);
   run(50);

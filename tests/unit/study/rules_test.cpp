@@ -394,6 +394,45 @@ TEST_F(Rules, OffRoadAndSidewalk) {
   EXPECT_NEAR(monitor_.result(types_).by_type.at("car").sidewalk_by_vehicle_s, 1.0, 1e-9);
 }
 
+// A published network has lanes 3.2 m wide whose middles are 3.3 m apart: who changed lanes was off
+// the road for a moment.
+TEST(RulesInGaps, TheStripBetweenLanesIsRoad) {
+  RoadNetwork net = testing::small_net();
+  for (const char* name : {"back_0", ":C_1_0", "back_in_0"}) {
+    Lane& lane = net.lanes[index_of(net.lane_by_name.at(name))];
+    std::vector<Vec2> aside;
+    for (const Vec2& point : lane.centerline.points()) aside.push_back(point - Vec2(0, 0.3));
+    lane.centerline = Polyline(aside);
+  }
+  // two lanes end short of the junction
+  for (const char* name : {"in_1", "back_0"}) {
+    Lane& lane = net.lanes[index_of(net.lane_by_name.at(name))];
+    std::vector<Vec2> shorter = lane.centerline.points();
+    (name[0] == 'i' ? shorter.back() : shorter.front()).x() -= 0.4;
+    lane.centerline = Polyline(shorter);
+  }
+  const LaneLocator locator(net);
+  const AgentTypeTable types = default_agent_types();
+  const auto off_road = [&](const Vec2& position, double heading) {
+    RuleMonitor monitor(kStep, net, locator);
+    Scene scene;
+    AgentState agent;
+    agent.type = find_agent_type(types, "car");
+    agent.footprint = box_footprint(4, 2);
+    agent.position = position;
+    agent.heading = heading;
+    append_agent(scene, agent);
+    for (int tick = 0; tick < 10; ++tick) monitor.add(scene, types, {});
+    return monitor.result(types).all.off_road_s;
+  };
+  for (const double heading : {0.0, 0.4, 1.2}) {
+    EXPECT_EQ(off_road({20, -1.75}, heading), 0) << "between both directions";
+    EXPECT_EQ(off_road({94.75, 0}, heading), 0) << "between a lane and the junction";
+    EXPECT_NEAR(off_road({20, -5.6}, heading), 1.0, 1e-9) << "beyond the outer edge";
+    EXPECT_NEAR(off_road({150, 1.8}, heading), 1.0, 1e-9) << "likewise, where no sidewalk is";
+  }
+}
+
 // lanes end askew where they meet on a junction: somebody was on a splinter of a sidewalk for a
 // tick
 TEST_F(Rules, NobodyIsOverAnEdgeByCentimetres) {
