@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -66,25 +67,64 @@ double way_between(const RoadNetwork& network, const Ground& a, const Ground& b)
   return shortest;
 }
 
-/// Does a share of the piece from point i on lie on the line? Its ends reach a little further: from
-/// one lane to the next there may be a gap.
+/// The ends of a line reach a little further: from one lane to the next there may be a gap [m].
+constexpr double kGap = 1.0;
+
+/// Does a share of the piece from point i on lie on the line?
 bool lies_on(const std::vector<Vec2>& line, std::size_t i, double share) {
-  constexpr double kGap = 1.0;  // [m]
   const double gap = kGap / std::max((line[i + 1] - line[i]).norm(), 1e-3);
   return share >= (i == 0 ? -gap : 0.0) && share <= (i + 2 == line.size() ? 1.0 + gap : 1.0);
+}
+
+/// Successive pieces of a line and a box about them, ends that reach further included. Maps made
+/// from other formats have a point every metre: pieces far apart needn't be held against each
+/// other.
+struct Run {
+  std::size_t begin = 0, end = 0;  ///< pieces
+  Vec2 lower = Vec2::Zero(), upper = Vec2::Zero();
+
+  bool meets(const Run& other) const {
+    return (lower.array() <= other.upper.array()).all() &&
+           (other.lower.array() <= upper.array()).all();
+  }
+};
+
+std::vector<Run> runs_of(const std::vector<Vec2>& line) {
+  constexpr std::size_t kPieces = 16;
+  std::vector<Run> runs;
+  for (std::size_t begin = 0; begin + 1 < line.size(); begin += kPieces) {
+    Run run{begin, std::min(begin + kPieces, line.size() - 1), line[begin], line[begin]};
+    for (std::size_t k = begin; k <= run.end; ++k) {
+      run.lower = run.lower.cwiseMin(line[k]);
+      run.upper = run.upper.cwiseMax(line[k]);
+    }
+    run.lower.array() -= kGap;
+    run.upper.array() += kGap;
+    runs.push_back(run);
+  }
+  return runs;
 }
 
 /// Difference in height where the centerlines of two lanes cross, if they do [m].
 std::optional<double> rise_at_crossing(const Lane& one, const Lane& other) {
   const std::vector<Vec2>&a = one.centerline.points(), &b = other.centerline.points();
-  for (std::size_t i = 0; i + 1 < a.size(); ++i) {
-    const Vec2 along = a[i + 1] - a[i];
-    for (std::size_t j = 0; j + 1 < b.size(); ++j) {
-      const Vec2 across = b[j + 1] - b[j];
-      const auto share = crossing_shares(a[i], along, b[j], across);
-      if (!share || !lies_on(a, i, share->x()) || !lies_on(b, j, share->y())) continue;
-      return elevation_at(one, one.centerline.along_of_vertex(i) + share->x() * along.norm()) -
-             elevation_at(other, other.centerline.along_of_vertex(j) + share->y() * across.norm());
+  const std::vector<Run> others = runs_of(b);
+  std::vector<Run> near;
+  for (const Run& run : runs_of(a)) {
+    near.clear();
+    std::copy_if(others.begin(), others.end(), std::back_inserter(near),
+                 [&](const Run& their) { return run.meets(their); });
+    for (std::size_t i = run.begin; !near.empty() && i < run.end; ++i) {
+      const Vec2 along = a[i + 1] - a[i];
+      for (const Run& their : near)
+        for (std::size_t j = their.begin; j < their.end; ++j) {
+          const Vec2 across = b[j + 1] - b[j];
+          const auto share = crossing_shares(a[i], along, b[j], across);
+          if (!share || !lies_on(a, i, share->x()) || !lies_on(b, j, share->y())) continue;
+          return elevation_at(one, one.centerline.along_of_vertex(i) + share->x() * along.norm()) -
+                 elevation_at(other,
+                              other.centerline.along_of_vertex(j) + share->y() * across.norm());
+        }
     }
   }
   return std::nullopt;
