@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "road/turnaround.h"
+
 namespace sumogamma {
 
 namespace {
@@ -398,6 +400,10 @@ void round_corners(const Cornering& cornering, Path& path) {
   if (cornering.turning_radius <= 0.0 || path.line.length() < 2.0) return;
   Samples samples(path.line, cornering.turning_radius);
   if (straighten_folds(samples.step, cornering, samples.points)) {
+    lead_along(samples.points, samples.step, path);
+    samples = Samples(path.line, cornering.turning_radius);
+  }
+  if (open_turnarounds(samples.step, cornering.turning_radius, samples.points)) {
     lead_along(samples.points, samples.step, path);
     samples = Samples(path.line, cornering.turning_radius);
   }

@@ -440,6 +440,30 @@ double tightest(const Polyline& line, double from, double to) {
   return radius;
 }
 
+// A turnaround in a street: cars turned from the middle of their lane and left the road on its far
+// side, since two lanes are less than two turning radii apart.
+TEST(RoundCorners, WhoTurnsRoundSwingsOutBeforeThat) {
+  for (const double side : {1.0, -1.0}) {
+    Path path = path_of({{0, 0}, {40, 0}, {41, side * 1.6}, {40, side * 3.2}, {0, side * 3.2}});
+    path.links.push_back({kNoConnection, 40.0, 44.0, 40.0, 40.0});
+    round_corners({3.46, 4.5, 1.8}, path);
+    EXPECT_GT(tightest(path.line, 15, path.line.length() - 15), 1.5) << "by vertices 0.5 m apart";
+    double left = 0, right = 0, farthest = 0;
+    for (const Vec2& point : path.line.points()) {
+      left = std::max(left, side * point.y() - 1.6);
+      right = std::max(right, 1.6 - side * point.y());
+      farthest = std::max(farthest, point.x());
+    }
+    EXPECT_NEAR(left, 3.8, 0.2) << "as far to the one side as to the other";
+    EXPECT_NEAR(right, 3.8, 0.2);
+    EXPECT_NEAR(farthest, 41.0, 0.3) << "no further than the line is drawn";
+    EXPECT_NEAR((path.line.points().back() - Vec2(0, side * 3.2)).norm(), 0.0, 1e-9);
+  }
+  Path wide = path_of({{0, 0}, {40, 0}, {40, 12}, {0, 12}});
+  round_corners({3.46, 4.5, 1.8}, wide);
+  for (const Vec2& point : wide.line.points()) EXPECT_GT(point.y(), -0.01);
+}
+
 // over 2 m a right angle seems as wide as a bicycle turns: it was left as sharp as it was drawn
 TEST(RoundCorners, ABicycleTurnsWithItsRadius) {
   for (const double angle : {60.0, 90.0, 140.0}) {
