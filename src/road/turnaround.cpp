@@ -16,7 +16,7 @@ constexpr double kWithin = 14.0;    // on so much of its way [m]
 constexpr double kStraight = 3.0;   // [degrees] a metre: less is no part of the turn
 constexpr double kBranch = 2.0;     // over which a branch's direction is taken [m]
 constexpr double kOffBranch = 0.5;  // [m] that samples may lie off a straight branch
-constexpr double kEase = 1.1;       // times the tightest radius
+constexpr double kEase = 1.06;      // times the tightest radius
 
 /// Samples between which a line turns round, and to which side (1: left).
 struct Reversal {
