@@ -22,7 +22,7 @@ for map in "$@"; do
       for control in all none; do
         run=$name-$agents-$seed-$control
         echo "$run" >&2
-        "$program" run "$scenario" -o "$out/$run" --agents "$agents" --duration "${DURATION:-600}" --step 0.05 \
+        "$program" run "$scenario" -o "$out/$run" --force --agents "$agents" --duration "${DURATION:-600}" --step 0.05 \
           --seed "$seed" --threads "${THREADS:-1}" --control "$control" --quiet --log error > "$out/$run.txt" 2>&1 ||
           echo "$run: $(tail -1 "$out/$run.txt")" >&2
       done

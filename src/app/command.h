@@ -16,6 +16,7 @@ inline constexpr int kExitInterrupted = 130;
 /// Options that every command has.
 struct CommonOptions {
   std::uint64_t seed = 1;
+  bool seed_given = false;  ///< --seed was there
   unsigned threads = 1;
   bool quiet = false;
   std::string log_level = "warn";
@@ -34,7 +35,7 @@ CommandRunner add_replay_command(CLI::App& parent);
 CommandRunner add_report_command(CLI::App& parent);
 CommandRunner add_version_command(CLI::App& parent);
 
-/// True once the user pressed Ctrl-C or the process was asked to end (SIGINT, SIGTERM).
+/// True once the user pressed Ctrl-C or the process was asked to end (SIGINT, SIGTERM, SIGHUP).
 bool interrupted();
 
 }  // namespace sumogamma

@@ -1,13 +1,19 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "app/command.h"
+#include "app/validators.h"
 #include "base/error.h"
 
 namespace sumogamma {
@@ -24,11 +30,40 @@ void install_signal_handlers() {
   action.sa_handler = remember_signal;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // unless it is to be ignored, as under nohup
+  struct sigaction hangup = {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
 }
 
+/// What is still in buffers must get out, or the run has failed: a full disk, a closed pipe.
+int flush_output(int code) {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
+  std::fprintf(stderr, "sumo-gamma: standard output: can't be written (%s)\n",
+               std::strerror(errno));
+  return code == kExitDone ? kExitBadInput : code;
+}
+
+/// A number of hundreds of digits, which somebody typed, tells no more than its beginning.
+std::string without_long_numbers(const std::string& text) {
+  constexpr std::size_t kLongest = 30, kKept = 12;
+  std::string result;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t digits = std::min(text.find_first_not_of("0123456789", begin), text.size());
+    const bool is_long = digits - begin > kLongest;
+    result.append(text, begin, is_long ? kKept : digits - begin);
+    if (is_long) result += "...";
+    const std::size_t next = std::min(text.find_first_of("0123456789", digits), text.size());
+    result.append(text, digits, next - digits);
+    begin = next;
+  }
+  return result;
+}
+
 int fail(const std::exception& error, int code) {
-  std::fprintf(stderr, "sumo-gamma: %s\n", error.what());
+  std::fprintf(stderr, "sumo-gamma: %s\n", without_long_numbers(error.what()).c_str());
   return code;
 }
 }  // namespace
@@ -44,10 +79,12 @@ int run_program(int argc, char** argv) {
   app.set_help_all_flag("--help-all", "help of every command");
 
   CommonOptions common;
-  app.add_option("--seed", common.seed, "seed of every random draw")->capture_default_str();
+  const CLI::Option* seed = app.add_option("--seed", common.seed, "seed of every random draw")
+                                ->check(whole_number(0, 9'999'999'999'999'999'999u))
+                                ->capture_default_str();
   app.add_option("--threads", common.threads,
                  "threads for the model; results are the same for any number")
-      ->check(CLI::Range(1u, 1024u))
+      ->check(whole_number(1, 1024))
       ->capture_default_str();
   app.add_option("--set", common.set, "override a key of scenario.toml: KEY=VALUE")
       ->take_all()
@@ -67,9 +104,11 @@ int run_program(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
-    std::fprintf(stderr, "sumo-gamma: %s; see sumo-gamma --help\n", error.what());
+    std::fprintf(stderr, "sumo-gamma: %s; see sumo-gamma --help\n",
+                 without_long_numbers(error.what()).c_str());
     return kExitBadInput;
   }
+  common.seed_given = seed->count() > 0;
   spdlog::set_default_logger(spdlog::stderr_color_st("sumo-gamma"));
   spdlog::set_level(spdlog::level::from_str(common.log_level));
   spdlog::set_pattern("%^%l%$: %v");
@@ -85,7 +124,7 @@ int main(int argc, char** argv) {
   using namespace sumogamma;
   install_signal_handlers();
   try {
-    return run_program(argc, argv);
+    return flush_output(run_program(argc, argv));
   } catch (const SumoError& error) {
     return fail(error, kExitSumoFailed);
   } catch (const std::exception& error) {

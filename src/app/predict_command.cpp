@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/validators.h"
 #include "base/error.h"
 #include "prediction/methods.h"
 #include "prediction/plot.h"
@@ -149,12 +150,12 @@ CommandRunner add_predict_command(CLI::App& parent) {
   command
       ->add_option("--samples", options->samples,
                    "samples a prediction, for best-of-N, likelihood and calibration; 0: none")
-      ->check(CLI::Range(0, 10000))
+      ->check(whole_number(0, 10000))
       ->capture_default_str();
   command
       ->add_option("--noise", options->noise,
                    "disturb what is observed by normal noise of this deviation [m]")
-      ->check(CLI::Range(0.0, 10.0))
+      ->check(finite_number(0.0, 10.0))
       ->capture_default_str();
   command->add_option("--json", options->json, "write all figures to this file");
   command->add_option("--plots", options->plots,

@@ -6,6 +6,7 @@
 
 #include "app/command.h"
 #include "io/output_file.h"
+#include "io/output_folder.h"
 #include "io/report.h"
 
 namespace sumogamma {
@@ -28,6 +29,7 @@ CommandRunner add_report_command(CLI::App& parent) {
   return [options](const CommonOptions&) {
     const std::vector<std::filesystem::path> folders(options->folders.begin(),
                                                      options->folders.end());
+    if (!options->output.empty()) require_page_name(options->output);
     const std::vector<RunColumn> runs = read_runs(folders);
     if (!options->output.empty()) write_file(options->output, report_html(runs));
     std::fputs((options->csv ? report_csv(runs) : report_markdown(runs)).c_str(), stdout);

@@ -1,5 +1,6 @@
 #include "app/command.h"
 #include "app/run_session.h"
+#include "app/validators.h"
 
 namespace sumogamma {
 
@@ -15,13 +16,13 @@ CommandRunner add_run_command(CLI::App& parent) {
       ->add_option("-o,--output", options->output,
                    "folder for results.json, trajectories and replay")
       ->required();
-  command->add_option("--step", options->step, "step length [s]")->check(CLI::Range(0.01, 0.5));
-  command->add_option("--duration", options->duration, "simulated time [s]")
-      ->check(CLI::PositiveNumber);
+  command->add_option("--step", options->step, "step length [s]")->check(finite_number());
+  command->add_option("--duration", options->duration, "simulated time: seconds or h:m:s")
+      ->transform(time_span());
   command
       ->add_option("--agents", options->agents,
                    "agents to keep alive, people on foot included; at the most a tenth more")
-      ->check(CLI::Range(1L, 1000000L));
+      ->check(whole_number(1, 1000000));
   command
       ->add_option("--control", options->control,
                    "who is driven by GAMMA: all, none, or agent types and SUMO ids")
@@ -30,7 +31,8 @@ CommandRunner add_run_command(CLI::App& parent) {
       ->add_option("--region", options->region,
                    "drive only who enters this box of the network: X0,Y0,X1,Y1 [m]")
       ->delimiter(',')
-      ->expected(4);
+      ->expected(4)
+      ->check(finite_number());
   command
       ->add_option("--backend", options->backend,
                    "traci (SUMO as a child process) or libsumo (in process)")
@@ -41,6 +43,21 @@ CommandRunner add_run_command(CLI::App& parent) {
       ->check(CLI::IsMember({"compliant", "observed"}));
   command->add_option("--connect", options->connect,
                       "HOST:PORT of a SUMO or sumo-gui started with --remote-port");
+  command
+      ->add_option("--num-clients", options->clients,
+                   "TraCI clients that SUMO waits for, this run included")
+      ->check(whole_number(1, 100));
+  command
+      ->add_option("--client-order", options->client_order,
+                   "place of this run among SUMO's TraCI clients: lower ones act first")
+      ->check(whole_number(0, 1000000));
+  command
+      ->add_option("--remote-port", options->remote_port,
+                   "port on which SUMO waits for further clients (default: any free one)")
+      ->check(whole_number(1, 65535));
+  command->add_flag("--convert", options->convert,
+                    "run on a copy of the network without the vehicle classes of a newer SUMO");
+  command->add_flag("--force", options->force, "replace what another run left in the folder");
   command->add_option("--sumo-options", options->sumo_options,
                       "further options for SUMO, in quotes");
   command->add_flag("--gui", options->gui, "show the run in sumo-gui");
@@ -50,7 +67,7 @@ CommandRunner add_run_command(CLI::App& parent) {
   command
       ->add_option("--trajectory-period", options->trajectory_period,
                    "time between recorded trajectory points [s], 0: every step")
-      ->check(CLI::NonNegativeNumber)
+      ->check(finite_number(0.0, 1e6))
       ->capture_default_str();
   command
       ->add_option(

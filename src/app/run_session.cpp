@@ -4,16 +4,18 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include "app/progress.h"
+#include "app/run_plan.h"
 #include "base/error.h"
 #include "base/hash.h"
-#include "io/config.h"
 #include "io/output_file.h"
+#include "io/output_folder.h"
 #include "io/replay.h"
 #include "io/results.h"
 #include "io/trajectories.h"
@@ -23,7 +25,8 @@
 #include "road/lane_locator.h"
 #include "road/sumo_net_reader.h"
 #include "simulation/simulation.h"
-#include "sumo/scenario_input.h"
+#include "sumo/connect_check.h"
+#include "sumo/net_conversion.h"
 #include "sumo/sumo_arguments.h"
 #include "sumo/sumo_world.h"
 
@@ -46,75 +49,6 @@ double cpu_of(int who) {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// What the options and scenario.toml together say.
-struct RunPlan {
-  RunOptions options;
-  ScenarioInput input;
-  ScenarioConfig config;
-  ControlChoice control;
-  double step = 0.05, duration = 0;
-  std::size_t vehicles = 0;  ///< at once, at the most; 0: as many as the demand has
-  std::string control_text;
-};
-
-/// Where `agents` are to be alive, 0 for as many as the demand has, how many may be vehicles. SUMO
-/// can hold back vehicles alone: people come as the demand has them, and leave the vehicles their
-/// share. A tenth more gets in: a bound at the mean would cut off every fluctuation, and who drives
-/// more slowly would get less of the same demand.
-std::size_t most_vehicles(long agents, double on_foot) {
-  constexpr double kSlack = 1.1;
-  if (agents <= 0) return 0;
-  const long vehicles = std::lround(kSlack * static_cast<double>(agents) * (1.0 - on_foot));
-  return static_cast<std::size_t>(std::max(vehicles, 1L));
-}
-
-ControlChoice control_choice(const RunOptions& options, const std::string& from_config,
-                             std::string& text) {
-  std::vector<std::string> words =
-      options.control.empty() ? std::vector<std::string>{from_config} : options.control;
-  ControlChoice control;
-  control.all = words == std::vector<std::string>{"all"};
-  if (!control.all && words != std::vector<std::string>{"none"})
-    control.names.insert(words.begin(), words.end());
-  if (control.names.count("all") + control.names.count("none") > 0)
-    throw Error("--control", "'all' and 'none' stand alone, expected all, none, or types and ids");
-  text.clear();
-  for (const std::string& word : words) text += (text.empty() ? "" : ",") + word;
-  if (options.region.size() == 4) {
-    control.all = false;
-    control.has_region = true;
-    control.region_low = {std::min(options.region[0], options.region[2]),
-                          std::min(options.region[1], options.region[3])};
-    control.region_high = {std::max(options.region[0], options.region[2]),
-                           std::max(options.region[1], options.region[3])};
-    text = "region";
-  }
-  return control;
-}
-
-RunPlan make_plan(const RunOptions& options, const CommonOptions& common) {
-  RunPlan plan;
-  plan.options = options;
-  plan.input = find_scenario(options.scenario);
-  std::vector<std::string> overrides = common.set;
-  if (options.preset) overrides.push_back("behavior.preset=" + *options.preset);
-  plan.config = read_config(plan.input.settings, overrides);
-  plan.step = options.step.value_or(plan.config.step);
-  // a user's own .sumocfg may say itself how long it is
-  const bool set = std::any_of(common.set.begin(), common.set.end(), [](const std::string& key) {
-    return key.rfind("run.duration", 0) == 0;
-  });
-  const double length = plan.input.end - plan.input.begin;
-  const bool own_length = plan.input.settings.empty() && !set && length > 0.0;
-  plan.duration = options.duration.value_or(own_length ? length : plan.config.duration);
-  // the cap of scenario.toml belongs to imported demand; a user's own .sumocfg brings as many as it
-  // likes
-  const long cap = options.agents.value_or(plan.input.settings.empty() ? 0 : plan.config.agents);
-  plan.vehicles = most_vehicles(cap, plan.config.on_foot);
-  plan.control = control_choice(options, plan.config.control, plan.control_text);
-  return plan;
-}
-
 /// Obstacles of the additional files. An import has looked at the lanes already; polyconvert's
 /// houses stand on sidewalks.
 void read_all_obstacles(const RunPlan& plan, RoadNetwork& road) {
@@ -131,11 +65,11 @@ void read_all_obstacles(const RunPlan& plan, RoadNetwork& road) {
 
 std::unique_ptr<Simulation> make_simulation(const RunPlan& plan, unsigned threads) {
   auto sim = std::make_unique<Simulation>();
-  sim->dt = plan.step;
+  sim->dt = plan.clock.step;
   sim->workers = std::make_unique<Workers>(threads);
   sim->model.types = plan.config.types;
   sim->model.options = plan.config.model;
-  sim->model.options.step = plan.step;
+  sim->model.options.step = plan.clock.step;
   sim->model.kinematics = build_kinematic_tables(sim->model.types, *sim->workers);
   sim->model.road = read_sumo_net(plan.input.network);
   read_all_obstacles(plan, sim->model.road);
@@ -146,33 +80,112 @@ std::unique_ptr<Simulation> make_simulation(const RunPlan& plan, unsigned thread
   return sim;
 }
 
-std::unique_ptr<SumoBackend> start_backend(const RunPlan& plan, std::uint64_t seed,
+void set_host_and_port(const std::string& connect, SumoStart& start) {
+  const std::size_t colon = connect.rfind(':');
+  if (colon == std::string::npos || colon == 0)
+    throw Error("--connect " + connect, "is not HOST:PORT");
+  start.connect_host = connect.substr(0, colon);
+  const std::string port = connect.substr(colon + 1);
+  const auto [end, error] =
+      std::from_chars(port.data(), port.data() + port.size(), start.connect_port);
+  if (error != std::errc() || end != port.data() + port.size() || start.connect_port < 1 ||
+      start.connect_port > 65535)
+    throw Error("--connect " + connect, "has no port from 1 to 65535 behind its colon");
+}
+
+SumoArguments arguments_of(const RunPlan& plan) {
+  SumoArguments wish;
+  wish.config = plan.input.config_for_sumo;
+  wish.scenario = plan.input.options;
+  wish.clients = plan.options.clients;
+  wish.step_length = plan.clock.step;
+  wish.gui = plan.options.gui;
+  wish.plain = !plan.control.any();
+  wish.own = {"--seed", std::to_string(plan.clock.seed % 2147483647u)};
+  if (wish.plain && plan.vehicles > 0)
+    wish.own.insert(wish.own.end(), {"--max-num-vehicles", std::to_string(plan.vehicles)});
+  wish.user = plan.sumo_words;
+  return wish;
+}
+
+/// SUMO's own words for what a newer one wrote don't say what to do.
+[[noreturn]] void explain_refusal(const RunPlan& plan, const Error& error) {
+  const std::string_view words = error.what();
+  if (words.find("nknown vehicle class") != std::string_view::npos) {
+    const ForeignClasses classes = find_foreign_classes(plan.input.network);
+    throw Error(plan.input.network.string(),
+                "a newer SUMO made it (network version " + classes.version +
+                    "): the one here doesn't know its vehicle classes " + describe(classes) +
+                    "; give --convert to run on a copy without them");
+  }
+  if (words.find("The vehicle class '") != std::string_view::npos &&
+      words.find("is not known") != std::string_view::npos)
+    throw Error(
+        error.what(),
+        "where a newer SUMO made the demand, give its vType a class that the one here knows");
+  throw error;
+}
+
+/// --convert: the copy of the network that SUMO and we run on; gone again where the run doesn't
+/// start.
+class ConvertedNetwork {
+ public:
+  void make(RunPlan& plan) {
+    if (!plan.options.convert) return;
+    if (!plan.options.connect.empty())
+      throw Error("--convert", "a SUMO that runs already has its network; leave --connect out");
+    const ForeignClasses classes = find_foreign_classes(plan.input.network);
+    if (classes.places.empty()) return;
+    file_ = plan.options.output / "converted.net.xml";
+    write_without_foreign_classes(plan.input.network, file_);
+    spdlog::warn(
+        "{}: left out are vehicle classes of a newer SUMO (network version {}): {}; runs on {}",
+        plan.input.network.filename().string(), classes.version, describe(classes), file_.string());
+    plan.input.network = file_;
+    std::vector<std::string>& words = plan.sumo_words;
+    words.insert(words.end(), {"--net-file", file_.string()});
+  }
+  void keep() { file_.clear(); }
+  ~ConvertedNetwork() {
+    std::error_code ignored;
+    if (!file_.empty()) std::filesystem::remove(file_, ignored);
+  }
+
+ private:
+  std::filesystem::path file_;
+};
+
+std::unique_ptr<SumoBackend> start_backend(const RunPlan& plan, const RoadNetwork& network,
                                            std::string& name) {
   SumoStart start;
   start.binary = plan.options.gui ? "sumo-gui" : "sumo";
-  SumoArguments wish;
-  wish.config = plan.input.config.string();
-  wish.step_length = plan.step;
-  wish.gui = plan.options.gui;
-  wish.plain = !plan.control.any();
-  wish.own = {"--seed", std::to_string(seed % 2147483647u)};
-  if (wish.plain && plan.vehicles > 0)
-    wish.own.insert(wish.own.end(), {"--max-num-vehicles", std::to_string(plan.vehicles)});
-  wish.user = split_options(plan.options.sumo_options);
-  start.arguments = sumo_arguments(wish);
-  if (!plan.options.connect.empty()) {
-    const std::size_t colon = plan.options.connect.rfind(':');
-    if (colon == std::string::npos)
-      throw Error("--connect " + plan.options.connect, "is not HOST:PORT");
-    start.connect_host = plan.options.connect.substr(0, colon);
-    try {
-      start.connect_port = std::stoi(plan.options.connect.substr(colon + 1));
-    } catch (const std::exception&) {
-      throw Error("--connect " + plan.options.connect, "has no port number after the colon");
-    }
-  }
+  start.arguments = sumo_arguments(arguments_of(plan));
+  start.client_order = plan.options.client_order;
+  // SUMO goes by the order of its clients where there are several
+  if (plan.options.clients > 1 && !start.client_order) start.client_order = 1;
+  start.clients = plan.options.clients;
+  start.port = plan.options.remote_port;
+  start.on_listening = [&](int port) {
+    if (plan.options.clients > 1)
+      std::fprintf(stderr, "run: SUMO waits at 127.0.0.1:%d for %d more TraCI client%s\n", port,
+                   plan.options.clients - 1, plan.options.clients > 2 ? "s" : "");
+  };
+  const bool connects = !plan.options.connect.empty();
+  if (connects) set_host_and_port(plan.options.connect, start);
   name = plan.options.backend.value_or(plan.config.backend);
-  return name == "libsumo" ? start_libsumo_backend(start) : start_traci_backend(start);
+  std::unique_ptr<SumoBackend> backend;
+  try {
+    backend = name == "libsumo" ? start_libsumo_backend(start) : start_traci_backend(start);
+  } catch (const SumoError&) {
+    throw;
+  } catch (const Error& error) {
+    explain_refusal(plan, error);
+  }
+  if (!connects) return backend;
+  ConnectExpectation expected{plan.options.connect, &plan.input, &network, plan.clock.step, {}};
+  if (!plan.input.options.contains("load-state")) expected.begin = plan.clock.begin;
+  require_same_run(*backend, expected);
+  return backend;
 }
 
 /// Everything that watches a run and writes about it.
@@ -330,30 +343,12 @@ bool failed(const RunOptions& options, const RunResults& results) {
   return failed;
 }
 
-/// Makes the output folder, and takes it away again where the run ends before it wrote anything.
-class OutputFolder {
- public:
-  explicit OutputFolder(std::filesystem::path folder)
-      : folder_(std::move(folder)), existed_(std::filesystem::exists(folder_)) {
-    make_output_folder(folder_);
-  }
-  ~OutputFolder() {
-    std::error_code not_empty;
-    if (!existed_) std::filesystem::remove(folder_, not_empty);
-  }
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
-
- private:
-  std::filesystem::path folder_;
-  bool existed_;
-};
-
 /// Ticks until the duration is over, the user interrupts, or nothing is left. Returns how it ended.
 std::string run_ticks(const RunPlan& plan, Simulation& sim, SumoWorld& world, Observers& observers,
                       bool quiet) {
-  Progress progress("run", plan.duration, "s", quiet);
-  const auto ticks = static_cast<std::int64_t>(std::llround(plan.duration / plan.step));
+  const double duration = plan.clock.end - plan.clock.begin;
+  Progress progress("run", duration, "s", quiet);
+  const auto ticks = static_cast<std::int64_t>(std::llround(duration / plan.clock.step));
   const Clock::time_point start = Clock::now();
   for (std::int64_t tick_index = 0; tick_index < ticks; ++tick_index) {
     if (interrupted()) return "interrupted";
@@ -362,7 +357,7 @@ std::string run_ticks(const RunPlan& plan, Simulation& sim, SumoWorld& world, Ob
     observers.add();
     sim.times.record += seconds_since(recording);
     if (progress.due()) {
-      const double simulated = static_cast<double>(tick_index + 1) * plan.step;
+      const double simulated = static_cast<double>(tick_index + 1) * plan.clock.step;
       char detail[96];
       std::snprintf(detail, sizeof detail, "%.0f s simulated, %zu agents, %.1f x real time",
                     simulated, sim.scene.size(), simulated / std::max(seconds_since(start), 1e-6));
@@ -376,18 +371,25 @@ std::string run_ticks(const RunPlan& plan, Simulation& sim, SumoWorld& world, Ob
 }  // namespace
 
 int run_session(const RunOptions& options, const CommonOptions& common) {
-  const RunPlan plan = make_plan(options, common);
-  const OutputFolder folder(options.output);
+  RunPlan plan = make_plan(options, common);
+  const OutputFolder folder(options.output, options.force);
+  ConvertedNetwork converted;
+  converted.make(plan);
   if (!common.quiet) std::fprintf(stderr, "run: reading %s\n", plan.input.network.string().c_str());
+  for (const NotFollowed& item : plan.inventory.not_followed) spdlog::warn("{}", describe(item));
   const std::unique_ptr<Simulation> sim = make_simulation(plan, common.threads);
   RunResults results;
-  const std::unique_ptr<SumoBackend> backend = start_backend(plan, common.seed, results.backend);
+  const std::unique_ptr<SumoBackend> backend =
+      start_backend(plan, sim->model.road, results.backend);
+  converted.keep();
+  settle_begin(backend->time(), plan);
+  if (!common.quiet) std::fprintf(stderr, "run: %s\n", describe(plan).c_str());
 
   SumoWorldOptions world_options;
   world_options.control = plan.control;
   world_options.max_vehicles = plan.control.any() ? plan.vehicles : 0;
-  world_options.seed = common.seed;
-  world_options.dt = plan.step;
+  world_options.seed = plan.clock.seed;
+  world_options.dt = plan.clock.step;
   SumoWorld world(sim->model, *backend, world_options);
   CouplingMonitor coupling;
   world.coupling().compare = [&](const Vec2& written, const Vec2& reported) {
@@ -404,7 +406,7 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
     failure = error.what();
     results.ended = "SUMO failed";
   }
-  const double simulated = static_cast<double>(sim->scene.tick) * plan.step;
+  const double simulated = static_cast<double>(sim->scene.tick) * plan.clock.step;
   fill_timing(sim->times, seconds_since(start), simulated, results.timing);
   results.sumo_version = backend->version();
   for (const std::string& warning : backend->take_warnings()) spdlog::info("{}", warning);
@@ -418,8 +420,8 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
 
   results.sumo_gamma_version = SUMOGAMMA_VERSION;
   results.scenario = plan.input.name;
-  results.seed = common.seed;
-  results.step = plan.step;
+  results.clock = plan.clock;
+  results.not_followed = plan.inventory.not_followed;
   results.duration = simulated;
   results.control = plan.control_text;
   results.preset = name_of(plan.config.preset);

@@ -19,6 +19,11 @@ struct RunOptions {
   std::optional<std::string> backend;    ///< traci | libsumo
   std::optional<std::string> preset;     ///< compliant | observed
   std::string connect;                   ///< HOST:PORT of a SUMO that the user started
+  std::optional<int> client_order;       ///< our place among several TraCI clients
+  int clients = 1;                       ///< that a SUMO of ours waits for, us included
+  int remote_port = 0;                   ///< on which it listens, 0: any
+  bool convert = false;                  ///< leave out classes that this SUMO doesn't know
+  bool force = false;                    ///< replace what another run left in the output folder
   std::string sumo_options;
   bool gui = false, replay = false;
   bool predict = false;  ///< predict everybody and score it against what then happens

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/command.h"
+#include "app/validators.h"
 #include "base/error.h"
 #include "io/config.h"
 #include "io/replay.h"
@@ -86,10 +87,10 @@ CommandRunner add_scene_command(CLI::App& parent) {
       ->check(CLI::IsMember({"car-like", "ideal"}))
       ->capture_default_str();
   command->add_option("--steps", options->steps, "ticks to drive")
-      ->check(CLI::Range(1, 10'000'000))
+      ->check(whole_number(1, 10'000'000))
       ->capture_default_str();
   command->add_option("--dt", options->dt, "length of a tick [s]")
-      ->check(CLI::Range(0.001, 1.0))
+      ->check(finite_number(0.001, 1.0))
       ->capture_default_str();
   command->add_option("--replay", options->replay, "page to write for watching it: FILE.html");
   return [options](const CommonOptions& common) { return run(*options, common); };

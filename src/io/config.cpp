@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "base/edit_distance.h"
 #include "base/error.h"
 #include "io/output_file.h"
 
@@ -151,22 +153,6 @@ std::vector<Binding> bind_all(ScenarioConfig& config) {
   return bindings;
 }
 
-/// Levenshtein's distance: how many letters to add, drop or change.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 /// One document (the file, or one override): knows how to name a place in it.
 class Document {
  public:
@@ -211,11 +197,12 @@ class Document {
   }
 
   void apply(const toml::table& table, const std::string& prefix,
-             const std::vector<Binding>& bindings) const {
+             const std::vector<Binding>& bindings,
+             std::map<std::string, std::string>& given) const {
     for (const auto& [key, value] : table) {
       const std::string full = prefix + std::string(key.str());
       if (value.is_table()) {
-        apply(*value.as_table(), full + ".", bindings);
+        apply(*value.as_table(), full + ".", bindings, given);
         continue;
       }
       // consumed by add_types
@@ -230,6 +217,7 @@ class Document {
         fail(value, "unknown key '" + full + "', the nearest known one is '" + nearest->key + "'");
       }
       assign_to(value, *found);
+      given[full] = has_lines_ ? "scenario.toml" : "command line";
     }
   }
 
@@ -293,7 +281,7 @@ class Document {
 
 void apply_document(const Document& document, const toml::table& root, ScenarioConfig& config) {
   document.add_types(root, config.types);
-  document.apply(root, "", bind_all(config));
+  document.apply(root, "", bind_all(config), config.given);
 }
 
 /// "key=value" as TOML; a value that is no TOML by itself is taken as text, so that quotes aren't

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 
@@ -28,6 +29,8 @@ struct ScenarioConfig {
   ModelOptions model;
   // [types.NAME]: rows changed, or added with base = "car"
   AgentTypeTable types = default_agent_types();
+  /// Keys that were set, and where: scenario.toml or the command line (--set).
+  std::map<std::string, std::string> given;
 };
 
 /// Reads scenario.toml (an empty path: defaults alone) and applies overrides "key=value" in order,

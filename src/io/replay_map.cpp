@@ -13,10 +13,7 @@ using Json = nlohmann::ordered_json;
 /// How a lane looks. The numbers are known to replay_page.js.
 enum class Look { Road = 0, Walk = 1, Cycle = 2, Rail = 3, Inside = 4, Crossing = 5, Area = 6 };
 
-constexpr VehicleClassMask kMotor = vehicle_class::kMotorcycle | vehicle_class::kMoped |
-                                    vehicle_class::kPassenger | vehicle_class::kDelivery |
-                                    vehicle_class::kTruck | vehicle_class::kBus |
-                                    vehicle_class::kTaxi | vehicle_class::kEmergency;
+using vehicle_class::kMotor;
 
 Look look_of(const Lane& lane) {
   if (lane.kind == LaneKind::Crossing) return Look::Crossing;
@@ -24,7 +21,7 @@ Look look_of(const Lane& lane) {
   if (lane.allowed & kMotor) return lane.kind == LaneKind::Internal ? Look::Inside : Look::Road;
   if (lane.allowed & vehicle_class::kPedestrian) return Look::Walk;
   if (lane.allowed & vehicle_class::kBicycle) return Look::Cycle;
-  if (lane.allowed & (vehicle_class::kRail | vehicle_class::kTram)) return Look::Rail;
+  if (lane.allowed & vehicle_class::kOnRails) return Look::Rail;
   return Look::Walk;  // closed to everybody: verges and the like
 }
 

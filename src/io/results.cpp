@@ -145,6 +145,29 @@ Json prediction_json(const PredictionResult& prediction) {
   return json;
 }
 
+Json not_followed_json(const std::vector<NotFollowed>& items) {
+  Json list = Json::array();
+  for (const NotFollowed& item : items)
+    list.push_back({{"what", item.what},
+                    {"first", item.first},
+                    {"file", item.file},
+                    {"count", item.count},
+                    {"why", item.why}});
+  return list;
+}
+
+Json clock_json(const RunClock& clock) {
+  return {{"begin", clock.begin},
+          {"end", clock.end},
+          {"step", clock.step},
+          {"seed", clock.seed},
+          {"from",
+           {{"begin", clock.begin_from},
+            {"end", clock.end_from},
+            {"step", clock.step_from},
+            {"seed", clock.seed_from}}}};
+}
+
 std::string hash_text(std::uint64_t hash) {
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
@@ -205,12 +228,14 @@ std::string results_json(const RunResults& results) {
   const Json json = {{"sumo_version", results.sumo_version},
                      {"sumo_gamma_version", results.sumo_gamma_version},
                      {"scenario", results.scenario},
-                     {"seed", results.seed},
-                     {"step", results.step},
+                     {"seed", results.clock.seed},
+                     {"step", results.clock.step},
                      {"duration", results.duration},
+                     {"clock", clock_json(results.clock)},
                      {"backend", results.backend},
                      {"threads", results.threads},
                      {"control", results.control},
+                     {"not_followed", not_followed_json(results.not_followed)},
                      {"ended", results.ended},
                      {"behavior", behavior_json(results)},
                      {"agents", agents_json(results.agents)},
@@ -259,7 +284,7 @@ void print_prediction(Table& table, const PredictionResult& prediction) {
 void print_results_table(std::FILE* stream, const RunResults& results) {
   Table table(stream);
   const AgentCounts& agents = results.agents;
-  std::string scenario = results.scenario + ", seed " + std::to_string(results.seed);
+  std::string scenario = results.scenario + ", seed " + std::to_string(results.clock.seed);
   table.heading("run");
   table.text("scenario", scenario);
   table.number("simulated", results.duration, "s");

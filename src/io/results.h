@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "prediction/live_predictor.h"
 #include "scene/trip.h"
@@ -13,6 +14,7 @@
 #include "study/flow_metrics.h"
 #include "study/rule_metrics.h"
 #include "study/smoothness_metrics.h"
+#include "sumo/scenario_inventory.h"
 
 namespace sumogamma {
 
@@ -47,11 +49,21 @@ struct PredictionResult {
   std::map<std::string, LiveScore> by_type;
 };
 
+/// What a run was asked for, and who said so: "command line", "scenario.toml", "configuration" (the
+/// .sumocfg), "default", "loaded state" or "SUMO" (that the user started).
+struct RunClock {
+  double begin = 0, end = 0;  ///< of SUMO's clock [s]
+  double step = 0.05;         ///< [s]
+  std::uint64_t seed = 1;
+  std::string begin_from, end_from, step_from, seed_from;
+};
+
 /// Everything in results.json: docs/results.md defines each key.
 struct RunResults {
   std::string sumo_version, sumo_gamma_version, scenario;
-  std::uint64_t seed = 1;
-  double step = 0, duration = 0;  ///< [s]; duration: simulated
+  RunClock clock;
+  std::vector<NotFollowed> not_followed;  ///< what the scenario asks for and the run doesn't do
+  double duration = 0;                    ///< simulated [s]
   std::string backend, control = "all";
   unsigned threads = 1;
   std::string preset = "compliant";

@@ -337,7 +337,7 @@ double width_to_kerb(const RoadNetwork& network, const Lane& lane) {
   const double beside = network.left_hand ? lane.beside_left : lane.beside_right;
   const auto is_carriageway = [](const Lane& outer) {
     return (outer.allowed & (kPassenger | kBus)) != 0 ||
-           (outer.allowed & (kPedestrian | kTram | kRail)) == 0;
+           (outer.allowed & (kPedestrian | kOnRails)) == 0;
   };
   return 0.5 * lane.width + beside + width_beside(network, lane, false, is_carriageway);
 }

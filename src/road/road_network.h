@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -28,21 +29,31 @@ constexpr std::size_t index_of(Id id) {
   return static_cast<std::size_t>(id);
 }
 
-/// SUMO's abstract vehicle classes that matter here, as bits of a mask (page
-/// Simulation/VehiclePermissions).
+/// SUMO's abstract vehicle classes as bits of a mask, so that who may use which lane is SUMO's own
+/// permission (page Simulation/VehiclePermissions).
 using VehicleClassMask = std::uint32_t;
 namespace vehicle_class {
 inline constexpr VehicleClassMask kPedestrian = 1u << 0, kBicycle = 1u << 1, kMotorcycle = 1u << 2,
                                   kMoped = 1u << 3, kPassenger = 1u << 4, kDelivery = 1u << 5,
                                   kTruck = 1u << 6, kTrailer = 1u << 7, kBus = 1u << 8,
                                   kTaxi = 1u << 9, kEmergency = 1u << 10, kTram = 1u << 11,
-                                  kRail = 1u << 12, kOther = 1u << 13, kAll = ~0u;
+                                  kRail = 1u << 12, kRailUrban = 1u << 13, kRailElectric = 1u << 14,
+                                  kRailFast = 1u << 15, kShip = 1u << 16, kPrivate = 1u << 17,
+                                  kAuthority = 1u << 18, kArmy = 1u << 19, kVip = 1u << 20,
+                                  kHov = 1u << 21, kCoach = 1u << 22, kEvehicle = 1u << 23,
+                                  kCustom1 = 1u << 24, kCustom2 = 1u << 25, kOther = 1u << 26,
+                                  kAll = ~0u;
 /// Who walks, or rides among those who do.
 inline constexpr VehicleClassMask kOnFootOrBicycle = kPedestrian | kBicycle;
+inline constexpr VehicleClassMask kOnRails = kTram | kRail | kRailUrban | kRailElectric | kRailFast;
+/// Who has a motor and drives on roads.
+inline constexpr VehicleClassMask kMotor =
+    kMotorcycle | kMoped | kPassenger | kDelivery | kTruck | kTrailer | kBus | kTaxi | kEmergency |
+    kPrivate | kAuthority | kArmy | kVip | kHov | kCoach | kEvehicle | kCustom1 | kCustom2;
 }  // namespace vehicle_class
-/// Mask of a SUMO class name; kOther for one not listed above ("rail_urban" and its kin are kRail,
-/// "ship" is kOther).
-VehicleClassMask vehicle_class_from_name(const std::string& name);
+/// Mask of a SUMO class name, deprecated ones ("public_transport") included; all bits for
+/// "ignoring", whom no permission binds; kOther for a name that SUMO 1.15 doesn't know.
+VehicleClassMask vehicle_class_from_name(std::string_view name);
 
 enum class LaneKind : std::uint8_t { Normal, Internal, Crossing, WalkingArea };
 

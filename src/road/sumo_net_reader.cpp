@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <pugixml.hpp>
@@ -25,41 +26,15 @@ namespace {
 constexpr double kDefaultLaneWidth =
     3.2;  // SUMO's SUMO_const_laneWidth, left out of the file where it applies
 
-/// The whole file, inflated where it is gzip. Throws Error where it can't be read to its end.
-std::string read_maybe_gzip(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file))
-    throw Error(file.string(), "no such file, expected a SUMO network");
-  if (std::filesystem::is_directory(file))
-    throw Error(file.string(), "is a folder, expected a file");
-  gzFile stream = gzopen(file.c_str(), "rb");
-  if (!stream) throw Error(file.string(), "can't be opened, check its permissions");
-  std::string content;
-  std::array<char, 1 << 16> chunk{};
-  int read = 0;
-  while ((read = gzread(stream, chunk.data(), static_cast<unsigned>(chunk.size()))) > 0)
-    content.append(chunk.data(), static_cast<std::size_t>(read));
-  int status = Z_OK;
-  gzerror(stream, &status);
-  gzclose(stream);
-  // a truncated gzip ends with Z_BUF_ERROR although the last gzread returned data
-  if (read < 0 || (status != Z_OK && status != Z_STREAM_END))
-    throw Error(file.string(), "damaged or truncated gzip data, make or fetch the file again");
-  return content;
-}
-
-pugi::xml_node load_root(const std::filesystem::path& file, pugi::xml_document& document,
-                         std::initializer_list<std::string_view> roots) {
+/// The root element.
+pugi::xml_node load_document(const std::filesystem::path& file, pugi::xml_document& document) {
   const std::string content = read_maybe_gzip(file);
   const pugi::xml_parse_result parsed = document.load_buffer(content.data(), content.size());
   if (!parsed)
     throw Error(file.string(), std::string("not well-formed XML (") + parsed.description() +
                                    " at byte " + std::to_string(parsed.offset) +
                                    "), make or fetch the file again");
-  const pugi::xml_node root = document.document_element();
-  if (std::find(roots.begin(), roots.end(), root.name()) == roots.end())
-    throw Error(file.string(), "root element is <" + std::string(root.name()) + ">, expected <" +
-                                   std::string(*roots.begin()) + ">");
-  return root;
+  return document.document_element();
 }
 
 /// Words of a list separated by blanks.
@@ -110,9 +85,31 @@ bool parse_shape(std::string_view text, Shape& shape) {
 VehicleClassMask parse_class_list(std::string_view text) {
   VehicleClassMask mask = 0;
   for_each_word(text, [&](std::string_view word) {
-    mask |= word == "all" ? vehicle_class::kAll : vehicle_class_from_name(std::string(word));
+    // "ignoring" is no permission that a lane could give
+    if (word != "ignoring")
+      mask |= word == "all" ? vehicle_class::kAll : vehicle_class_from_name(word);
   });
   return mask;
+}
+
+/// Who may use a lane, as SUMO reads it (parseVehicleClasses): an empty list is none, `allow` wins,
+/// and networks older than 1.3 knew no rail_fast.
+VehicleClassMask allowed_on(pugi::xml_node lane, double version) {
+  const std::string_view allow = lane.attribute("allow").value();
+  const std::string_view disallow = lane.attribute("disallow").value();
+  if (!allow.empty()) return parse_class_list(allow);
+  if (disallow.empty()) return vehicle_class::kAll;
+  return ~(parse_class_list(disallow) | (version < 1.03 ? vehicle_class::kRailFast : 0u));
+}
+
+/// "1.16" as 1.16, "1.3" as 1.03: major and minor, so that versions compare; 0 where there is none.
+double net_version(std::string_view text) {
+  int major = 0, minor = 0;
+  const char* const end = text.data() + text.size();
+  const auto [after, error] = std::from_chars(text.data(), end, major);
+  if (error != std::errc()) return 0.0;
+  if (after != end && *after == '.') std::from_chars(after + 1, end, minor);
+  return major + 0.01 * minor;
 }
 
 /// Builds the arrays in the order that references need: junctions, edges and lanes, connections,
@@ -124,6 +121,7 @@ class NetBuilder {
 
   RoadNetwork build() {
     net_.left_hand = root_.attribute("lefthand").as_bool();
+    version_ = net_version(root_.attribute("version").value());
     for (const pugi::xml_node node : root_.children("junction")) add_junction(node);
     for (const pugi::xml_node node : root_.children("edge")) add_edge(node);
     link_opposites();
@@ -237,17 +235,13 @@ class NetBuilder {
     Lane lane;
     lane.name = required(node, "id");
     lane.edge = edge_id;
-    lane.index = static_cast<int>(required_number(node, "index"));
-    if (lane.index != static_cast<int>(edge.lanes.size()))
-      fail("lane '" + lane.name + "' is out of order, expected index " +
-           std::to_string(edge.lanes.size()));
+    // as SUMO counts: by place in the file, whatever its attribute says (some netconverts write 0
+    // for all lanes on junctions)
+    lane.index = static_cast<int>(edge.lanes.size());
     lane.kind = edge.kind;
     lane.layer = layer;
     lane.junction = inside;
-    if (const pugi::xml_attribute allow = node.attribute("allow"))
-      lane.allowed = parse_class_list(allow.value());
-    else if (const pugi::xml_attribute disallow = node.attribute("disallow"))
-      lane.allowed = ~parse_class_list(disallow.value());
+    lane.allowed = allowed_on(node, version_);
     lane.speed_limit = required_number(node, "speed");
     lane.length = required_number(node, "length");
     lane.width = node.attribute("width") ? required_number(node, "width") : kDefaultLaneWidth;
@@ -392,14 +386,18 @@ class NetBuilder {
     const auto found = net_.junction_by_name.find(node.attribute("id").value());
     if (found == net_.junction_by_name.end()) return;
     Junction& junction = net_.junctions[index_of(found->second)];
-    for (const pugi::xml_node row : node.children("request")) {
-      if (required_number(row, "index") != static_cast<double>(junction.requests.size()))
-        fail("the requests of junction '" + junction.name + "' are out of order");
-      junction.requests.push_back({parse_bits(required(row, "response")),
-                                   parse_bits(required(row, "foes")),
-                                   row.attribute("cont").as_bool()});
+    const auto rows = node.children("request");
+    const auto count = static_cast<std::size_t>(std::distance(rows.begin(), rows.end()));
+    junction.requests.resize(count);
+    for (const pugi::xml_node row : rows) {
+      const double index = required_number(row, "index");
+      if (!(index >= 0 && index < static_cast<double>(count)))
+        fail("junction '" + junction.name + "' has a request " + row.attribute("index").value() +
+             " among its " + std::to_string(count));
+      junction.requests[static_cast<std::size_t>(index)] = {parse_bits(required(row, "response")),
+                                                            parse_bits(required(row, "foes")),
+                                                            row.attribute("cont").as_bool()};
     }
-    const std::size_t count = junction.requests.size();
     for (const RightOfWay& row : junction.requests)
       if (row.yields_to.size() != count || row.conflicts.size() != count)
         fail("a request of junction '" + junction.name + "' hasn't one bit for each of its " +
@@ -457,34 +455,77 @@ class NetBuilder {
   std::string file_;
   pugi::xml_node root_;
   RoadNetwork net_;
+  double version_ = 0;
   std::vector<std::pair<LaneId, std::string>> opposite_;
   std::vector<std::pair<EdgeId, std::string>> crossed_;
 };
 
 }  // namespace
 
-VehicleClassMask vehicle_class_from_name(const std::string& name) {
-  static constexpr std::array<std::pair<std::string_view, VehicleClassMask>, 16> kNames{{
-      {"pedestrian", vehicle_class::kPedestrian},
-      {"bicycle", vehicle_class::kBicycle},
-      {"motorcycle", vehicle_class::kMotorcycle},
-      {"moped", vehicle_class::kMoped},
-      {"passenger", vehicle_class::kPassenger},
-      {"delivery", vehicle_class::kDelivery},
-      {"truck", vehicle_class::kTruck},
-      {"trailer", vehicle_class::kTrailer},
-      {"bus", vehicle_class::kBus},
-      {"taxi", vehicle_class::kTaxi},
-      {"emergency", vehicle_class::kEmergency},
-      {"tram", vehicle_class::kTram},
-      {"rail", vehicle_class::kRail},
-      {"rail_urban", vehicle_class::kRail},
-      {"rail_electric", vehicle_class::kRail},
-      {"rail_fast", vehicle_class::kRail},
+std::string read_maybe_gzip(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file))
+    throw Error(file.string(), "no such file, expected a SUMO network");
+  if (std::filesystem::is_directory(file))
+    throw Error(file.string(), "is a folder, expected a file");
+  gzFile stream = gzopen(file.c_str(), "rb");
+  if (!stream) throw Error(file.string(), "can't be opened, check its permissions");
+  std::string content;
+  std::array<char, 1 << 16> chunk{};
+  int read = 0;
+  while ((read = gzread(stream, chunk.data(), static_cast<unsigned>(chunk.size()))) > 0)
+    content.append(chunk.data(), static_cast<std::size_t>(read));
+  int status = Z_OK;
+  gzerror(stream, &status);
+  gzclose(stream);
+  // a truncated gzip ends with Z_BUF_ERROR although the last gzread returned data
+  if (read < 0 || (status != Z_OK && status != Z_STREAM_END))
+    throw Error(file.string(), "damaged or truncated gzip data, make or fetch the file again");
+  return content;
+}
+
+VehicleClassMask vehicle_class_from_name(std::string_view name) {
+  using namespace vehicle_class;
+  static constexpr std::array<std::pair<std::string_view, VehicleClassMask>, 35> kNames{{
+      {"pedestrian", kPedestrian},
+      {"bicycle", kBicycle},
+      {"motorcycle", kMotorcycle},
+      {"moped", kMoped},
+      {"passenger", kPassenger},
+      {"delivery", kDelivery},
+      {"truck", kTruck},
+      {"trailer", kTrailer},
+      {"bus", kBus},
+      {"coach", kCoach},
+      {"taxi", kTaxi},
+      {"emergency", kEmergency},
+      {"authority", kAuthority},
+      {"army", kArmy},
+      {"vip", kVip},
+      {"private", kPrivate},
+      {"hov", kHov},
+      {"evehicle", kEvehicle},
+      {"tram", kTram},
+      {"rail_urban", kRailUrban},
+      {"rail", kRail},
+      {"rail_electric", kRailElectric},
+      {"rail_fast", kRailFast},
+      {"ship", kShip},
+      {"custom1", kCustom1},
+      {"custom2", kCustom2},
+      {"ignoring", kAll},
+      // deprecated, which SUMO still reads
+      {"public_emergency", kEmergency},
+      {"public_authority", kAuthority},
+      {"public_army", kArmy},
+      {"public_transport", kBus},
+      {"transport", kTruck},
+      {"lightrail", kTram},
+      {"cityrail", kRailUrban},
+      {"rail_slow", kRail},
   }};
   for (const auto& [known, mask] : kNames)
     if (known == name) return mask;
-  return vehicle_class::kOther;
+  return kOther;
 }
 
 double elevation_at(const Lane& lane, double along) {
@@ -499,7 +540,10 @@ double elevation_at(const Lane& lane, double along) {
 
 RoadNetwork read_sumo_net(const std::filesystem::path& file) {
   pugi::xml_document document;
-  const pugi::xml_node root = load_root(file, document, {"net"});
+  const pugi::xml_node root = load_document(file, document);
+  if (std::string_view(root.name()) != "net")
+    throw Error(file.string(),
+                "root element is <" + std::string(root.name()) + ">, expected <net>");
   RoadNetwork network = NetBuilder(file, root).build();
   set_back_stop_lines(network);
   set_junction_rooms(network);
@@ -509,7 +553,8 @@ RoadNetwork read_sumo_net(const std::filesystem::path& file) {
 
 void read_obstacles(const std::filesystem::path& file, RoadNetwork& network) {
   pugi::xml_document document;
-  const pugi::xml_node root = load_root(file, document, {"additional", "add", "shapes"});
+  // SUMO takes any root element of an additional file
+  const pugi::xml_node root = load_document(file, document);
   for (const pugi::xml_node node : root.children("poly")) {
     const std::string_view type = node.attribute("type").value();
     const bool building = type.substr(0, 8) == "building", barrier = type.substr(0, 7) == "barrier";

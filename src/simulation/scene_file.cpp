@@ -15,6 +15,8 @@ namespace {
 
 // a limit that never binds
 constexpr double kUnlimited = 1e3;
+// beyond it nothing in a scene can be meant [m, m/s, rad]
+constexpr double kFarthest = 1e6;
 
 constexpr std::string_view kHeader = "id,type,x,y,heading_rad,speed,goal_x,goal_y,pref_speed";
 
@@ -77,9 +79,10 @@ template <typename Number>
 void parse(std::string_view text, const char* field, const std::string& where, Number& value) {
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
   bool good = status == std::errc() && end == text.data() + text.size();
-  if constexpr (std::is_floating_point_v<Number>) good = good && std::isfinite(value);
+  if constexpr (std::is_floating_point_v<Number>) good = good && std::abs(value) <= kFarthest;
   if (!good)
-    throw Error(where, std::string(field) + " is '" + std::string(text) + "', expected a number");
+    throw Error(where, std::string(field) + " is '" + std::string(text.substr(0, 40)) +
+                           "', expected a number within a million");
 }
 
 Record parse_record(std::string_view line, const std::string& where) {

@@ -12,10 +12,7 @@ namespace sumogamma {
 
 namespace {
 
-constexpr VehicleClassMask kMotor =
-    vehicle_class::kMotorcycle | vehicle_class::kMoped | vehicle_class::kPassenger |
-    vehicle_class::kDelivery | vehicle_class::kTruck | vehicle_class::kTrailer |
-    vehicle_class::kBus | vehicle_class::kTaxi | vehicle_class::kEmergency;
+using vehicle_class::kMotor;
 constexpr VehicleClassMask kRoadVehicle = kMotor | vehicle_class::kBicycle;
 
 bool for_vehicles(const Lane& lane) {

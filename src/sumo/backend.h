@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -78,6 +80,8 @@ class SumoBackend {
   /// begin time; step length.
   virtual std::string option(const std::string& name) = 0;
   virtual const std::vector<std::string>& signal_ids() const = 0;
+  /// Edges of the network that SUMO has loaded, those inside junctions included.
+  virtual std::vector<std::string> edge_ids() = 0;
   virtual double time() const = 0;
 
   /// Moves every ghost and advances one step. A ghost left out for one step is forgotten by SUMO.
@@ -119,6 +123,11 @@ struct SumoStart {
   double step_timeout = 120;           ///< [s] for one exchange
   std::string connect_host;  ///< not empty: join a SUMO that the user started, instead of a child
   int connect_port = 0;
+  std::optional<int> client_order;  ///< our place among several TraCI clients
+  int clients = 1;  ///< of a child: how many it waits for, us included (its --num-clients)
+  int port = 0;     ///< for a child to listen on; 0: any free one
+  /// Told of the port before others are waited for; may be empty.
+  std::function<void(int)> on_listening;
 };
 
 /// Child process (or a user's SUMO) over a loopback socket with the batching client.

@@ -116,6 +116,9 @@ class LibsumoBackend final : public SumoBackend {
     return guarded([&] { return libsumo::Simulation::getOption(name); });
   }
   const std::vector<std::string>& signal_ids() const override { return signal_ids_; }
+  std::vector<std::string> edge_ids() override {
+    return guarded([] { return libsumo::Edge::getIDList(); });
+  }
   double time() const override { return time_; }
   void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
             SumoStep& result) override;
@@ -166,6 +169,8 @@ class LibsumoBackend final : public SumoBackend {
 LibsumoBackend::LibsumoBackend(const SumoStart& start) : start_(start) {
   if (!start.connect_host.empty())
     throw Error("--connect", "needs the traci back end; leave --backend libsumo out");
+  if (start.clients > 1 || start.client_order)
+    throw Error("--num-clients", "needs the traci back end; leave --backend libsumo out");
   if (start.binary.find("gui") != std::string::npos)
     throw Error("--backend", "libsumo has no window; use --backend traci with sumo-gui");
   if (in_use.test_and_set())

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/hash.h"
 #include "base/random.h"
@@ -18,6 +19,23 @@ std::uint64_t number_of(const std::string& sumo_id) {
   return number;
 }
 
+/// The built-in type on the road whose length and width are nearest, in proportion.
+AgentTypeId nearest_body(const AgentTypeTable& types, double length, double width) {
+  AgentTypeId best = find_agent_type(types, "car");
+  double least = std::numeric_limits<double>::infinity();
+  if (!(length > 0.0 && width > 0.0)) return best;
+  for (const char* name : {"car", "van", "truck", "bus", "motorcycle", "bicycle"}) {
+    const AgentTypeId id = find_agent_type(types, name);
+    const AgentType& type = type_of(types, id);
+    const double apart =
+        std::abs(std::log(length / type.length)) + std::abs(std::log(width / type.width));
+    if (apart >= least) continue;
+    least = apart;
+    best = id;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::optional<AgentTypeId> agent_type_of(const AgentTypeTable& types,
@@ -27,31 +45,18 @@ std::optional<AgentTypeId> agent_type_of(const AgentTypeTable& types,
   struct ByClass {
     std::string_view sumo_class, type;
   };
-  static constexpr ByClass kByClass[] = {{"passenger", "car"},
-                                         {"private", "car"},
-                                         {"taxi", "car"},
-                                         {"emergency", "van"},
-                                         {"authority", "car"},
-                                         {"army", "truck"},
-                                         {"vip", "car"},
-                                         {"hov", "car"},
-                                         {"evehicle", "car"},
-                                         {"custom1", "car"},
-                                         {"custom2", "car"},
-                                         {"delivery", "van"},
-                                         {"truck", "truck"},
-                                         {"trailer", "truck"},
-                                         {"bus", "bus"},
-                                         {"coach", "bus"},
-                                         {"motorcycle", "motorcycle"},
-                                         {"moped", "motorcycle"},
-                                         {"bicycle", "bicycle"},
-                                         {"pedestrian", "pedestrian"},
-                                         {"ignoring", "car"}};
+  static constexpr ByClass kByClass[] = {{"passenger", "car"},    {"taxi", "car"},
+                                         {"delivery", "van"},     {"truck", "truck"},
+                                         {"trailer", "truck"},    {"bus", "bus"},
+                                         {"coach", "bus"},        {"motorcycle", "motorcycle"},
+                                         {"moped", "motorcycle"}, {"bicycle", "bicycle"}};
   if (details.is_person) return find_agent_type(types, "pedestrian");
   for (const ByClass& row : kByClass)
     if (row.sumo_class == details.vehicle_class) return find_agent_type(types, row.type);
-  return std::nullopt;
+  // what says who may use a lane, not which body comes: emergency, evehicle, hov, custom1, ...
+  const VehicleClassMask mask = vehicle_class_from_name(details.vehicle_class);
+  if ((mask & vehicle_class::kMotor) == 0) return std::nullopt;
+  return nearest_body(types, details.length, details.width);
 }
 
 std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& details,

@@ -8,8 +8,9 @@
 
 namespace sumogamma {
 
-/// Type-table row for a SUMO agent: the row of the vType's own name, else by vehicle class; nullopt
-/// for what can't be driven off rails and roads (trams, trains, ships).
+/// Type-table row for a SUMO agent: the row of the vType's own name, else by vehicle class, else,
+/// for a class that says nothing of the body (evehicle, hov, custom1, ...), the one nearest in
+/// size; nullopt for what drives on rails or water.
 std::optional<AgentTypeId> agent_type_of(const AgentTypeTable& types,
                                          const SumoAgentDetails& details);
 

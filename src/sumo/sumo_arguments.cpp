@@ -1,7 +1,7 @@
 #include "sumo/sumo_arguments.h"
 
 #include <algorithm>
-#include <array>
+#include <span>
 #include <sstream>
 #include <utility>
 
@@ -15,41 +15,17 @@ struct Option {
   std::vector<std::string> words;  // as they go to SUMO
 };
 
-// short forms and synonyms of the options that can meet ours
 std::string canonical_name(const std::string& word) {
-  static constexpr std::array<std::pair<const char*, const char*>, 14> kSynonyms = {{
-      {"c", "configuration-file"},
-      {"configuration", "configuration-file"},
-      {"n", "net-file"},
-      {"net", "net-file"},
-      {"r", "route-files"},
-      {"routes", "route-files"},
-      {"a", "additional-files"},
-      {"additional", "additional-files"},
-      {"b", "begin"},
-      {"e", "end"},
-      {"W", "no-warnings"},
-      {"X", "xml-validation"},
-      {"S", "start"},
-      {"Q", "quit-on-end"},
-  }};
   const std::size_t begin = word.find_first_not_of('-');
-  const std::string name =
-      begin == std::string::npos ? "" : word.substr(begin, word.find('=') - begin);
-  for (const auto& [synonym, full] : kSynonyms)
-    if (name == synonym) return full;
-  return name;
-}
-
-bool is_option(const std::string& word) {
-  // "-1" is a value
-  return word.size() > 1 && word[0] == '-' && !(word[1] >= '0' && word[1] <= '9') && word[1] != '.';
+  return begin == std::string::npos
+             ? ""
+             : long_option_name(std::string_view(word).substr(begin, word.find('=') - begin));
 }
 
 std::vector<Option> group(const std::vector<std::string>& words, const char* where) {
   std::vector<Option> options;
   for (const std::string& word : words) {
-    if (is_option(word)) {
+    if (is_option_word(word)) {
       options.push_back({canonical_name(word), {word}});
     } else if (options.empty()) {
       throw Error(where, "'" + word + "' is not an option of SUMO; expected --name value");
@@ -67,34 +43,57 @@ std::string number(double value) {
   return text.str();
 }
 
+struct Default {
+  const char* name;
+  const char* value;
+  bool yields;  ///< to what the scenario's configuration says
+};
+
 // moveToXY's safe surroundings (docs/coupling.md): no teleports of held vehicles, no removal of a
 // vehicle that touches one
+constexpr Default kQuiet[] = {{"no-step-log", "true", true}, {"xml-validation", "never", true}};
+constexpr Default kHeld[] = {{"time-to-teleport", "-1", true},
+                             {"collision.action", "none", true},
+                             {"pedestrian.model", "striping", false}};
+constexpr Default kShown[] = {{"start", "true", true}, {"quit-on-end", "true", true}};
+
 std::vector<std::string> default_words(const SumoArguments& wish) {
   std::vector<std::string> words;
-  if (!wish.config.empty()) words = {"--configuration-file", wish.config};
-  for (const char* word : {"--step-length", ""}) words.emplace_back(word);
-  words.back() = number(wish.step_length);
-  const std::vector<std::string> quiet = {"--no-step-log", "true", "--xml-validation", "never"};
-  words.insert(words.end(), quiet.begin(), quiet.end());
-  if (!wish.plain) {
-    const std::vector<std::string> held = {
-        "--time-to-teleport", "-1", "--collision.action", "none", "--pedestrian.model", "striping"};
-    words.insert(words.end(), held.begin(), held.end());
-  }
-  if (wish.gui) {
-    const std::vector<std::string> shown = {"--start", "true", "--quit-on-end", "true"};
-    words.insert(words.end(), shown.begin(), shown.end());
-  }
+  auto add = [&](const std::string& name, const std::string& value) {
+    words.push_back("--" + name);
+    words.push_back(value);
+  };
+  auto add_all = [&](std::span<const Default> defaults) {
+    for (const Default& one : defaults)
+      if (!one.yields || !wish.scenario.contains(one.name)) add(one.name, one.value);
+  };
+  if (!wish.config.empty()) add("configuration-file", wish.config);
+  add("step-length", number(wish.step_length));
+  add_all(kQuiet);
+  if (!wish.plain) add_all(kHeld);
+  if (wish.gui) add_all(kShown);
+  // who else may come is asked of the user: one who doesn't would be waited for
+  if (wish.clients > 1 || wish.scenario.contains("num-clients"))
+    add("num-clients", std::to_string(wish.clients));
+  // a run is its seed's
+  if (is_on(wish.scenario, "random")) add("random", "false");
   return words;
 }
 
 }  // namespace
 
+bool is_option_word(const std::string& word) {
+  // "-1" is a value
+  return word.size() > 1 && word[0] == '-' && !(word[1] >= '0' && word[1] <= '9') && word[1] != '.';
+}
+
 std::vector<std::string> sumo_arguments(const SumoArguments& wish) {
   const std::vector<Option> user = group(wish.user, "--sumo-options");
   for (const Option& option : user) {
     if (option.name == "remote-port" || option.name == "num-clients")
-      throw Error("--sumo-options", "--" + option.name + " is chosen by sumo-gamma; leave it out");
+      throw Error("--sumo-options", "--" + option.name + ": give it as sumo-gamma's own option");
+    if (option.name == "random")
+      throw Error("--sumo-options", "--random: every run has a seed; give --seed N");
     if (option.name == "step-length")
       throw Error("--sumo-options", "--step-length: give it as sumo-gamma's own option --step");
     if (option.name == "configuration-file" && !wish.config.empty())

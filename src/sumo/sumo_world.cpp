@@ -63,7 +63,7 @@ void SumoWorld::feed_detectors(const Scene& scene) {
 bool SumoWorld::wants_control(const SumoAgentDetails& details, AgentTypeId type) const {
   const ControlChoice& control = options_.control;
   return control.all || control.names.contains(type_of(model_.types, type).name) ||
-         control.names.contains(details.id);
+         control.names.contains(details.type_id) || control.names.contains(details.id);
 }
 
 void SumoWorld::observe(Scene& scene, RoadState& road) {

@@ -19,7 +19,7 @@ namespace sumogamma {
 /// Which agents GAMMA takes over.
 struct ControlChoice {
   bool all = true;              ///< everyone that can be driven
-  std::set<std::string> names;  ///< else: agent types ("car") or SUMO ids; empty: none
+  std::set<std::string> names;  ///< else: agent types ("car"), SUMO's vTypes or ids; empty: none
   bool has_region = false;      ///< only inside the box below
   Vec2 region_low = Vec2::Zero(), region_high = Vec2::Zero();
 

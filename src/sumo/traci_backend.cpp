@@ -21,6 +21,7 @@ namespace {
 constexpr int kOldestProtocol = 18,
               kNewestProtocol = 22;       // measured with 20 (1.15, 1.18) and 22 (1.27)
 constexpr double kHandshakeTimeout = 20;  // [s], joining a SUMO that the user started
+constexpr double kOthersTimeout = 300;    // [s] for the other clients of a SUMO of ours to come
 constexpr double kLastWords = 3;          // [s] for a child to end once its socket has closed
 constexpr double kCloseGrace = 20;        // [s] to write its outputs
 constexpr int kPortTrials = 5;
@@ -195,6 +196,7 @@ class TraciBackend final : public SumoBackend {
   std::string version() const override { return version_; }
   std::string option(const std::string& name) override;
   const std::vector<std::string>& signal_ids() const override { return signal_ids_; }
+  std::vector<std::string> edge_ids() override;
   double time() const override { return time_; }
   void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
             SumoStep& result) override;
@@ -221,6 +223,7 @@ class TraciBackend final : public SumoBackend {
   void spawn();
   void join();
   void handshake(double timeout);
+  void take_order(double timeout);
   void read_inventory();
   template <typename Talk>
   auto guarded(Talk&& talk) -> decltype(talk());
@@ -304,7 +307,7 @@ auto TraciBackend::guarded(Talk&& talk) -> decltype(talk()) {
 void TraciBackend::spawn() {
   const std::string binary = find_sumo_binary(start_.binary);
   for (int trial = 1;; ++trial) {
-    const int port = free_port();
+    const int port = start_.port > 0 ? start_.port : free_port();
     std::vector<std::string> arguments = start_.arguments;
     arguments.insert(arguments.end(), {"--remote-port", std::to_string(port)});
     client_.reset();
@@ -312,13 +315,21 @@ void TraciBackend::spawn() {
     try {
       client_ =
           std::make_unique<TraciClient>("127.0.0.1", port, start_.start_timeout, process_.get());
-      handshake(start_.start_timeout);
+      if (start_.on_listening) start_.on_listening(port);
+      handshake(start_.clients > 1 ? kOthersTimeout : start_.start_timeout);
       return;
     } catch (const SumoError& error) {
       // somebody else took the port between our look and SUMO's
       if (client_ && !client_->timed_out()) process_->wait(kLastWords);
       const bool port_taken = process_->output().contains("listening socket") ||
                               process_->output().contains("Address already in use");
+      if (port_taken && start_.port > 0)
+        throw Error("--remote-port " + std::to_string(port),
+                    "is in use by somebody else, choose another");
+      if (start_.clients > 1 && client_ && client_->timed_out())
+        throw Error("--num-clients " + std::to_string(start_.clients),
+                    "not all clients came to port " + std::to_string(port) + " within " +
+                        std::to_string(static_cast<int>(kOthersTimeout)) + " s");
       if (!port_taken || trial >= kPortTrials) report_failure(error.what());
     }
   }
@@ -338,7 +349,20 @@ void TraciBackend::join() {
   }
 }
 
+/// Among several clients SUMO goes by their order; the answer comes once all are there.
+void TraciBackend::take_order(double timeout) {
+  if (!start_.client_order) return;
+  message_.clear();
+  message_.begin_command(traci::kSetOrder, 4);
+  message_.raw_integer(*start_.client_order);
+  const TraciStatus status = TraciReader(client_->exchange(message_, timeout)).status();
+  if (!status.ok())
+    throw SumoError("SUMO", "refuses our place " + std::to_string(*start_.client_order) +
+                                " among its clients: " + status.text);
+}
+
 void TraciBackend::handshake(double timeout) {
+  take_order(timeout);
   message_.clear();
   message_.begin_command(traci::kGetVersion, 0);
   TraciReader reply(client_->exchange(message_, timeout));
@@ -393,6 +417,15 @@ void TraciBackend::read_inventory() {
     if (!status.ok()) throw SumoError("SUMO", "refuses a subscription: " + status.text);
     read_subscriptions(reply, ignored);
   }
+}
+
+std::vector<std::string> TraciBackend::edge_ids() {
+  return guarded([&] {
+    message_.clear();
+    message_.get(traci::kEdge, traci::kIdList, "");
+    TraciReader reply = exchange(message_);
+    return require_answer(reply, traci::kEdge, traci::kIdList, "its edges").typed_strings();
+  });
 }
 
 std::string TraciBackend::option(const std::string& name) {

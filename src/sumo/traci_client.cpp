@@ -25,6 +25,7 @@ namespace {
 constexpr std::size_t kLargestReply = std::size_t{512} << 20;
 constexpr std::size_t kFirstAllocation = std::size_t{1} << 20;
 constexpr int kSliceMs = 100;
+constexpr double kRefusalPatience = 1.0;  // where somebody else's SUMO should be listening [s]
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -37,7 +38,10 @@ Addresses resolve(const std::string& host, int port) {
   hints.ai_family = AF_UNSPEC;
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
-  const int result = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found);
+  int result = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found);
+  // containers without an /etc/hosts
+  if (result != 0 && host == "localhost")
+    result = getaddrinfo("127.0.0.1", std::to_string(port).c_str(), &hints, &found);
   if (result != 0)
     throw SumoError(host + ":" + std::to_string(port),
                     std::string("unknown host: ") + gai_strerror(result));
@@ -73,6 +77,9 @@ TraciClient::TraciClient(const std::string& host, int port, double timeout, Sumo
     : where_(host + ":" + std::to_string(port)), child_(child) {
   const Addresses addresses = resolve(host, port);
   const double deadline = now() + timeout;
+  // a child that loads its network isn't there yet; where nobody listens nobody may ever
+  const double patience =
+      child_ != nullptr ? deadline : std::min(deadline, now() + kRefusalPatience);
   int reason = ECONNREFUSED;
   while (true) {
     for (const addrinfo* address = addresses.get(); address != nullptr;
@@ -85,7 +92,7 @@ TraciClient::TraciClient(const std::string& host, int port, double timeout, Sumo
       child_->drain();
       if (!child_->running()) throw SumoError("SUMO", "ended while it was starting");
     }
-    if (now() >= deadline)
+    if (now() >= (reason == ECONNREFUSED ? patience : deadline))
       throw SumoError(where_, "no connection to SUMO: " + std::generic_category().message(reason));
     std::this_thread::sleep_for(std::chrono::milliseconds(child_ != nullptr ? 10 : 50));
   }

@@ -14,8 +14,8 @@ namespace sumogamma {
 /// asked, never raises SIGPIPE, and notices within a tenth of a second when the child has died.
 class TraciClient {
  public:
-  /// Keeps trying to connect while nobody listens yet, up to `timeout` seconds or until the child
-  /// (may be null) ends. Throws SumoError.
+  /// Connects within `timeout` seconds. Where nobody listens it keeps trying until the child ends;
+  /// without one (null) it gives up within two seconds. Throws SumoError.
   TraciClient(const std::string& host, int port, double timeout, SumoProcess* child);
   ~TraciClient();
   TraciClient(const TraciClient&) = delete;

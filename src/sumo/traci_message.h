@@ -12,11 +12,12 @@ namespace sumogamma {
 /// Numbers of the TraCI protocol that this client speaks (SUMO's TraCI documentation, "Protocol"
 /// and "Value retrieval").
 namespace traci {
-inline constexpr std::uint8_t kGetVersion = 0x00, kSimulationStep = 0x02, kClose = 0x7f;
+inline constexpr std::uint8_t kGetVersion = 0x00, kSimulationStep = 0x02, kSetOrder = 0x03,
+                              kClose = 0x7f;
 
 /// A domain's get command; set, subscribe and the responses are fixed offsets from it.
 inline constexpr std::uint8_t kInductionLoop = 0xa0, kTrafficLight = 0xa2, kVehicle = 0xa4,
-                              kSimulation = 0xab, kPerson = 0xae;
+                              kEdge = 0xaa, kSimulation = 0xab, kPerson = 0xae;
 constexpr std::uint8_t set_command(std::uint8_t domain) {
   return static_cast<std::uint8_t>(domain + 0x20);
 }

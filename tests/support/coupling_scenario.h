@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "base/subprocess.h"
 
@@ -103,5 +106,22 @@ class CouplingScenario {
  private:
   TemporaryFolder folder_;
 };
+
+/// Waits until somebody listens on a port of this machine, without touching it: half a minute at
+/// the most.
+inline void wait_until_listening(int port) {
+  char wanted[16];
+  std::snprintf(wanted, sizeof wanted, ":%04X", static_cast<unsigned>(port));
+  for (int k = 0; k < 600; ++k) {
+    std::ifstream sockets("/proc/net/tcp");
+    for (std::string line; std::getline(sockets, line);) {
+      std::istringstream words(line);
+      std::string number, local, remote, state;
+      words >> number >> local >> remote >> state;
+      if (state == "0A" && local.ends_with(wanted)) return;  // TCP_LISTEN
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
 
 }  // namespace sumogamma

@@ -165,6 +165,7 @@ TEST(Faults, JoinsASumoOfTheUsers) {
   std::vector<std::string> arguments = sumo_arguments(wish);
   arguments.insert(arguments.end(), {"--remote-port", std::to_string(port)});
   SumoProcess users(find_sumo_binary("sumo"), arguments);
+  wait_until_listening(port);
   SumoStart start;
   start.connect_host = "localhost";
   start.connect_port = port;

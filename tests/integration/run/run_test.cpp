@@ -137,9 +137,10 @@ void expect_keys(const json& object, const std::vector<std::string>& keys) {
 TEST_F(RunTest, EveryKeyOfTheResultsIsThere) {
   import(kFixtures / "signalled_crossing_right.osm", "20");
   const json results = results_of("out", {"--duration", "20", "--replay"});
-  expect_keys(results, {"sumo_version", "sumo_gamma_version", "scenario", "seed", "step",
-                        "duration", "backend", "threads", "agents", "timing", "collisions", "flow",
-                        "rules", "smoothness", "coupling", "prediction", "state_hash"});
+  expect_keys(results,
+              {"sumo_version", "sumo_gamma_version", "scenario", "seed", "step", "duration",
+               "clock", "not_followed", "backend", "threads", "agents", "timing", "collisions",
+               "flow", "rules", "smoothness", "coupling", "prediction", "state_hash"});
   expect_keys(results["agents"], {"inserted", "arrived", "removed", "controlled_now",
                                   "controlled_peak", "controlled_mean", "by_type"});
   expect_keys(results["timing"],
@@ -318,6 +319,88 @@ TEST_F(UserConfigTest, OptionsMayHaveTheirOtherNames) {
   EXPECT_EQ(result.exit_code, 0) << result.errors;
 }
 
+TEST_F(UserConfigTest, ItsClockHoldsAndTheResultsSayWhoSaidWhat) {
+  const std::string file = config(
+      "<n v=\"net.net.xml\"/><r v=\"demand.rou.xml\"/><b v=\"0:00:03\"/><e v=\"0:00:05\"/>"
+      "<step-length v=\"0.1\"/><seed v=\"42\"/>");
+  ASSERT_EQ(run(file, "own", {}).exit_code, 0);
+  json clock = results_in("own")["clock"];
+  EXPECT_EQ(clock["begin"], 3.0);
+  EXPECT_EQ(clock["end"], 5.0);
+  EXPECT_EQ(clock["step"], 0.1);
+  EXPECT_EQ(clock["seed"], 42);
+  for (const char* key : {"begin", "end", "step", "seed"})
+    EXPECT_EQ(clock["from"][key], "configuration") << key;
+  ASSERT_EQ(run(file, "told", {"--duration", "0:00:01", "--step", "0.05", "--seed", "7"}).exit_code,
+            0);
+  clock = results_in("told")["clock"];
+  EXPECT_EQ(clock["end"], 4.0);
+  EXPECT_EQ(clock["step"], 0.05);
+  EXPECT_EQ(clock["seed"], 7);
+  for (const char* key : {"end", "step", "seed"})
+    EXPECT_EQ(clock["from"][key], "command line") << key;
+  // SUMO's default of a second is too long for us
+  const std::string slow =
+      config("<n v=\"net.net.xml\"/><r v=\"demand.rou.xml\"/><e v=\"2\"/><step-length v=\"1\"/>");
+  ASSERT_EQ(run(slow, "slow", {}).exit_code, 0);
+  EXPECT_EQ(results_in("slow")["clock"]["step"], 0.05);
+  EXPECT_EQ(results_in("slow")["clock"]["from"]["step"], "default");
+}
+
+TEST_F(UserConfigTest, WhatIsNotFollowedIsSaid) {
+  const RoadNetwork road = read_sumo_net(folder_ / "own" / "net.net.xml");
+  const auto drivable = std::find_if(road.edges.begin(), road.edges.end(), [&](const Edge& one) {
+    return one.kind == LaneKind::Normal && allows(road, one, vehicle_class::kPassenger);
+  });
+  ASSERT_NE(drivable, road.edges.end());
+  const std::string edge = drivable->name;
+  put("x.add.xml", "<whatever><calibrator id=\"c\" edge=\"" + edge +
+                       "\" pos=\"0\" output=\"c.xml\"><flow begin=\"0\" end=\"9\" speed=\"9\" "
+                       "route=\"r\"/></calibrator><route id=\"r\" edges=\"" +
+                       edge + "\"/></whatever>");
+  const std::string file =
+      config("<n v=\"net.net.xml\"/><r v=\"demand.rou.xml\"/><a v=\"x.add.xml\"/><e v=\"2\"/>");
+  const ProcessResult result = run(file, "out", {});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("calibrator c in x.add.xml: not followed"));
+  const json said = results_in("out")["not_followed"];
+  ASSERT_EQ(said.size(), 1u) << said;
+  EXPECT_EQ(said[0]["what"], "calibrator");
+  EXPECT_EQ(said[0]["file"], "x.add.xml");
+  const ProcessResult plain = run(file, "plain", {"--control", "none"});
+  EXPECT_EQ(plain.exit_code, 0) << plain.errors;
+  EXPECT_TRUE(results_in("plain")["not_followed"].empty());
+}
+
+TEST_F(UserConfigTest, FoldersMayHaveCommasAndBlanks) {
+  fs::rename(folder_ / "own", folder_ / "my own, really");
+  const fs::path file = folder_ / "my own, really" / "mine.sumocfg";
+  std::ofstream(file) << "<configuration><n v=\"net.net.xml\"/><r "
+                         "v=\"demand.rou.xml\"/></configuration>";
+  for (const std::string backend : {"traci", "libsumo"}) {
+    const ProcessResult result =
+        run(file.string(), backend, {"--duration", "2", "--backend", backend});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+  }
+}
+
+// names that SUMO 1.15 doesn't know, on one lane alone and beside others
+TEST_F(UserConfigTest, ANetworkOfANewerSumoIsConverted) {
+  std::string net = content(folder_ / "own" / "net.net.xml");
+  const std::string old_text = "disallow=\"";
+  const std::size_t at = net.find(old_text);
+  ASSERT_NE(at, std::string::npos);
+  net.insert(at + old_text.size(), "cable_car wheelchair ");
+  put("net.net.xml", net);
+  const std::string file = config("net.net.xml", "demand.rou.xml");
+  for (const std::string backend : {"traci", "libsumo"})
+    expect_refused(run(file, "out", {"--duration", "2", "--backend", backend}), "--convert");
+  const ProcessResult result = run(file, "out", {"--duration", "2", "--convert"});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr("cable_car (1), wheelchair (1)"));
+  EXPECT_TRUE(fs::exists(out() / "converted.net.xml"));
+}
+
 TEST_F(UserConfigTest, WhatIsMissingOrWrongIsNamed) {
   const std::vector<std::string> more = {"--duration", "5"};
   expect_refused(run((folder_ / "none.sumocfg").string(), "out", more), "no such scenario");
@@ -388,6 +471,17 @@ TEST_F(RunTest, WrongOptionsAreRefused) {
   import(kFixtures / "zebra_right.osm", "5");
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--agents", "0"}, "--agents"},
+      {{"--agents", std::string(300, '9')}, "--agents"},
+      {{"--step", "0.0504"}, "whole milliseconds"},
+      {{"--step", "nan"}, "--step"},
+      {{"--duration", "0"}, "--duration"},
+      {{"--duration", "inf"}, "--duration"},
+      {{"--duration", "1e300"}, "--duration"},
+      {{"--region", "0,0,nan,5"}, "--region"},
+      {{"--seed", "-1"}, "--seed"},
+      {{"--set", "run.duration=nan"}, "run.duration"},
+      {{"--control", "cat"}, "the nearest one is 'car'"},
+      {{"--sumo-options", "--mesosim true"}, "mesosim"},
       {{"--agents", "-5"}, "--agents"},
       {{"--agents", "many"}, "--agents"},
       {{"--step", "0"}, "--step"},
@@ -403,7 +497,36 @@ TEST_F(RunTest, WrongOptionsAreRefused) {
       {{"--sumo-options", "--no-such-option"}, "no-such"}};
   for (const auto& [options, words] : cases) {
     SCOPED_TRACE(options[0] + " " + options[1]);
-    expect_refused(run(scenario(), "out", options), words);
+    const ProcessResult result = run(scenario(), "out", options);
+    expect_refused(result, words);
+    EXPECT_LT(result.errors.size(), 400u) << "a number of hundreds of digits?";
+  }
+}
+
+TEST_F(RunTest, AFolderWithAnotherRunIsKept) {
+  import(kFixtures / "zebra_right.osm", "5");
+  ASSERT_EQ(run(scenario(), "out", {"--duration", "5"}).exit_code, 0);
+  const std::string before = content(out() / "results.json");
+  const ProcessResult again = run(scenario(), "out", {"--duration", "6"});
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.errors, HasSubstr("--force"));
+  EXPECT_EQ(content(out() / "results.json"), before);
+  EXPECT_EQ(run(scenario(), "out", {"--duration", "6", "--force"}).exit_code, 0);
+  EXPECT_EQ(results_in("out")["duration"], 6.0);
+}
+
+TEST_F(RunTest, AFullDiskOnStdoutIsAnError) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  import(kFixtures / "zebra_right.osm", "5");
+  const std::vector<std::string> commands = {
+      "version", "--help", "run " + scenario() + " -o " + out().string() + " --duration 2"};
+  for (const std::string& rest : commands) {
+    ProcessRequest request;
+    request.arguments = {"sh", "-c", SUMOGAMMA_PROGRAM " " + rest + " --quiet > /dev/full"};
+    request.time_limit = 300.0;
+    const ProcessResult result = run_process(request);
+    EXPECT_EQ(result.exit_code, 2) << rest;
+    EXPECT_THAT(result.errors, HasSubstr("standard output")) << rest;
   }
 }
 
@@ -426,8 +549,8 @@ TEST_F(RunTest, AFullDiskIsReported) {
     fs::remove_all(out());
     fs::create_directories(out());
     fs::create_symlink("/dev/full", out() / file);
-    const ProcessResult result =
-        run(scenario(), "out", {"--duration", "20", "--replay", "--trajectory-period", "0"});
+    const ProcessResult result = run(
+        scenario(), "out", {"--duration", "20", "--replay", "--trajectory-period", "0", "--force"});
     EXPECT_EQ(result.exit_code, 2) << file << "\n" << result.errors;
     EXPECT_THAT(result.errors, HasSubstr(file));
   }

@@ -187,15 +187,70 @@ TEST_F(SumoNetReader, ReadsBuildingsAndBarriersOnly) {
   EXPECT_EQ(net.obstacles[0].outline.size(), 4u);
   EXPECT_EQ(net.obstacles[1].kind, ObstacleKind::Barrier);
   EXPECT_EQ(net.obstacles[1].outline.size(), 3u);
+  // SUMO takes any root
+  read_obstacles(write("r.xml", "<pois><poly id='e' type='barrier' shape='0,0 1,1'/></pois>"), net);
+  EXPECT_EQ(net.obstacles.size(), 3u);
   const fs::path bad =
       write("q.xml", "<additional><poly id='a' type='building' shape='1;2'/></additional>");
   EXPECT_THROW(read_obstacles(bad, net), Error);
 }
 
 TEST(VehicleClass, KnowsSumoNames) {
-  EXPECT_EQ(vehicle_class_from_name("rail_urban"), vehicle_class::kRail);
+  EXPECT_EQ(vehicle_class_from_name("rail_urban"), vehicle_class::kRailUrban);
   EXPECT_EQ(vehicle_class_from_name("passenger"), vehicle_class::kPassenger);
-  EXPECT_EQ(vehicle_class_from_name("ship"), vehicle_class::kOther);
+  EXPECT_EQ(vehicle_class_from_name("ship"), vehicle_class::kShip);
+  EXPECT_EQ(vehicle_class_from_name("public_transport"), vehicle_class::kBus);
+  EXPECT_EQ(vehicle_class_from_name("cable_car"), vehicle_class::kOther);
+  // each of SUMO's is one of its own
+  VehicleClassMask seen = 0;
+  for (const char* name :
+       {"private",   "emergency",  "authority",  "army",          "vip",       "pedestrian",
+        "passenger", "hov",        "taxi",       "bus",           "coach",     "delivery",
+        "truck",     "trailer",    "motorcycle", "moped",         "bicycle",   "evehicle",
+        "tram",      "rail_urban", "rail",       "rail_electric", "rail_fast", "ship",
+        "custom1",   "custom2"}) {
+    const VehicleClassMask mask = vehicle_class_from_name(name);
+    EXPECT_EQ(mask & (mask - 1), 0u) << name;
+    EXPECT_EQ(seen & mask, 0u) << name;
+    EXPECT_NE(mask, vehicle_class::kOther) << name;
+    seen |= mask;
+  }
+}
+
+TEST_F(SumoNetReader, PermissionsAreSumosOwn) {
+  const auto allowed = [&](const std::string& permissions) {
+    const RoadNetwork net = read_sumo_net(write(
+        "a.net.xml", with("index=\"1\" disallow=\"pedestrian\"", "index=\"1\" " + permissions)));
+    return net.lane(net.lane_by_name.at("in_1")).allowed;
+  };
+  using namespace vehicle_class;
+  EXPECT_EQ(allowed("allow=\"hov evehicle\""), kHov | kEvehicle);
+  EXPECT_EQ(allowed(""), kAll);
+  EXPECT_EQ(allowed("allow=\"\" disallow=\"private\""), ~kPrivate);
+  EXPECT_EQ(allowed("allow=\"bus\" disallow=\"bus\""), kBus);
+  EXPECT_EQ(allowed("disallow=\"all\""), 0u);
+  EXPECT_EQ(allowed("allow=\"ignoring custom1\""), kCustom1);
+}
+
+// netconverts of some versions write index 0 for all lanes on a junction; SUMO counts by place
+TEST_F(SumoNetReader, CountsLanesByTheirPlaceInTheFile) {
+  const RoadNetwork net =
+      read_sumo_net(write("a.net.xml", with("id=\"in_1\" index=\"1\"", "id=\"in_1\" index=\"0\"")));
+  EXPECT_EQ(net.lane(net.lane_by_name.at("in_1")).index, 1);
+}
+
+TEST_F(SumoNetReader, TakesRequestsInAnyOrder) {
+  const std::string first = "<request index=\"0\" response=\"10\" foes=\"10\" cont=\"1\"/>",
+                    second = "<request index=\"1\" response=\"00\" foes=\"01\" cont=\"0\"/>";
+  std::string net = with(first, "@");
+  net.replace(net.find(second), second.size(), first);
+  net.replace(net.find('@'), 1, second);
+  const RoadNetwork read = read_sumo_net(write("a.net.xml", net));
+  const Junction& junction = read.junction(read.junction_by_name.at("C"));
+  EXPECT_TRUE(junction.requests[0].may_stop_inside);
+  EXPECT_FALSE(junction.requests[1].may_stop_inside);
+  EXPECT_NE(complaint(with("request index=\"1\"", "request index=\"7\"")).find("request 7"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -47,6 +47,30 @@ TEST(AgentTypeOf, ElseTheVehicleClassDecides) {
   EXPECT_EQ(type_for("x", "wheelchair", true), "pedestrian");
 }
 
+// their class says who may use a lane, not what comes
+TEST(AgentTypeOf, TheBodyDecidesWhereTheClassDoesNot) {
+  struct Body {
+    double length, width;
+    const char* type;
+  };
+  constexpr Body kBodies[] = {{4.5, 1.8, "car"},      {5.0, 1.8, "car"},  {6.5, 2.16, "van"},
+                              {8.0, 2.4, "truck"},    {12.0, 2.5, "bus"}, {2.2, 0.9, "motorcycle"},
+                              {1.6, 0.65, "bicycle"}, {0.0, 0.0, "car"}};
+  const AgentTypeTable types = default_agent_types();
+  for (const char* vehicle_class : {"private", "hov", "evehicle", "custom1", "custom2", "authority",
+                                    "army", "vip", "emergency", "ignoring"})
+    for (const Body& body : kBodies) {
+      SumoAgentDetails details;
+      details.type_id = "x";
+      details.vehicle_class = vehicle_class;
+      details.length = body.length;
+      details.width = body.width;
+      const auto type = agent_type_of(types, details);
+      ASSERT_TRUE(type) << vehicle_class;
+      EXPECT_EQ(type_of(types, *type).name, body.type) << vehicle_class << " " << body.length;
+    }
+}
+
 TEST(AgentTypeOf, WhatRunsOnRailsOrWaterIsNotDriven) {
   for (const char* other : {"tram", "rail", "rail_urban", "rail_electric", "rail_fast", "ship"})
     EXPECT_EQ(type_for("x", other), "") << other;

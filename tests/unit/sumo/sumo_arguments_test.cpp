@@ -67,9 +67,26 @@ TEST(SumoArguments, TheUsersOptionReplacesOurs) {
   EXPECT_EQ(value_of(words, "--scale"), "3");
 }
 
+TEST(SumoArguments, DefaultsGiveWayToTheScenario) {
+  SumoArguments wish;
+  wish.scenario = {{"time-to-teleport", {"120", {}, false}},
+                   {"pedestrian.model", {"nonInteracting", {}, false}},
+                   {"num-clients", {"2", {}, false}},
+                   {"random", {"true", {}, false}}};
+  const Words words = sumo_arguments(wish);
+  EXPECT_EQ(times(words, "--time-to-teleport"), 0);
+  EXPECT_EQ(value_of(words, "--collision.action"), "none");
+  // but not what a run rests on
+  EXPECT_EQ(value_of(words, "--pedestrian.model"), "striping");
+  EXPECT_EQ(value_of(words, "--num-clients"), "1");
+  EXPECT_EQ(value_of(words, "--random"), "false");
+  wish.clients = 3;
+  EXPECT_EQ(value_of(sumo_arguments(wish), "--num-clients"), "3");
+}
+
 TEST(SumoArguments, RefusesWhatWeMustChoose) {
   for (const char* option :
-       {"--remote-port", "--num-clients", "--step-length", "--remote-port=5"}) {
+       {"--remote-port", "--num-clients", "--step-length", "--remote-port=5", "--random"}) {
     SumoArguments wish;
     wish.user = {option, "1"};
     EXPECT_THROW(sumo_arguments(wish), Error) << option;

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+
+namespace sumogamma {
+
+/// The folder that a run writes into, its own for as long as this lives. Taken away again where the
+/// run ends before it wrote anything.
+class OutputFolder {
+ public:
+  /// Makes it where it isn't there. Throws Error naming it where it can't be written, another run
+  /// writes into it, or it holds what another run left and `force` is false.
+  OutputFolder(std::filesystem::path folder, bool force);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  std::filesystem::path folder_;
+  bool existed_;
+  int lock_ = -1;
+};
+
+/// Throws Error where a page would replace a file that is no page.
+void require_page_name(const std::filesystem::path& page);
+
+}  // namespace sumogamma
