@@ -453,18 +453,27 @@ void TraciBackend::compose_step(std::span<const SumoPose> vehicles,
   for (const SumoPose& pose : vehicles) append_ghost(message_, pose, false, vehicle_test_.mode());
   for (const SumoPose& pose : persons) append_ghost(message_, pose, true, person_test_.mode());
   message_.append(queued_);
-  message_.simulation_step();  // last: SUMO does not process what stands behind it reliably
+  // last: SUMO does not process what stands behind it reliably. Among several clients alone, later:
+  // SUMO gives what it has answered before a step to the client whose turn is next
+  if (!start_.client_order) message_.simulation_step();
 }
 
 void TraciBackend::read_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
                              SumoStep& result) {
-  TraciReader reply = exchange(message_);
+  const bool apart = start_.client_order.has_value();
+  TraciReader reply{std::span<const std::uint8_t>()};
+  if (!apart || message_.command_count() > 0) reply = exchange(message_);
   for (const std::span<const SumoPose> poses : {vehicles, persons})
     for (const SumoPose& pose : poses)
       if (!reply.status().ok()) result.lost.push_back(*pose.id);
   // what was queued concerned agents that may have left meanwhile: a refusal means nothing
   for (std::size_t left = queued_.command_count(); left > 0; --left) reply.status();
   queued_.clear();
+  if (apart) {
+    message_.clear();
+    message_.simulation_step();
+    reply = exchange(message_);
+  }
   const TraciStatus stepped = reply.status();
   if (stepped.command != traci::kSimulationStep)
     throw SumoError("SUMO", "an answer to another command over TraCI");

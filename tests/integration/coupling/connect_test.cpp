@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <future>
 #include <memory>
+#include <span>
 
 #include "base/error.h"
 #include "road/sumo_net_reader.h"
@@ -134,7 +135,13 @@ TEST(Connect, AnotherClientMayBeThere) {
   };
   const auto sumo = start_traci_backend(start);
   SumoStep step;
-  for (int i = 0; i < 40; ++i) sumo->step({}, {}, step);
+  // with a ghost: what SUMO answers to our commands must not reach the other client
+  const std::string id = "v0";
+  for (int i = 0; i < 40; ++i) {
+    const SumoPose pose{&id, {50.0 + i, 75.0}, 90.0};
+    sumo->step(std::span(&pose, i > 2 ? 1u : 0u), {}, step);
+    EXPECT_TRUE(step.lost.empty());
+  }
   EXPECT_NEAR(step.time, 2.0, 1e-9);
   const ProcessResult result = other.get();
   EXPECT_TRUE(result.ok()) << result.errors;
