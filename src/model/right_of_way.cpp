@@ -58,7 +58,7 @@ constexpr double kNearLine = 2.5;
 
 /// Is a front `past` the begin of its link [m] in a zone that begins there at `begin`? Not who has
 /// come to rest at its edge.
-bool has_entered(double past, double begin) { return past > std::max(begin, 0.0) + kEdge; }
+bool has_entered(double past, double begin) { return past > begin + kEdge; }
 
 /// Has a row waited for longer than another? The smaller id where they began together.
 bool has_waited_longer(const Scene& scene, std::size_t row, std::size_t other) {
@@ -146,9 +146,11 @@ struct Judge : RoadView {
     const AgentType& own_type = type_of(model.types, scene.type[traveller.row]);
     const bool foe_inside = has_entered(foe.front, zone.foe_begin);
     const Connection& foe_link = model.road.connection(zone.foe);
-    // who waits at red doesn't come, but somebody who goes at red, too, is waited for by another
+    // who waits at red doesn't come, but somebody who goes at red, too, is waited for by another,
+    // and who clears the junction by all
     const bool foe_at_red = !foe_inside && foe.front < 0.0 && is_red(road.signal(foe_link));
-    if (foe_at_red && !(at_red && goes_at_red(model, scene, foe.row, zone.foe)))
+    const bool foe_clears = clears_junction(foe.row, zone.foe, foe.front);
+    if (foe_at_red && !foe_clears && !(at_red && goes_at_red(model, scene, foe.row, zone.foe)))
       return Verdict::Free;
     if (!foe_inside && ignores(zone, foe)) return Verdict::Free;
     if (is_ignored_by(foe)) zone.yields = true;
@@ -205,7 +207,6 @@ struct Judge : RoadView {
     }
     // who is left on the junction from an earlier phase leaves it before others come
     const bool clears = clears_junction(traveller.row, link.connection, -to_line());
-    const bool foe_clears = clears_junction(foe.row, zone.foe, foe.front);
     if (clears && !foe_clears && !foe_inside && foe_may_halt(zone, foe)) return Verdict::Free;
     if (foe_clears && !clears && !foe_inside &&
         stops_at_ease(own.speed, zone.begin - own.front, own_type) &&
@@ -530,9 +531,14 @@ struct Judge : RoadView {
     };
     return minor(own) && minor(foe_link);
   }
-  /// Is a vehicle past the line of a link that is red by now?
+  /// Is a vehicle past the line of a link that is red by now, or, for some time after the lights
+  /// changed, between the lines of an outer and an inner signal?
   bool clears_junction(std::size_t row, ConnectionId id, double past) const {
-    return past > 0.3 && is_red(road.signal(model.road.connection(id))) && !on_foot(row);
+    const Connection& connection = model.road.connection(id);
+    const bool past_lines =
+        past > kEdge || (past > kEdge - connection.storage &&
+                         scene.time - signal_since(road, connection, scene.time) < kLetsClear);
+    return past_lines && is_red(road.signal(connection)) && !on_foot(row);
   }
   /// Since when the traveller's signal shows what it shows [s].
   double lights_since() const {
@@ -581,6 +587,9 @@ SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& 
   // on foot one halts within a step, though it be with a foot on the crossing
   const double reserve = on_foot ? -0.45 : 0.2;  // [m]
   const double needed = deceleration_to_stop(traveller.speed, halt - traveller.front - reserve);
+  // nobody halts for amber amid a junction
+  if (is_amber(signal) && model.road.connection(link.connection).storage > 0.0)
+    return SignalDuty::None;
   if (is_amber(signal) && to_line > -1.0) {
     // who would not be over the line before red brakes harder than at ease, and stands before it
     // from a crawl, however near it is
@@ -669,7 +678,7 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
   if (duty == SignalDuty::Stop) return {true, stop_at, LimitReason::Signal, -1};
   const bool at_red = duty == SignalDuty::GoAtRed;
   const bool stop_sign = (connection.state == 's' || connection.state == 'w') && signal == 'O';
-  const bool halts_first = stop_sign || (at_red && !own_path.walking);
+  const bool halts_first = stop_sign || (at_red && !own_path.walking && connection.storage == 0.0);
   if (halts_first && to_line > -0.2 && scene.halted_for[traveller.row] != link.connection)
     decision = {true, stop_at, at_red ? LimitReason::Signal : LimitReason::Yield, -1};
 

@@ -14,6 +14,7 @@ std::uint64_t place_of(const Model& model, ConnectionId link) {
 }  // namespace
 
 bool goes_at_red(const Model& model, const Scene& scene, std::size_t row, ConnectionId link) {
+  if (model.road.connection(link).storage > 0.0) return true;
   const AgentType& type = type_of(model.types, scene.type[row]);
   const std::uint64_t place = place_of(model, link);
   return type.kinematics == Kinematics::Holonomic

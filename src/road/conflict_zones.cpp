@@ -85,31 +85,42 @@ struct LinkShape {
   Polyline line;
   double half_width = 0;         ///< of what drives there
   double half_narrow_width = 0;  ///< of what is no wider than kWideBody
+  double begin = 0;              ///< of the line, from the link's begin [m]
   std::vector<Vec2> samples;     ///< every kStep
 };
 constexpr double kStep = 1.0;
 
-/// The way that is driven over a link by a car, or by a bicycle where only those may, from its stop
-/// line on.
-Polyline driven_way(const RoadNetwork& network, ConnectionId id) {
-  constexpr double kApproach = 20.0, kOfCars = 3.8, kOfBicycles = 1.15;  // [m]
+/// How far before its begin a way over a link is looked at [m]: where others turn over the lane so
+/// far before its end that the line is drawn behind them, who is beyond it is in their way.
+double looked_before(const Connection& connection) {
+  constexpr double kAtEnd = 10.0;  // of a lane, which bodies at the line reach over [m]
+  return connection.setback > kAtEnd ? connection.setback : 0.0;
+}
+
+/// The way that is driven over a link by a car, or by a bicycle where only those may, from `before`
+/// [m] before its stop line on.
+Polyline driven_way(const RoadNetwork& network, ConnectionId id, double before) {
+  constexpr double kBeyond = 20.0, kOfCars = 3.8, kOfBicycles = 1.15;  // [m]
+  const double approach = kBeyond + before;
   const Connection& connection = network.connection(id);
   if (network.lane(connection.to).kind == LaneKind::Crossing) return link_geometry(network, id);
   const bool for_bicycles =
       connection.via != kNoLane && is_without_motors(network.lane(connection.via));
   const Path path =
-      rounded_way(network, id, kApproach, kApproach, {for_bicycles ? kOfBicycles : kOfCars});
+      rounded_way(network, id, approach, kBeyond, {for_bicycles ? kOfBicycles : kOfCars});
   if (path.links.empty()) return {};
   std::vector<Vec2> driven;
-  append_span(path.line, path.links.front().stop_line, path.links.front().end, driven);
+  append_span(path.line, path.links.front().stop_line - before, path.links.front().end, driven);
   return Polyline(std::move(driven));
 }
 
 LinkShape shape_of(const RoadNetwork& network, ConnectionId id) {
   LinkShape shape;
   shape.link = id;
-  shape.line = driven_way(network, id);
   const Connection& connection = network.connection(id);
+  const double before = looked_before(connection);
+  shape.line = driven_way(network, id, before);
+  shape.begin = -before;
   const Lane& lane = network.lane(connection.via != kNoLane ? connection.via : connection.to);
   // what drives on a lane is narrower than the lane; a crossing is used over its whole width
   constexpr double kHalfBicycle = 0.33, kHalfBody = 1.35;  // [m]
@@ -135,7 +146,7 @@ std::optional<std::pair<double, double>> near_span(const LinkShape& a, const Lin
       return (point - a.samples[k]).squaredNorm() < reach * reach;
     });
     if (!near) continue;
-    const double along = std::min(static_cast<double>(k) * kStep, a.line.length());
+    const double along = a.begin + std::min(static_cast<double>(k) * kStep, a.line.length());
     if (!span) span.emplace(along, along);
     span->second = along;
   }

@@ -109,6 +109,9 @@ struct Connection {
   SignalId signal = kNoSignal;
   int signal_link = -1;  ///< index into the signal's state string
   double setback = 0;    ///< a waiting front halts this far before the link's begin [m]
+  double storage =
+      0;  ///< of an inner signal: way from the stop lines of the signals before it, over
+          ///< their junction and the road behind it, else 0 [m] (find_inner_signals())
   char direction = 's';  ///< SUMO's dir: s straight, l left, r right, t turn-around, L partially
                          ///< left, R partially right
   char state = 'M';  ///< SUMO's static state: M major, m minor, = equal, s stop, w all-way stop,

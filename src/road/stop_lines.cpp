@@ -13,7 +13,7 @@ namespace {
 // between the middles of a waiting and a turning vehicle: as wide as roads are; on paths as
 // bicycles turn, and of those who have turned a share of the widths [m]
 constexpr double kRoom = 2.9, kRoomToTurn = 1.9, kRoomOfWidth = 0.95;
-constexpr double kFarthest = 10.0;  ///< [m]
+constexpr double kFarthest = 30.0;  ///< a junction joined out of several is as wide [m]
 constexpr double kBody = 6.0;       ///< of a waiting vehicle, behind its front [m]
 constexpr double kStep = 0.5;       ///< [m]
 constexpr double kAfter = 10.0;     ///< of the road turned into that is looked at [m]

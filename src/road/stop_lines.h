@@ -8,7 +8,7 @@ namespace sumogamma {
 /// Sets Connection::setback of every link that vehicles wait before: a lane of SUMO ends where the
 /// junction's outline is, so that whoever waits there with a body may stand in the way of those who
 /// turn into the road beside it. The front halts so much earlier that they get past; 0 where that
-/// is no matter, or where 10 m do not help.
+/// is no matter, or where neither 30 m nor half of the lane help.
 void set_back_stop_lines(RoadNetwork& network);
 
 /// Moves PathLink::halt of every crossing on a walk back to where nobody drives: SUMO's walking

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "road/inner_signals.h"
 #include "road/junction_room.h"
 #include "road/overpasses.h"
 #include "road/stop_lines.h"
@@ -546,6 +547,7 @@ RoadNetwork read_sumo_net(const std::filesystem::path& file) {
                 "root element is <" + std::string(root.name()) + ">, expected <net>");
   RoadNetwork network = NetBuilder(file, root).build();
   set_back_stop_lines(network);
+  find_inner_signals(network);
   set_junction_rooms(network);
   find_overpasses(network);
   return network;

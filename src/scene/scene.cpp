@@ -45,6 +45,7 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.halted_at);
   visit(scene.next_stop);
   visit(scene.stop_left);
+  visit(scene.strayed);
   visit(scene.lane);
   visit(scene.height);
   visit(scene.context);

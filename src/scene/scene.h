@@ -75,6 +75,7 @@ struct Scene {
   std::vector<double> halted_at;         ///< when it did [s]
   std::vector<std::int32_t> next_stop;   ///< index of the path's next planned halt
   std::vector<double> stop_left;  ///< [s] still to stand at the present halt, 0 where there is none
+  std::vector<double> strayed;    ///< driven without getting on along its path [m]
   std::vector<LanePosition> lane;
   std::vector<double> height;        ///< of the ground under the agent [m]: bridges
   std::vector<RoadContext> context;  ///< filled every tick from the frozen scene

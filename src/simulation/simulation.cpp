@@ -6,6 +6,7 @@
 #include "model/backing.h"
 #include "model/detour.h"
 #include "model/locate.h"
+#include "model/lost_way.h"
 #include "model/road_context.h"
 
 namespace sumogamma {
@@ -69,9 +70,13 @@ void tick(Simulation& sim, World& world) {
   sim.workspaces.resize(sim.workers->count());
   sim.commands.resize(rows);
   sim.workers->for_each_range(rows, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row)
+    for (std::size_t row = begin; row < end; ++row) {
+      const double before = scene.path_along[row];
       locate_on_path(sim.model.road, sim.road, scene, row);
+      note_progress(before, sim.dt, scene, row);
+    }
   });
+  find_ways_back(sim.model, sim.road, scene);
   prepare_tick(sim.model, scene, *sim.workers, sim.geometry);
   choose_lanes(sim.model, sim.geometry.grid, sim.dt, *sim.workers, sim.road, scene,
                sim.lane_choice);

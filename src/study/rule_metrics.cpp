@@ -351,7 +351,8 @@ std::size_t RuleMonitor::find_red_links(const Lane& lane, const RoadState& road,
     const Connection& connection = network_.connection(id);
     if (connection.signal == kNoSignal || !for_vehicles(network_.lane(connection.to))) continue;
     ++links;
-    if (was_and_is_red(connection, road)) red.push_back(id);
+    // who got green at the outer signal clears the junction
+    if (connection.storage == 0.0 && was_and_is_red(connection, road)) red.push_back(id);
   }
   return links;
 }

@@ -894,6 +894,82 @@ TEST(JunctionsThatFollowClosely, AHaltBeforeTheFirstCountsForTheStopSignOfTheSec
   EXPECT_EQ(here.context(own).reason, LimitReason::None);
 }
 
+// In Santa Maria everybody waited for a minute before an empty zebra: there was no room between it
+// and the stop sign behind it, at which the halt before the zebra didn't count.
+TEST(JunctionsThatFollowClosely, AHaltBeforeAZebraCountsForTheStopSignThatLeavesNoRoomBehindIt) {
+  for (const char state : {'M', 'm'}) {
+    SCOPED_TRACE(state);
+    RoadScene here(two_junctions(8, "priority"));
+    const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
+    const std::vector<PathLink> links = here.path(own).links;
+    here.model.road.connections[index_of(links.at(0).connection)].state = state;
+    here.model.road.connections[index_of(links.at(1).connection)].state = 's';
+    here.move(own, links[0].halt - 0.6 - 2.25);
+    here.update();
+    EXPECT_EQ(here.context(own).reason, LimitReason::Yield);
+    here.scene.standing_time[own] = 1.0;
+    here.update();
+    EXPECT_GT(here.context(own).allowed_speed, 0.3);
+    here.scene.standing_time[own] = 0.0;
+    here.move(own, links[1].halt - 0.6 - 2.25);
+    here.update();
+    EXPECT_GT(here.context(own).allowed_speed, 0.3) << "it halts once";
+  }
+}
+
+/// W to E over two signals with ten metres between them; a road from N crosses at the second.
+RoadNetwork two_boxes() {
+  testing::PlainNet plain;
+  plain.nodes =
+      "<node id='W' x='-100' y='0'/><node id='E' x='200' y='0'/>"
+      "<node id='A' x='0' y='0' type='traffic_light'/>"
+      "<node id='B' x='24' y='0' type='traffic_light'/><node id='N' x='0' y='100'/>"
+      "<node id='S' x='0' y='-100'/><node id='M' x='24' y='100'/><node id='T' x='24' y='-100'/>";
+  for (const std::string road : {"WA", "AB", "BE", "NA", "AS", "MB", "BT"})
+    plain.edges += "<edge id='" + road + "' from='" + road[0] + "' to='" + road[1] +
+                   "' numLanes='1' speed='13'/>";
+  return read_plain_net(plain);
+}
+
+// Buses stood between the boxes that one crossing of dual carriageways is drawn as, at red lights
+// that no such crossing has, and shut the first.
+TEST(InnerSignal, WhoGotGreenAtTheOuterOneClearsTheJunction) {
+  RoadScene here(two_boxes());
+  const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
+  const PathLink link = here.path(own).links.at(1);
+  ASSERT_GT(here.model.road.connection(link.connection).storage, 0.0);
+  const std::size_t foe = here.add("car", {"MB", "BT"}, 0, 0);
+  const PathLink their = here.path(foe).links.at(0);
+  here.move(own, link.stop_line - 0.6 - 2.25);
+  for (std::size_t i = 0; i < here.model.road.signals.size(); ++i)
+    here.road.signal_states[i].assign(here.model.road.signals[i].size, 'r');
+  here.road.signal_since.assign(here.model.road.signals.size(), 0.0);
+  const Connection& green = here.model.road.connection(their.connection);
+  here.road.signal_states[index_of(green.signal)][static_cast<std::size_t>(green.signal_link)] =
+      'G';
+  // who stands at its line, and has just got green, lets it go first
+  here.set_speed(own, 1.0);
+  here.move(foe, their.stop_line - 0.6 - 2.25);
+  here.scene.time = 2.0;
+  here.update(2);
+  EXPECT_GT(here.context(own).allowed_speed, 0.3);
+  EXPECT_LT(here.context(foe).allowed_speed, 0.3);
+  EXPECT_EQ(here.context(foe).foe, here.scene.id[own].value);
+  // later on it gives way
+  here.scene.time = 30.0;
+  here.set_speed(own, 0.0);
+  here.set_speed(foe, 10.0);
+  here.move(foe, their.stop_line - 20.0);
+  here.update(2);
+  EXPECT_LT(here.context(own).allowed_speed, 0.3);
+  EXPECT_EQ(here.context(own).foe, here.scene.id[foe].value);
+  EXPECT_GT(here.context(foe).allowed_speed, 9.0);
+  // and goes where nobody comes
+  here.move(foe, here.path(foe).arrival - 5.0);
+  here.update(2);
+  EXPECT_GT(here.context(own).allowed_speed, 0.3);
+}
+
 // Queues that waited for a light stood on the junction before it, across the ways of others.
 TEST(JunctionsThatFollowClosely,
      WhoHasNoRoomBeforeALightWaitsForItBeforeTheJunctionThatItWouldBlock) {
