@@ -25,6 +25,8 @@ bool asks_for_nothing(std::string_view name, std::string_view value) {
   constexpr std::array<std::string_view, 9> kNothing = {
       "false", "0", "0.0", "0.00", "no", "off", "current", "center", "default"};
   if (value.empty()) return true;
+  // 0 is not what these are by themselves
+  if (name.starts_with("vType.lc") || name.starts_with("vType.jm")) return false;
   if (name == "vehicle.departSpeed")
     return value == "max" || value == "desired" || value == "speedLimit";
   if (name == "vehicle.insertionChecks") return value == "all";
