@@ -1,14 +1,19 @@
+#include <atomic>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <thread>
 
 #include "app/command.h"
 #include "base/error.h"
 #include "base/staged_folder.h"
+#include "base/subprocess.h"
 #include "demand/demand.h"
 #include "io/output_file.h"
 #include "io/scenario_files.h"
@@ -98,9 +103,83 @@ void print_summary(const osm::BuildResult& built, const DemandReport& demand,
       std::printf("  warning: %s (%ld)\n", issue.what.c_str(), issue.count);
 }
 
+/// Ends an import that was interrupted within two seconds, wherever it is: it looks for that itself
+/// between its steps, but not within a library's long computation. What was made goes.
+class InterruptWatch {
+ public:
+  explicit InterruptWatch(StagedFolder& folder) : thread_([this, &folder] { watch(folder); }) {}
+  ~InterruptWatch() {
+    ended_ = true;
+    thread_.join();
+  }
+  InterruptWatch(const InterruptWatch&) = delete;
+  InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+ private:
+  void watch(StagedFolder& folder) const {
+    using Clock = std::chrono::steady_clock;
+    constexpr std::chrono::milliseconds kLook(20), kGrace(1000);
+    std::optional<Clock::time_point> seen;
+    for (; !ended_; std::this_thread::sleep_for(kLook)) {
+      if (!seen && interrupted()) seen = Clock::now();
+      if (!seen || Clock::now() - *seen < kGrace) continue;
+      kill_running_processes();
+      folder.abandon();
+      std::_Exit(kExitInterrupted);
+    }
+  }
+  std::atomic<bool> ended_ = false;
+  std::thread thread_;
+};
+
+struct Made {
+  osm::BuildResult built;
+  DemandReport demand;
+};
+
+/// Writes the whole scenario into the folder; nothing where it was interrupted.
+std::optional<Made> make_scenario(const ImportOptions& options, const osm::BuildRequest& build,
+                                  DemandRequest demand) {
+  Made made;
+  made.built = osm::build_network(build);
+  const osm::BuildResult& built = made.built;
+  if (built.stopped) return std::nullopt;
+
+  build.progress("drawing and routing demand (duarouter)");
+  demand.name = build.map.string();
+  demand.network = build.folder / "net.net.xml";
+  demand.routes = build.folder / "demand.rou.xml";
+  demand.work = build.folder / "work";
+  std::filesystem::create_directory(demand.work);
+  made.demand = generate_demand(built.road, default_agent_types(), demand);
+  if (made.demand.stopped) return std::nullopt;
+
+  ScenarioFiles scenario;
+  scenario.name = std::filesystem::path(options.folder).lexically_normal().filename().string();
+  scenario.map = std::filesystem::path(options.map).filename().string();
+  scenario.west = built.box.west;
+  scenario.south = built.box.south;
+  scenario.east = built.box.east;
+  scenario.north = built.box.north;
+  scenario.left_hand = built.left_hand;
+  scenario.agents = demand.agents;
+  scenario.on_foot = std::round(1000.0 * made.demand.on_foot) / 1000.0;
+  scenario.duration = demand.duration;
+  write_scenario_files(build.folder, scenario, default_agent_types());
+  nlohmann::ordered_json report = osm::import_report(built, scenario.map);
+  report["demand"] = demand_report(made.demand, demand);
+  write_file(build.folder / "import.json", report.dump(2) + "\n");
+  std::filesystem::remove_all(demand.work);
+  if (interrupted()) return std::nullopt;
+  return made;
+}
+
 int run_import(const ImportOptions& options, const CommonOptions& common) {
-  const long agents = parse_agents(options.agents);
-  const double duration = parse_duration(options.duration);
+  DemandRequest demand;
+  demand.seed = common.seed;
+  demand.agents = parse_agents(options.agents);
+  demand.duration = parse_duration(options.duration);
+  demand.should_stop = interrupted;
   osm::BuildRequest build;
   build.map = options.map;
   if (options.bbox) build.bbox = parse_box(*options.bbox);
@@ -113,42 +192,14 @@ int run_import(const ImportOptions& options, const CommonOptions& common) {
 
   StagedFolder folder(options.folder, options.force);
   build.folder = folder.path();
-  const osm::BuildResult built = osm::build_network(build);
-  if (built.stopped) return kExitInterrupted;
-
-  build.progress("drawing and routing demand (duarouter)");
-  DemandRequest demand;
-  demand.network = folder.path() / "net.net.xml";
-  demand.routes = folder.path() / "demand.rou.xml";
-  demand.work = folder.path() / "work";
-  std::filesystem::create_directory(demand.work);
-  demand.seed = common.seed;
-  demand.agents = agents;
-  demand.duration = duration;
-  demand.should_stop = interrupted;
-  const DemandReport made = generate_demand(built.road, default_agent_types(), demand);
-  if (made.stopped) return kExitInterrupted;
-
-  ScenarioFiles scenario;
-  scenario.name = std::filesystem::path(options.folder).lexically_normal().filename().string();
-  scenario.map = std::filesystem::path(options.map).filename().string();
-  scenario.west = built.box.west;
-  scenario.south = built.box.south;
-  scenario.east = built.box.east;
-  scenario.north = built.box.north;
-  scenario.left_hand = built.left_hand;
-  scenario.agents = agents;
-  scenario.on_foot = std::round(1000.0 * made.on_foot) / 1000.0;
-  scenario.duration = duration;
-  write_scenario_files(folder.path(), scenario, default_agent_types());
-  nlohmann::ordered_json report = osm::import_report(built, scenario.map);
-  report["demand"] = demand_report(made, demand);
-  write_file(folder.path() / "import.json", report.dump(2) + "\n");
-
-  std::filesystem::remove_all(demand.work);
-  if (interrupted()) return kExitInterrupted;
+  std::optional<Made> made;
+  {
+    const InterruptWatch watch(folder);
+    made = make_scenario(options, build, demand);
+  }
+  if (!made) return kExitInterrupted;
   folder.commit();
-  print_summary(built, made, options.folder);
+  print_summary(made->built, made->demand, options.folder);
   return kExitDone;
 }
 

@@ -46,6 +46,13 @@ StagedFolder::StagedFolder(const fs::path& target, bool replace) {
 
 StagedFolder::~StagedFolder() { clean_up(); }
 
+void StagedFolder::abandon() noexcept {
+  constexpr int kTries = 50;
+  std::error_code code;
+  for (int i = 0; i < kTries && fs::exists(staging_, code); ++i) fs::remove_all(staging_, code);
+  clean_up();
+}
+
 void StagedFolder::clean_up() noexcept {
   std::error_code code;
   if (!staging_.empty()) fs::remove_all(staging_, code);

@@ -23,6 +23,9 @@ class StagedFolder {
   /// Moves all into place. With `replace` files of the same name are replaced and others stay.
   /// Throws Error.
   void commit();
+  /// Removes all that was made, as leaving without commit does. For who ends the process while
+  /// another thread still writes: what that one makes meanwhile is removed as far as possible.
+  void abandon() noexcept;
 
  private:
   void clean_up() noexcept;

@@ -13,6 +13,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
+#include <set>
 #include <string_view>
 
 #include "base/error.h"
@@ -117,12 +119,21 @@ pid_t spawn(const ProcessRequest& request, const Pipe& out, const Pipe& err) {
   return pid;
 }
 
+/// Process groups of the children that run now.
+std::mutex running_mutex;
+std::set<pid_t> running;
+
 /// Owns the running child: whatever happens, it has ended and been reaped when this goes.
 class Child {
  public:
-  explicit Child(pid_t pid) : pid_(pid) {}
+  explicit Child(pid_t pid) : pid_(pid) {
+    const std::scoped_lock lock(running_mutex);
+    running.insert(pid_);
+  }
   ~Child() {
     if (!reaped_) end();
+    const std::scoped_lock lock(running_mutex);
+    running.erase(pid_);
   }
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
@@ -206,6 +217,11 @@ ProcessResult run_process(const ProcessRequest& request) {
   else
     result.exit_code = WEXITSTATUS(child.status());
   return result;
+}
+
+void kill_running_processes() noexcept {
+  const std::scoped_lock lock(running_mutex);
+  for (const pid_t pid : running) kill(-pid, SIGKILL);
 }
 
 std::string describe_end(const ProcessResult& result, double time_limit) {

@@ -37,6 +37,10 @@ struct ProcessResult {
 /// started.
 ProcessResult run_process(const ProcessRequest& request);
 
+/// Kills whatever runs in run_process() at once, for who is about to end this process without
+/// waiting for it.
+void kill_running_processes() noexcept;
+
 /// "exit code 3", "killed by signal 11 (Segmentation fault)", "no end after 600 s": for messages.
 std::string describe_end(const ProcessResult& result, double time_limit);
 

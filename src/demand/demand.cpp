@@ -210,8 +210,9 @@ DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& type
   }
   std::erase_if(demands, [](const TypeDemand& demand) { return demand.pool.trips.empty(); });
   if (demands.empty())
-    throw Error(request.network.string(),
-                "nothing can travel on this network: no class has two joined edges");
+    throw Error(request.name.empty() ? request.network.string() : request.name,
+                "nobody can travel on what there is of it: no kind of traffic has two roads or "
+                "paths of which one leads onto the other; import more of the place");
 
   const BusiestLane busiest = weigh(road, request, demands);
   if (busiest.lane != kNoLane) report.busiest_lane = road.lane(busiest.lane).name;

@@ -21,6 +21,7 @@ struct DemandShare {
 std::vector<DemandShare> default_demand_mix();
 
 struct DemandRequest {
+  std::string name;               ///< of the place in messages; empty: the network's file
   std::filesystem::path network;  ///< the file that `road` was read from: the router reads it again
   std::filesystem::path
       routes;  ///< to write: vTypes, vehicles with explicit routes, persons with explicit walks

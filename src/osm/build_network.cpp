@@ -20,6 +20,7 @@
 #include "osm/osm_writer.h"
 #include "osm/prepare.h"
 #include "osm/right_of_way_tags.h"
+#include "osm/road_types.h"
 #include "osm/signal_offsets.h"
 #include "osm/swallowed_roads.h"
 #include "osm/walking_ground.h"
@@ -271,7 +272,9 @@ bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result
   netconvert.left_hand = result.left_hand;
   netconvert.layers = has_layers(map);
   netconvert.should_stop = request.should_stop;
-  write_prepared_osm(map, request.folder / netconvert.prepared);
+  netconvert.road_types = "work/roads.typ.xml";
+  write_prepared_osm(map, request.folder / netconvert.prepared,
+                     write_road_types(map, typemaps(), request.folder / netconvert.road_types));
   const std::optional<RoadNetwork> road = convert_and_patch(map, netconvert, result);
   if (!road) return false;
   coordinate_signals(request.folder / netconvert.network, *road, result);
@@ -322,6 +325,14 @@ void count_read(const OsmMap& map, BuildResult& result) {
       missing != map.counts.end() && missing->second > 0)
     result.log.add(Severity::Warning, "missing_nodes",
                    "points of ways that the extract does not hold", "", missing->second);
+  if (!map.server_remark.empty())
+    result.log.add(
+        Severity::Warning, "answer_not_whole",
+        "the server that gave this extract says that it is not whole: " + map.server_remark);
+  if (!map.bad_place.empty())
+    result.log.add(Severity::Warning, "nodes_off_the_earth",
+                   "nodes at no place on the earth, left out", map.bad_place,
+                   map.counts.at("nodes_without_valid_place"));
 }
 
 }  // namespace

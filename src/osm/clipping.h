@@ -25,4 +25,10 @@ inline std::vector<Vec2> from_clipper(const ClipperLib::Path& path) {
   return points;
 }
 
+/// What is left of polygons (filled by even and odd) without others, each with its holes (filled by
+/// winding). Many overlapping ones are taken off in portions: Clipper's time grows with the square
+/// of those that overlap, and what is left of a polygon is soon little.
+ClipperLib::Paths without(ClipperLib::Paths subject,
+                          const std::vector<ClipperLib::Paths>& taken_off);
+
 }  // namespace sumogamma::osm

@@ -136,13 +136,23 @@ std::filesystem::path sumo_home() {
               "holds no data/typemap: install sumo, or set SUMO_HOME to its folder");
 }
 
+std::vector<std::filesystem::path> typemaps() {
+  const std::filesystem::path folder = sumo_home() / "data/typemap";
+  std::vector<std::filesystem::path> files;
+  for (const char* name : {"osmNetconvert", "osmNetconvertUrbanDe", "osmNetconvertPedestrians",
+                           "osmNetconvertBicycle"})
+    files.push_back(folder / (std::string(name) + ".typ.xml"));
+  return files;
+}
+
 std::vector<std::string> run_netconvert(const NetconvertRequest& request) {
-  const std::string typemap = (sumo_home() / "data/typemap").string() + "/";
+  std::string types;
+  for (const std::filesystem::path& file : typemaps())
+    types += (types.empty() ? "" : ",") + file.string();
+  if (!request.road_types.empty()) types += "," + request.road_types;
   std::vector<std::string> arguments = {
       "--xml-validation", "never", "--osm-files", request.prepared, "-o", request.network, "-t",
-      typemap + "osmNetconvert.typ.xml," + typemap + "osmNetconvertUrbanDe.typ.xml," + typemap +
-          "osmNetconvertPedestrians.typ.xml," + typemap + "osmNetconvertBicycle.typ.xml",
-      "--proj", request.projection, "--offset.disable-normalization", "--geometry.remove",
+      types, "--proj", request.projection, "--offset.disable-normalization", "--geometry.remove",
       "--roundabouts.guess", "--ramps.guess", "--junctions.corner-detail", "5",
       "--junctions.internal-link-detail", "8",
       // bodies turn about a rear axle: with SUMO's 4 m no bus and hardly a van gets round a

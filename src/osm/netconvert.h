@@ -16,6 +16,7 @@ struct NetconvertRequest {
   std::filesystem::path
       folder;  ///< netconvert runs here: no path of this machine gets into the network
   std::string prepared = "work/prepared.osm";  ///< OSM XML, within the folder
+  std::string road_types;  ///< file of write_road_types(), within the folder; "" for none
   std::string network = "net.net.xml";         ///< to write
   std::string log = "netconvert.log";          ///< netconvert's own words, appended
   std::string joined = "work/joined.nod.xml";  ///< to write: what it joined by itself
@@ -33,6 +34,9 @@ struct NetconvertRequest {
 /// Folder of SUMO's data: $SUMO_HOME where it is set and holds typemaps, else /usr/share/sumo.
 /// Throws Error where neither does.
 std::filesystem::path sumo_home();
+
+/// The files of road types that netconvert gets, of SUMO's own, later ones over earlier ones.
+std::vector<std::filesystem::path> typemaps();
 
 /// Runs netconvert on a prepared map with the option set that docs/import.md explains. Returns its
 /// command line. Throws Error with netconvert's own message where it is missing, fails or crashes;

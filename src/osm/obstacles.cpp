@@ -122,25 +122,28 @@ std::vector<Ring> off_lanes(const LaneClearing& clearing, const Ring& chain, boo
 std::vector<std::vector<Ring>> cut_out_lanes(const LaneClearing& clearing,
                                              const std::vector<Ring>& rings, bool& whole) {
   Vec2 low = rings[0][0], high = low;
-  ClipperLib::Clipper clipper;
+  ClipperLib::Paths building;
   double area_before = 0;
   for (const Ring& ring : rings) {
     const ClipperLib::Path path = to_clipper(ring);
     area_before += (&ring == &rings.front() ? 1.0 : -1.0) * std::abs(ClipperLib::Area(path));
-    clipper.AddPath(path, ClipperLib::ptSubject, true);
+    building.push_back(path);
     for (const Vec2& p : ring) {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
   }
+  std::vector<ClipperLib::Paths> lanes;
   for (const Ring& ring : clearing.polygons_near(low, high)) {
     ClipperLib::Path path = to_clipper(ring);
     if (!ClipperLib::Orientation(path))
       ClipperLib::ReversePath(path);  // filled by winding: all must turn one way
-    clipper.AddPath(path, ClipperLib::ptClip, true);
+    lanes.push_back({std::move(path)});
   }
+  ClipperLib::Clipper clipper;
+  clipper.AddPaths(without(std::move(building), lanes), ClipperLib::ptSubject, true);
   ClipperLib::PolyTree tree;
-  clipper.Execute(ClipperLib::ctDifference, tree, ClipperLib::pftEvenOdd, ClipperLib::pftNonZero);
+  clipper.Execute(ClipperLib::ctUnion, tree, ClipperLib::pftEvenOdd, ClipperLib::pftNonZero);
 
   std::vector<std::vector<Ring>> polygons;
   double area_after = 0;

@@ -89,6 +89,8 @@ struct OsmMap {
   std::vector<MapArea> areas;          ///< buildings and pedestrian areas
   std::optional<GeoBox> bounds;        ///< what the file says it covers
   std::map<std::string, long> counts;  ///< what was read: "nodes", "ways", "deleted_objects", ...
+  std::string server_remark;           ///< why a server's answer is not whole; "" for none
+  std::string bad_place;               ///< a node that is nowhere on the earth; "" for none
   std::int64_t next_id = 1;            ///< above every id in use
 
   std::int64_t new_id() { return next_id++; }

@@ -21,11 +21,11 @@
 #include <osmium/osm/object_comparisons.hpp>
 #include <osmium/version.hpp>
 #include <osmium/visitor.hpp>
-#include <pugixml.hpp>
 #include <set>
-#include <sstream>
 
 #include "base/error.h"
+#include "osm/file_kind.h"
+#include "osm/xml_dialects.h"
 
 namespace sumogamma::osm {
 namespace {
@@ -54,46 +54,26 @@ GeoPoint point_of(osmium::Location location) {
   return {location.lon_without_check(), location.lat_without_check()};
 }
 
-/// The text of a JOSM file without the objects that were deleted in the editor; empty where there
-/// are none. libosmium knows nothing of action='delete' and would bring them back.
-std::string without_deleted_objects(const std::filesystem::path& file,
-                                    std::map<std::string, long>& counts) {
-  osmium::io::File input(file.string());
+constexpr std::size_t kLargestText = std::size_t{1} << 29;  // bytes: what is rewritten as XML
+
+/// The text of an XML file, cut where it is very large, and what is unusual in it. It is looked at
+/// block by block: only small files come out of an editor or a server, large ones must not be held
+/// whole.
+std::string read_text(const osmium::io::File& input, XmlDialect& dialect) {
   if (input.format() != osmium::io::file_format::xml) return {};
-  const int descriptor = osmium::io::detail::open_for_reading(file.string());
+  constexpr std::size_t kOverlap = 256;
+  const int descriptor = osmium::io::detail::open_for_reading(input.filename());
   auto decompressor = osmium::io::CompressionFactory::instance().create_decompressor(
       input.compression(), descriptor);
-  // look first, block by block: only small files come out of an editor, large ones must not be held
-  // whole
-  const std::string single = "action='delete'", twice = "action=\"delete\"";
   std::string text, tail;
-  bool found = false;
   for (std::string block = decompressor->read(); !block.empty(); block = decompressor->read()) {
     const std::string seen = tail + block;
-    found =
-        found || seen.find(single) != std::string::npos || seen.find(twice) != std::string::npos;
-    tail = seen.substr(seen.size() - std::min(seen.size(), single.size() - 1));
-    if (text.size() < (std::size_t{1} << 29)) text += block;
+    look_at_xml(seen, dialect);
+    tail = seen.substr(seen.size() - std::min(seen.size(), kOverlap));
+    if (text.size() < kLargestText) text += block;
   }
   decompressor->close();
-  if (!found) return {};
-
-  pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
-  if (!parsed)
-    throw Error(file.string(), std::string("not well-formed XML: ") + parsed.description());
-  pugi::xml_node root = document.child("osm");
-  for (pugi::xml_node object = root.first_child(); object;) {
-    const pugi::xml_node next = object.next_sibling();
-    if (std::string_view(object.attribute("action").value()) == "delete") {
-      root.remove_child(object);
-      ++counts["deleted_objects"];
-    }
-    object = next;
-  }
-  std::ostringstream filtered;
-  document.save(filtered, "", pugi::format_raw);
-  return filtered.str();
+  return text;
 }
 
 /// First pass: where the nodes are, which relations make areas, and whether objects stand in the
@@ -337,21 +317,12 @@ void check_readable(const std::filesystem::path& file) {
     throw Error(
         file.string(),
         "is a folder; expected an OpenStreetMap extract (.osm, .osm.gz, .osm.bz2, .osm.pbf)");
-  const std::string name = file.filename().string();
-  auto ends = [&](std::string_view suffix) { return name.ends_with(suffix); };
-  if (!ends(".osm") && !ends(".osm.gz") && !ends(".osm.bz2") && !ends(".pbf") && !ends(".xml"))
-    throw Error(file.string(),
-                "unknown kind of file; expected .osm, .osm.gz, .osm.bz2 or .osm.pbf");
   if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(file, code) == 0)
     throw Error(file.string(), "is empty; expected an OpenStreetMap extract");
 }
 
-OsmMap read_checked(const std::filesystem::path& file, const std::optional<GeoBox>& keep) {
+OsmMap read_checked(const osmium::io::File& input, const std::optional<GeoBox>& keep) {
   OsmMap map;
-  const std::string filtered = without_deleted_objects(file, map.counts);
-  const osmium::io::File input = filtered.empty()
-                                     ? osmium::io::File(file.string())
-                                     : osmium::io::File(filtered.data(), filtered.size(), "osm");
   Index positive, negative;
   Locations locations(positive, negative);
   locations.ignore_errors();
@@ -377,13 +348,51 @@ OsmMap read_checked(const std::filesystem::path& file, const std::optional<GeoBo
   return map;
 }
 
+osmium::io::File as_input(const std::string& text) {
+  return osmium::io::File(text.data(), text.size(), "osm");
+}
+
+/// Reads the file as it stands, or as plain XML where it has what libosmium doesn't know, or
+/// refuses: what it says of the file itself holds where neither can be read.
+OsmMap read_either(const std::filesystem::path& file, const std::optional<GeoBox>& keep) {
+  const osmium::io::File input(file.string(), kind_of_file(file));
+  XmlDialect dialect;
+  const std::string text = read_text(input, dialect);
+  std::map<std::string, long> counts;
+  OsmMap map;
+  if (dialect.any()) {
+    map = read_checked(as_input(plain_osm_xml(text, file, counts)), keep);
+  } else {
+    try {
+      map = read_checked(input, keep);
+    } catch (const osmium::invalid_location&) {
+      const std::string where = node_off_the_earth(text);
+      if (where.empty()) throw;
+      throw Error(file.string(), where + " is no place on the earth: mend or delete it");
+    } catch (const std::exception&) {
+      std::string plain;
+      try {
+        if (text.size() < kLargestText) plain = plain_osm_xml(text, file, counts);
+      } catch (const Error&) {  // no XML either: the first reason holds
+      }
+      if (plain.empty()) throw;
+      map = read_checked(as_input(plain), keep);
+      ++counts["read_as_plain_xml"];
+    }
+  }
+  map.counts.merge(counts);
+  map.server_remark = dialect.remark;
+  if (map.counts["nodes_without_valid_place"] > 0) map.bad_place = node_off_the_earth(text);
+  return map;
+}
+
 }  // namespace
 
 OsmMap read_osm(const std::filesystem::path& file, const std::optional<GeoBox>& keep) {
   check_readable(file);
   OsmMap map;
   try {
-    map = read_checked(file, keep);
+    map = read_either(file, keep);
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -394,8 +403,12 @@ OsmMap read_osm(const std::filesystem::path& file, const std::optional<GeoBox>& 
                                    "; download or convert it again");
   }
   if (map.counts["nodes"] == 0)
-    throw Error(file.string(),
-                "holds no OpenStreetMap objects; expected nodes and ways (an empty download?)");
+    throw Error(
+        file.string(),
+        "holds no OpenStreetMap objects; expected nodes and ways (an empty download?" +
+            (map.server_remark.empty() ? ")" : "; the server said: " + map.server_remark + ")"));
+  if (!map.bad_place.empty() && map.ways.empty())
+    throw Error(file.string(), map.bad_place + " is no place on the earth; are the two mixed up?");
   return map;
 }
 

@@ -40,7 +40,8 @@ Tags traffic_tags(const Tags& tags) {
 
 }  // namespace
 
-void write_prepared_osm(const OsmMap& map, const std::filesystem::path& file) {
+void write_prepared_osm(const OsmMap& map, const std::filesystem::path& file,
+                        const HighwayValues& values) {
   std::set<std::int64_t> used;
   for (const MapWay& way : map.ways)
     if (way.tags.contains("highway")) used.insert(way.nodes.begin(), way.nodes.end());
@@ -65,7 +66,9 @@ void write_prepared_osm(const OsmMap& map, const std::filesystem::path& file) {
     element.append_attribute("id") = static_cast<long long>(id);
     for (const std::int64_t ref : way->nodes)
       element.append_child("nd").append_attribute("ref") = static_cast<long long>(ref);
-    append_tags(element, way->tags);
+    Tags tags = way->tags;
+    if (const auto value = values.find(id); value != values.end()) tags["highway"] = value->second;
+    append_tags(element, tags);
   }
   for (const MapRelation& relation : map.relations) {
     pugi::xml_node element = root.append_child("relation");

@@ -6,8 +6,11 @@
 #include <set>
 
 #include "base/units.h"
+#include "osm/contraflow.h"
 #include "osm/doubled_roads.h"
+#include "osm/mode_access.h"
 #include "osm/round_bends.h"
+#include "osm/tag_values.h"
 
 namespace sumogamma::osm {
 namespace {
@@ -33,6 +36,10 @@ const char* reason_to_drop(const MapWay& way) {
   if (is_path_way(way) && (tag_is(way.tags, "location", {"underground", "indoor"}) ||
                            tag_is(way.tags, "tunnel", {"yes", "passage"}) || below))
     return "underground_path";
+  if (is_car_way(way)) {
+    const ModeAccess access = mode_access(way.tags);
+    return access.motors || access.bicycle || access.foot ? nullptr : "private";
+  }
   if (tag_is(way.tags, "access", kClosed) && !tag_is(way.tags, "foot", kYes) &&
       !tag_is(way.tags, "bicycle", kYes) && !tag_is(way.tags, "motor_vehicle", kYes) &&
       !tag_is(way.tags, "vehicle", kYes))
@@ -43,24 +50,25 @@ const char* reason_to_drop(const MapWay& way) {
   return nullptr;
 }
 
-/// Roads that motors may not enter become paths for those who may.
+/// Roads that motors may not enter become paths for those who may; where some of them may they stay
+/// roads, whose type shuts out the others (road_types.h).
 void close_to_motors(MapWay& way, IssueLog& log) {
   if (!is_car_way(way)) return;
-  const bool access_closed = tag_is(way.tags, "access", kClosed);
-  const bool bus = tag_is(way.tags, "bus", kYes) || tag_is(way.tags, "psv", kYes);
-  const bool motors_open = tag_is(way.tags, "motor_vehicle", kYes) ||
-                           tag_is(way.tags, "vehicle", kYes) || tag_is(way.tags, "motorcar", kYes);
-  const bool motors_closed = tag_is(way.tags, "motor_vehicle", kClosed) ||
-                             tag_is(way.tags, "vehicle", kClosed) ||
-                             tag_is(way.tags, "motorcar", kClosed);
-  if (!motors_closed && !(access_closed && !motors_open)) return;
-  if (bus && !tag_is(way.tags, "access", {"private"})) return;  // a bus street stays a street
-  const bool wheels_closed = tag_is(way.tags, "vehicle", kClosed) ||
-                             tag_is(way.tags, "bicycle", kClosed) ||
-                             (access_closed && !tag_is(way.tags, "bicycle", kYes));
-  way.tags["highway"] = wheels_closed ? "footway" : "path";
-  log.add(Severity::Note, "closed_to_motors",
-          "roads closed to motor vehicles, kept for walking and cycling", way_name(way));
+  const ModeAccess access = mode_access(way.tags);
+  if (!access.motors) {
+    way.tags["highway"] = access.bicycle ? "path" : "footway";
+    log.add(Severity::Note, "closed_to_motors",
+            "roads closed to motor vehicles, kept for walking and cycling", way_name(way));
+    return;
+  }
+  if (!access.bicycle) way.tags["bicycle"] = "no";
+  if (!access.foot) {
+    way.tags["foot"] = "no";
+    way.tags.try_emplace("sidewalk", "no");
+  }
+  if (!access.closed.empty())
+    log.add(Severity::Note, "closed_to_some", "roads closed to some kinds of motor vehicles",
+            way_name(way));
 }
 
 using Uses = std::map<std::int64_t, int>;
@@ -679,7 +687,9 @@ void filter_restrictions(OsmMap& map, IssueLog& log) {
 
 void prepare_map(OsmMap& map, const PrepareOptions& options, IssueLog& log) {
   select_ways(map, log);
+  correct_tag_values(map, log);
   normalise_tags(map, log);
+  rewrite_contraflow(map, options.left_hand, log);
   drop_doubled_roads(map, log);
   if (options.left_hand) reverse_turn_lanes(map, log);
   if (options.clip) {

@@ -43,11 +43,32 @@ ClipperLib::Paths grown(const ClipperLib::Paths& polygons, double margin) {
   return result;
 }
 
-/// The ground within a distance of a line, with the box about it [m].
+/// A box [m].
+struct Box {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+
+  void extend(const Vec2& point) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  bool meets(const Box& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+};
+
+Box box_about(const ClipperLib::Paths& paths) {
+  Box box;
+  for (const ClipperLib::Path& path : paths)
+    for (const Vec2& point : from_clipper(path)) box.extend(point);
+  return box;
+}
+
+/// The ground within a distance of a line.
 struct Strip {
   ClipperLib::Paths ground;
-  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  double height = 0;  ///< [m]
+  Box whole;               ///< about it
+  std::vector<Box> boxes;  ///< about each piece of the line and its ground
+  double height = 0;       ///< [m]
 };
 
 Strip strip_of(const Polyline& line, double height, double half_width, ClipperLib::EndType ends) {
@@ -56,9 +77,16 @@ Strip strip_of(const Polyline& line, double height, double half_width, ClipperLi
   ClipperLib::ClipperOffset offset(2.0, kRoundness * kClipperScale);
   offset.AddPath(to_clipper(line.points()), ClipperLib::jtRound, ends);
   offset.Execute(strip.ground, half_width * kClipperScale);
-  for (const Vec2& point : line.points()) {
-    strip.low = strip.low.cwiseMin(point - Vec2::Constant(half_width));
-    strip.high = strip.high.cwiseMax(point + Vec2::Constant(half_width));
+  const std::vector<Vec2>& points = line.points();
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    Box box;
+    for (const Vec2& point : {points[i], points[i + 1]}) {
+      box.extend(point - Vec2::Constant(half_width));
+      box.extend(point + Vec2::Constant(half_width));
+    }
+    strip.boxes.push_back(box);
+    strip.whole.extend(box.low);
+    strip.whole.extend(box.high);
   }
   return strip;
 }
@@ -141,43 +169,50 @@ std::vector<Strip> walked_ways(const std::vector<WalkingEnd>& ends, double heigh
   return strips;
 }
 
-/// Adds those of the strips that come near the area, and not far above or below it; whether there
-/// are any.
-bool add_near(const std::vector<Strip>& strips, const Lane& area, ClipperLib::PolyType as,
-              ClipperLib::Clipper& clipper) {
-  Strip own;
-  for (const Vec2& point : area.outline) {
-    own.low = own.low.cwiseMin(point);
-    own.high = own.high.cwiseMax(point);
-  }
-  bool any = false;
-  for (const Strip& strip : strips) {
-    if ((strip.low.array() > own.high.array()).any() ||
-        (strip.high.array() < own.low.array()).any() ||
-        std::abs(strip.height - elevation_at(area, 0.0)) > kOtherStorey)
-      continue;
-    any = clipper.AddPaths(strip.ground, as, true) || any;
-  }
-  return any;
+/// The outline, which may cross itself, as polygons that don't.
+ClipperLib::Paths outline_of(const Lane& area) {
+  ClipperLib::Paths outline;
+  ClipperLib::SimplifyPolygon(to_clipper(area.outline), outline, ClipperLib::pftNonZero);
+  return outline;
+}
+
+/// The ground of those of the strips that come near a box at a height.
+std::vector<ClipperLib::Paths> ground_near(const std::vector<Strip>& strips, const Box& box,
+                                           double height) {
+  std::vector<ClipperLib::Paths> ground;
+  for (const Strip& strip : strips)
+    if (strip.whole.meets(box) && std::abs(strip.height - height) <= kOtherStorey &&
+        std::any_of(strip.boxes.begin(), strip.boxes.end(),
+                    [&](const Box& piece) { return piece.meets(box); }))
+      ground.push_back(strip.ground);
+  return ground;
+}
+
+/// What of an area vehicles need beside the lanes. Little of it lies on their ways, so that each
+/// step leaves little for the next.
+ClipperLib::Paths needed_of(const Lane& area, const std::vector<WalkingEnd>& ends,
+                            const std::vector<Strip>& ways, const std::vector<Strip>& lanes) {
+  const double height = elevation_at(area, 0.0);
+  const ClipperLib::Paths outline = outline_of(area);
+  if (ground_near(ways, box_about(outline), height).empty()) return {};
+  const ClipperLib::Paths beside = without(outline, ground_near(lanes, box_about(outline), height));
+  const ClipperLib::Paths untouched = without(beside, ground_near(ways, box_about(beside), height));
+  const ClipperLib::Paths needed = without(beside, {untouched});
+  if (needed.empty()) return {};
+  return without(needed, ground_near(walked_ways(ends, height), box_about(needed), height));
 }
 
 /// What is left of an area; nothing where it is the same, or falls apart.
 std::optional<std::vector<Vec2>> cut(const RoadNetwork& road, const Lane& area,
                                      const std::vector<Strip>& ways,
                                      const std::vector<Strip>& lanes) {
-  ClipperLib::Clipper beside;
-  if (!add_near(ways, area, ClipperLib::ptSubject, beside)) return std::nullopt;
-  add_near(lanes, area, ClipperLib::ptClip, beside);
   const std::vector<WalkingEnd> ends = walking_ends(road, area);
-  add_near(walked_ways(ends, elevation_at(area, 0.0)), area, ClipperLib::ptClip, beside);
-  ClipperLib::Paths needed, pieces;
-  beside.Execute(ClipperLib::ctDifference, needed, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
-  ClipperLib::Clipper clipper;
-  const ClipperLib::Path outline = to_clipper(area.outline);
-  clipper.AddPath(outline, ClipperLib::ptSubject, true);
-  clipper.AddPaths(needed, ClipperLib::ptClip, true);
-  clipper.Execute(ClipperLib::ctDifference, pieces, ClipperLib::pftNonZero, ClipperLib::pftNonZero);
-  double taken = std::abs(ClipperLib::Area(outline));
+  const ClipperLib::Paths needed = needed_of(area, ends, ways, lanes);
+  if (needed.empty()) return std::nullopt;
+  const ClipperLib::Paths outline = outline_of(area);
+  ClipperLib::Paths pieces = without(outline, {needed});
+  double taken = 0;
+  for (const ClipperLib::Path& whole : outline) taken += ClipperLib::Area(whole);
   for (const ClipperLib::Path& piece : pieces) taken -= ClipperLib::Area(piece);
   if (taken < kWorthIt * kClipperScale * kClipperScale) return std::nullopt;
   pieces = grown(grown(pieces, -kSliver), kSliver);

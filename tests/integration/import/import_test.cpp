@@ -22,6 +22,7 @@ using testing::HasSubstr;
 
 const fs::path kFixtures = fs::path(SUMOGAMMA_SOURCE_DIR) / "tests/support/osm";
 const fs::path kMaps = fs::path(SUMOGAMMA_SOURCE_DIR) / "osm_maps";
+const fs::path kSharedCases = fs::path(SUMOGAMMA_SHARED_DIR) / "cases/osm";
 const fs::path kSharedMaps = fs::path(SUMOGAMMA_SHARED_DIR) / "data/maps";
 
 std::string content(const fs::path& file) {
@@ -486,6 +487,117 @@ TEST_F(ImportTest, LeavesNothingWhenInterrupted) {
   EXPECT_EQ(result.exit_code, 130) << describe_end(result, 0);
   expect_nothing_left();
 }
+
+/// Ways on which a class may drive in a network, by the map's ids: "5000", "-5000" against it.
+std::set<std::string> ways_open_to(const RoadNetwork& road, VehicleClassMask vehicle) {
+  std::set<std::string> ways;
+  for (const Edge& edge : road.edges)
+    if (edge.kind == LaneKind::Normal && allows(road, edge, vehicle))
+      ways.insert(edge.name.substr(0, edge.name.find('#')));
+  return ways;
+}
+
+/// An unloaded grid of streets of 150 m; the first way has the tags, node 1 is its first one.
+std::string grid_with(const std::string& tags) {
+  std::string map = "<osm version='0.6'>";
+  for (int i = 0; i < 9; ++i)
+    map += "<node id='" + std::to_string(i + 1) + "' lat='" +
+           std::to_string(48 + 0.0014 * (i / 3)) + "' lon='" + std::to_string(9 + 0.002 * (i % 3)) +
+           "'/>";
+  const auto way = [&](int id, int a, int b, int c, const std::string& more) {
+    map += "<way id='" + std::to_string(id) + "'>";
+    for (const int node : {a, b, c}) map += "<nd ref='" + std::to_string(node) + "'/>";
+    map += "<tag k='highway' v='residential'/>" + more + "</way>";
+  };
+  way(100, 4, 5, 6, tags);
+  way(101, 1, 2, 3, "");
+  way(102, 7, 8, 9, "");
+  for (int i = 1; i <= 3; ++i) way(102 + i, i, i + 3, i + 6, "");
+  return map + "</osm>";
+}
+
+std::string as_tag(const std::string& key, const std::string& value) {
+  return "<tag k='" + key + "' v='" + value + "'/>";
+}
+
+TEST_F(ImportTest, BicyclesRideAgainstTheTrafficWhereTheMapSaysSo) {
+  using namespace vehicle_class;
+  for (const auto& [key, value] :
+       {std::pair{"oneway:bicycle", "no"}, std::pair{"cycleway", "opposite"}}) {
+    const auto result =
+        import(put("map.osm", grid_with(as_tag("oneway", "yes") + as_tag(key, value))),
+               {"--agents", "5", "--duration", "60", "--force"});
+    ASSERT_EQ(result.exit_code, 0) << result.errors;
+    const RoadNetwork road = read_sumo_net(out() / "net.net.xml");
+    EXPECT_TRUE(ways_open_to(road, kBicycle).contains("-100")) << key;
+    EXPECT_FALSE(ways_open_to(road, kPassenger).contains("-100")) << key;
+    EXPECT_TRUE(ways_open_to(road, kPassenger).contains("100")) << key;
+  }
+}
+
+TEST_F(ImportTest, MoreSpecificTagsOfAccessHold) {
+  using namespace vehicle_class;
+  const auto import_with = [&](const std::string& tags) {
+    const auto result =
+        import(put("map.osm", grid_with(tags)), {"--agents", "5", "--duration", "60", "--force"});
+    EXPECT_EQ(result.exit_code, 0) << result.errors;
+    return read_sumo_net(out() / "net.net.xml");
+  };
+  const RoadNetwork bus = import_with(as_tag("access", "no") + as_tag("bus", "yes"));
+  EXPECT_TRUE(ways_open_to(bus, kBus).contains("100"));
+  for (const VehicleClassMask shut : {kPassenger, kTruck, kMotorcycle, kBicycle, kPedestrian})
+    EXPECT_FALSE(ways_open_to(bus, shut).contains("100")) << shut;
+  const RoadNetwork motorcycle =
+      import_with(as_tag("motorcar", "no") + as_tag("motorcycle", "yes"));
+  EXPECT_TRUE(ways_open_to(motorcycle, kMotorcycle).contains("100"));
+  EXPECT_TRUE(ways_open_to(motorcycle, kPedestrian).contains("100"));
+  EXPECT_FALSE(ways_open_to(motorcycle, kPassenger).contains("100"));
+}
+
+TEST_F(ImportTest, TypingErrorsAreBoundedAndSaid) {
+  for (const auto& [key, value, kind] : {std::tuple{"lanes", "99", "lanes_not_meant"},
+                                         std::tuple{"maxspeed", "0", "maxspeed_not_meant"},
+                                         std::tuple{"maxspeed", "999", "maxspeed_not_meant"},
+                                         std::tuple{"layer", "99", "layer_not_meant"}}) {
+    const auto result = import(put("map.osm", grid_with(as_tag(key, value))),
+                               {"--agents", "5", "--duration", "60", "--force"});
+    ASSERT_EQ(result.exit_code, 0) << key << result.errors;
+    const auto report = nlohmann::json::parse(content(out() / "import.json"));
+    const auto& issues = report.at("issues");
+    EXPECT_TRUE(std::any_of(issues.begin(), issues.end(), [&](const nlohmann::json& issue) {
+      return issue.at("kind") == kind && issue.at("severity") == "warning";
+    })) << key;
+    const RoadNetwork road = read_sumo_net(out() / "net.net.xml");
+    EXPECT_TRUE(ways_open_to(road, vehicle_class::kPassenger).contains("100")) << key;
+    for (const Edge& edge : road.edges) EXPECT_LE(edge.lanes.size(), 4u);
+  }
+}
+
+class ReportedCaseTest : public ImportTest,
+                         public testing::WithParamInterface<std::pair<const char*, const char*>> {};
+
+TEST_P(ReportedCaseTest, IsReadOrSaysWhatHelps) {
+  const fs::path map = kSharedCases / GetParam().first;
+  if (!fs::exists(map)) GTEST_SKIP() << "no " << map << ": the reported cases don't ship";
+  const ProcessResult result = import(map, {"--agents", "5", "--duration", "60"});
+  if (result.exit_code == 2) return expect_refused(result, GetParam().second);
+  ASSERT_EQ(result.exit_code, 0) << describe_end(result, 0) << result.errors;
+  EXPECT_THAT(result.output + content(out() / "import.json"), HasSubstr(GetParam().second));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases, ReportedCaseTest,
+    testing::Values(std::pair{"f_overpass_remark.osm", "not whole"},
+                    std::pair{"f_geom_member.osm", ""}, std::pair{"f_osmnx_version1.osm", ""},
+                    std::pair{"f_lat91.osm", "node 1000 at latitude 91"},
+                    std::pair{"f_one_way.osm", "f_one_way.osm: nobody can travel"},
+                    std::pair{"l_99.osm", "lanes=99"}, std::pair{"t_oneway.osm", "oneway_by_hour"},
+                    std::pair{"t_access.osm", "closed_to_some"},
+                    std::pair{"t_lanes.osm", "lanes_not_meant"},
+                    std::pair{"t_maxspeed.osm", "maxspeed_not_meant"}),
+    [](const auto& info) {
+      return std::string(info.param.first, std::string(info.param.first).find('.'));
+    });
 
 TEST_F(ImportTest, SurvivesDamagedMaps) {
   // whole pipeline: a flipped bit may leave a readable map, and then it must still build or be

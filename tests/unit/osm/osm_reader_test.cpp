@@ -151,6 +151,69 @@ TEST_F(OsmReaderTest, NamesTheFileAndTheTrouble) {
             std::string::npos);
 }
 
+TEST_F(OsmReaderTest, LooksAtTheBytesNotAtTheName) {
+  const std::string text = content(kFixtures / "square_right.osm");
+  const std::string pbf = content(kMaps / "fujisawa.osm.pbf");
+  const OsmMap map = read_osm(kFixtures / "square_right.osm");
+  for (const char* name : {"map.pbf", "map.osm.gz", "map", "map.xml", "map.txt"})
+    EXPECT_EQ(read_osm(put(name, text)).ways.size(), map.ways.size()) << name;
+  const std::size_t ways = read_osm(kMaps / "fujisawa.osm.pbf").ways.size();
+  for (const char* name : {"map.osm", "map.osm.bz2", "map"})
+    EXPECT_EQ(read_osm(put(name, pbf)).ways.size(), ways) << name;
+  EXPECT_NE(error_of(put("map.osm", "PK\x03\x04 packed")).find("unpack it"), std::string::npos);
+  EXPECT_NE(error_of(put("json.osm", "{\"elements\": []}")).find("is JSON"), std::string::npos);
+  EXPECT_NE(error_of(put("page.osm", "<!DOCTYPE html><html>429")).find("web page"),
+            std::string::npos);
+  EXPECT_NE(
+      error_of(put("net.xml", "<?xml version='1.0'?>\n<net version=\"1.9\">")).find("network"),
+      std::string::npos);
+}
+
+TEST_F(OsmReaderTest, ReadsAnswersOfServersAndLibrariesThatAreNotPlain) {
+  const std::string body =
+      "<bounds minlat='47.9' minlon='10.9' maxlat='48.1' maxlon='11.1'/>"
+      "<way id='10'><center lat='48' lon='11'/><nd ref='1' lat='48.0' lon='11.0'/>"
+      "<nd ref='2' lat='48.001' lon='11.0'/><tag k='highway' v='residential'/></way>"
+      "<relation id='5'><member type='way' ref='10' role=''><nd lat='48' lon='11'/></member>"
+      "</relation></osm>";
+  for (const char* version : {"0.6", "1", "1.0"}) {
+    const OsmMap map =
+        read_osm(put("map.osm", "<osm version=\"" + std::string(version) + "\">" + body));
+    ASSERT_EQ(map.ways.size(), 1u) << version;
+    EXPECT_EQ(map.ways[0].nodes.size(), 2u);
+    EXPECT_NEAR(map.nodes.at(2).place.lat, 48.001, 1e-6);
+    EXPECT_EQ(map.counts.at("nodes_from_ways"), 2);
+    EXPECT_TRUE(map.bounds.has_value());
+  }
+}
+
+TEST_F(OsmReaderTest, PassesOnThatAnAnswerIsNotWhole) {
+  std::string text = with_action(kTwoWays, "");
+  text.insert(text.find("</osm>"), "<remark> runtime error: Query timed out </remark>");
+  EXPECT_NE(read_osm(put("cut.osm", text)).server_remark.find("timed out"), std::string::npos);
+  EXPECT_EQ(read_osm(put("whole.osm", with_action(kTwoWays, ""))).server_remark, "");
+  EXPECT_NE(error_of(put("none.osm", "<osm version='0.6'><remark>out of memory</remark></osm>"))
+                .find("out of memory"),
+            std::string::npos);
+}
+
+TEST_F(OsmReaderTest, NamesANodeThatIsNowhere) {
+  const auto map_with = [&](const std::string& place) {
+    std::string text = with_action(kTwoWays, "");
+    text.insert(text.find("<way"), "<node id=\"77\" version=\"1\" " + place + "/>");
+    return put("map.osm", text);
+  };
+  EXPECT_NE(
+      read_osm(map_with("lat=\"91.5\" lon=\"11\"")).bad_place.find("node 77 at latitude 91.5"),
+      std::string::npos);
+  EXPECT_NE(read_osm(map_with("lat=\"48\" lon=\"181\"")).bad_place.find("181"), std::string::npos);
+  EXPECT_NE(error_of(map_with("lat=\"48\" lon=\"5000\"")).find("node 77"), std::string::npos);
+  std::string all = with_action(kTwoWays, "");
+  for (std::size_t at = all.find("lat=\"48"); at != std::string::npos; at = all.find("lat=\"48"))
+    all.replace(at, 7, "lat=\"98");
+  EXPECT_NE(error_of(put("all.osm", all)).find("node 1 at latitude 98"), std::string::npos);
+}
+
 /// Reads a damaged file: it may be readable still (a flipped digit), but never ends other than by a
 /// result or an Error.
 void expect_result_or_error(const fs::path& file, const std::string& trace) {

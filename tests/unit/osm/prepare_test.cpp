@@ -47,6 +47,10 @@ TEST(SelectWays, KeepsWhatIsOpenAndDropsWhatIsNot) {
   EXPECT_EQ(kept_as({{"highway", "residential"}, {"motor_vehicle", "no"}, {"bus", "yes"}}),
             "residential");
   EXPECT_EQ(kept_as({{"highway", "residential"}, {"vehicle", "no"}}), "footway");
+  EXPECT_EQ(kept_as({{"highway", "residential"}, {"vehicle", "no"}, {"bicycle", "yes"}}), "path");
+  EXPECT_EQ(kept_as({{"highway", "residential"}, {"access", "no"}, {"bus", "yes"}}), "residential");
+  EXPECT_EQ(kept_as({{"highway", "residential"}, {"access", "no"}, {"motorcycle", "yes"}}),
+            "residential");
   EXPECT_EQ(kept_as({{"highway", "footway"}, {"access", "private"}}), "");
   EXPECT_EQ(kept_as({{"highway", "footway"}, {"tunnel", "yes"}, {"layer", "-1"}}), "");
   EXPECT_EQ(kept_as({{"highway", "footway"}, {"tunnel", "building_passage"}}), "footway");
