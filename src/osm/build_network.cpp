@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "osm/backward_turns.h"
 #include "osm/carriageways_apart.h"
 #include "osm/driving_side.h"
 #include "osm/geo_projection.h"
@@ -209,6 +210,33 @@ void clear_walking_areas(const std::filesystem::path& network, const RoadNetwork
                    "walking areas cut back to where vehicles turn beside them", area);
 }
 
+/// Takes out turns that lead backwards where there is another way. What netconvert builds without
+/// them may have others: twice at most. The network, or nothing where it was stopped.
+std::optional<RoadNetwork> refuse_backward_turns(const NetconvertRequest& netconvert,
+                                                 RoadNetwork road, BuildResult& result) {
+  constexpr int kRounds = 2;
+  std::vector<ConnectionId> turns = backward_turns(road);
+  for (int round = 0; round < kRounds && !turns.empty(); ++round) {
+    NetworkPatch patch;
+    for (const ConnectionId turn : dispensable_turns(road, turns))
+      patch.refused.push_back(named_turn(road, turn));
+    if (patch.empty()) break;
+    if (patch_network(netconvert, patch).empty()) return std::nullopt;
+    for (const Turn& turn : patch.refused)
+      result.log.add(Severity::Note, "turns_refused",
+                     "turns that would lead backwards over their junction, taken out: there is "
+                     "another way",
+                     turn.from + " to " + turn.to);
+    road = read_sumo_net(netconvert.folder / netconvert.network);
+    turns = backward_turns(road);
+  }
+  for (const ConnectionId turn : turns)
+    result.log.add(Severity::Warning, "turn_leads_back",
+                   "turns that lead backwards over their junction, the only way there",
+                   named_turn(road, turn).from + " to " + named_turn(road, turn).to);
+  return road;
+}
+
 /// Gives the network, as netconvert made it of the map, what netconvert does not read there, and
 /// moves its carriageways apart. The network, or nothing where it was stopped.
 std::optional<RoadNetwork> patch(const OsmMap& map, const NetconvertRequest& netconvert,
@@ -243,7 +271,7 @@ std::optional<RoadNetwork> patch(const OsmMap& map, const NetconvertRequest& net
   const OverlapLength left = overlap_length(*road, find_lane_overlaps(*road));
   if (left.wheels + left.walking > kWorthAnotherPass * left.all_wheels)
     road = patch_apart(netconvert, *road, NetworkPatch{}, result);
-  return road;
+  return road ? refuse_backward_turns(netconvert, *std::move(road), result) : std::nullopt;
 }
 
 /// The network of the map, made anew with junctions joined where only the finished one tells that

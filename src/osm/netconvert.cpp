@@ -222,6 +222,16 @@ void append_prohibitions(const NetworkPatch& patch, pugi::xml_node connections) 
   }
 }
 
+void append_refused(const std::vector<Turn>& turns, pugi::xml_node connections) {
+  for (const Turn& turn : turns) {
+    pugi::xml_node refused = connections.append_child("delete");
+    refused.append_attribute("from") = turn.from.c_str();
+    refused.append_attribute("to") = turn.to.c_str();
+    refused.append_attribute("fromLane") = turn.from_lane;
+    refused.append_attribute("toLane") = turn.to_lane;
+  }
+}
+
 void write_patch(const std::filesystem::path& network_file, const NetworkPatch& patch,
                  const std::filesystem::path& edge_file, const std::filesystem::path& node_file,
                  const std::filesystem::path& connection_file) {
@@ -250,6 +260,7 @@ void write_patch(const std::filesystem::path& network_file, const NetworkPatch& 
     node.append_attribute("type") = type.c_str();
   }
   append_prohibitions(patch, connection_document.append_child("connections"));
+  append_refused(patch.refused, connection_document.child("connections"));
   save_xml(edge_document, edge_file);
   save_xml(node_document, node_file);
   save_xml(connection_document, connection_file);

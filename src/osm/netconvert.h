@@ -54,6 +54,13 @@ struct Prohibition {
   auto operator<=>(const Prohibition&) const = default;
 };
 
+/// A turn over a junction, from lane to lane.
+struct Turn {
+  std::string from, to;  ///< edges
+  int from_lane = 0, to_lane = 0;
+  auto operator<=>(const Turn&) const = default;
+};
+
 /// What netconvert 1.15 does not take from OSM, for a second pass over the finished network.
 struct NetworkPatch {
   /// Roundabouts by tag that it did not recognise (it guesses them from geometry): edges in driving
@@ -63,13 +70,14 @@ struct NetworkPatch {
   /// traffic must stop, "left_before_right" at mini-roundabouts.
   std::map<std::string, std::string> junction_types;
   std::vector<Prohibition> prohibitions;
+  std::vector<Turn> refused;  ///< turns to leave out
 
   /// Lanes of different edges moved off each other.
   CarriagewayPlan carriageways;
 
   bool empty() const {
     return roundabouts.empty() && junction_types.empty() && prohibitions.empty() &&
-           carriageways.empty();
+           refused.empty() && carriageways.empty();
   }
 };
 

@@ -63,33 +63,46 @@ Box box_about(const ClipperLib::Paths& paths) {
   return box;
 }
 
-/// The ground within a distance of a line.
-struct Strip {
-  ClipperLib::Paths ground;
-  Box whole;               ///< about it
-  std::vector<Box> boxes;  ///< about each piece of the line and its ground
-  double height = 0;       ///< [m]
-};
-
-Strip strip_of(const Polyline& line, double height, double half_width, ClipperLib::EndType ends) {
-  Strip strip;
-  strip.height = height;
-  ClipperLib::ClipperOffset offset(2.0, kRoundness * kClipperScale);
-  offset.AddPath(to_clipper(line.points()), ClipperLib::jtRound, ends);
-  offset.Execute(strip.ground, half_width * kClipperScale);
-  const std::vector<Vec2>& points = line.points();
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    Box box;
-    for (const Vec2& point : {points[i], points[i + 1]}) {
-      box.extend(point - Vec2::Constant(half_width));
-      box.extend(point + Vec2::Constant(half_width));
+/// The ground within a distance of a line, made when it is asked for: most of it lies on the lanes,
+/// near nobody's sidewalk.
+class Strip {
+ public:
+  Strip(const Polyline& line, double height, double half_width, ClipperLib::EndType ends)
+      : points_(line.points()), height_(height), half_width_(half_width), ends_(ends) {
+    const Vec2 reach = Vec2::Constant(half_width);
+    for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
+      Box box;
+      for (const Vec2& point : {points_[i], points_[i + 1]}) {
+        box.extend(point - reach);
+        box.extend(point + reach);
+      }
+      boxes_.push_back(box);
+      whole_.extend(box.low);
+      whole_.extend(box.high);
     }
-    strip.boxes.push_back(box);
-    strip.whole.extend(box.low);
-    strip.whole.extend(box.high);
   }
-  return strip;
-}
+
+  bool is_near(const Box& box, double height) const {
+    return whole_.meets(box) && std::abs(height_ - height) <= kOtherStorey &&
+           std::any_of(boxes_.begin(), boxes_.end(),
+                       [&](const Box& piece) { return piece.meets(box); });
+  }
+  const ClipperLib::Paths& ground() const {
+    if (!ground_.empty()) return ground_;
+    ClipperLib::ClipperOffset offset(2.0, kRoundness * kClipperScale);
+    offset.AddPath(to_clipper(points_), ClipperLib::jtRound, ends_);
+    offset.Execute(ground_, half_width_ * kClipperScale);
+    return ground_;
+  }
+
+ private:
+  std::vector<Vec2> points_;
+  double height_, half_width_;  // [m]
+  ClipperLib::EndType ends_;
+  Box whole_;               // about it
+  std::vector<Box> boxes_;  // about each piece of the line and its ground
+  mutable ClipperLib::Paths ground_;
+};
 
 /// Links that follow each other, and how far a way goes on the lane behind the last [m].
 struct Chain {
@@ -131,7 +144,7 @@ void add_driven(const RoadNetwork& road, ConnectionId id, std::vector<Strip>& st
     for (const Chain& chain : chains) {
       const Path way = rounded_way(road, chain.links, kBeside, chain.after, cornering);
       if (!way.line.empty())
-        strips.push_back(strip_of(way.line, height, turner.half_width, ClipperLib::etOpenRound));
+        strips.emplace_back(way.line, height, turner.half_width, ClipperLib::etOpenRound);
     }
   }
 }
@@ -150,8 +163,8 @@ std::vector<Strip> motor_lanes(const RoadNetwork& road) {
   for (const Lane& lane : road.lanes) {
     const bool drives = lane.kind == LaneKind::Normal || lane.kind == LaneKind::Internal;
     if (drives && lane_use(lane) == LaneUse::Driving)
-      strips.push_back(strip_of(lane.centerline, elevation_at(lane, 0.0), 0.5 * lane.width,
-                                ClipperLib::etOpenButt));
+      strips.emplace_back(lane.centerline, elevation_at(lane, 0.0), 0.5 * lane.width,
+                          ClipperLib::etOpenButt);
   }
   return strips;
 }
@@ -163,9 +176,8 @@ std::vector<Strip> walked_ways(const std::vector<WalkingEnd>& ends, double heigh
   for (std::size_t i = 0; i < ends.size(); ++i)
     for (std::size_t k = i + 1; k < ends.size(); ++k)
       if (ends[i].place != ends[k].place)
-        strips.push_back(strip_of(Polyline({ends[i].place, ends[k].place}), height,
-                                  0.5 * std::min(ends[i].width, ends[k].width),
-                                  ClipperLib::etOpenButt));
+        strips.emplace_back(Polyline({ends[i].place, ends[k].place}), height,
+                            0.5 * std::min(ends[i].width, ends[k].width), ClipperLib::etOpenButt);
   return strips;
 }
 
@@ -181,10 +193,7 @@ std::vector<ClipperLib::Paths> ground_near(const std::vector<Strip>& strips, con
                                            double height) {
   std::vector<ClipperLib::Paths> ground;
   for (const Strip& strip : strips)
-    if (strip.whole.meets(box) && std::abs(strip.height - height) <= kOtherStorey &&
-        std::any_of(strip.boxes.begin(), strip.boxes.end(),
-                    [&](const Box& piece) { return piece.meets(box); }))
-      ground.push_back(strip.ground);
+    if (strip.is_near(box, height)) ground.push_back(strip.ground());
   return ground;
 }
 
