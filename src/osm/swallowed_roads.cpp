@@ -8,7 +8,9 @@ namespace sumogamma::osm {
 
 namespace {
 
-constexpr double kNear = 8.0;   ///< nodes no further apart may be one junction [m]
+constexpr double kNear = 8.0;  ///< nodes no further apart may be one junction [m]
+constexpr double kWidest =
+    24.0;  ///< more of a street is no junction, however close its driveways [m]
 constexpr double kDrawn = 1.0;  ///< netconvert leaves no less than 0.1 m of a lane [m]
 
 /// Is a lane drawn wholly before the node where it begins, or behind the one where it ends?
@@ -83,17 +85,47 @@ bool ways_meet(const RoadNetwork& road, const Edge& edge) {
   return false;
 }
 
-/// The nodes of the junctions at the ends of roads that the test tells.
-std::vector<NodeGroup> groups_by_road(const RoadNetwork& road, const auto& test) {
-  std::vector<NodeGroup> groups;
+/// Nodes to join, and where the junctions are that they belong to.
+struct Cluster {
+  NodeGroup nodes;
+  std::vector<Vec2> places;
+};
+
+double extent_of(const std::vector<Vec2>& places) {
+  double extent = 0;
+  for (const Vec2& a : places)
+    for (const Vec2& b : places) extent = std::max(extent, (a - b).norm());
+  return extent;
+}
+
+/// The nodes of the junctions at the ends of roads that the test tells. Roads that follow each
+/// other are joined as long as their junctions lie no further apart than `widest` [m].
+std::vector<NodeGroup> groups_by_road(const RoadNetwork& road, double widest, const auto& test) {
+  std::vector<Cluster> clusters;
   for (const Edge& edge : road.edges) {
     if (edge.kind != LaneKind::Normal || edge.from == kNoJunction || edge.to == kNoJunction ||
         !test(road, edge))
       continue;
-    NodeGroup group = nodes_of(road.junction(edge.from).name);
-    group.merge(nodes_of(road.junction(edge.to).name));
-    add_group(std::move(group), groups);
+    Cluster joined{nodes_of(road.junction(edge.from).name),
+                   {road.junction(edge.from).position, road.junction(edge.to).position}};
+    joined.nodes.merge(nodes_of(road.junction(edge.to).name));
+    const double own = extent_of(joined.places);
+    const auto meets = [&](const Cluster& known) {
+      return std::any_of(known.nodes.begin(), known.nodes.end(),
+                         [&](const std::string& node) { return joined.nodes.contains(node); });
+    };
+    Cluster whole = joined;
+    for (const Cluster& known : clusters)
+      if (meets(known)) {
+        whole.nodes.insert(known.nodes.begin(), known.nodes.end());
+        whole.places.insert(whole.places.end(), known.places.begin(), known.places.end());
+      }
+    if (extent_of(whole.places) > std::max(widest, own)) continue;
+    std::erase_if(clusters, meets);
+    clusters.push_back(std::move(whole));
   }
+  std::vector<NodeGroup> groups;
+  for (Cluster& cluster : clusters) groups.push_back(std::move(cluster.nodes));
   return groups;
 }
 
@@ -112,11 +144,12 @@ NodeGroup nodes_of(const std::string& junction) {
 }
 
 std::vector<NodeGroup> swallowed_roads(const RoadNetwork& road) {
-  return groups_by_road(road, is_swallowed);
+  return groups_by_road(road, kWidest, is_swallowed);
 }
 
 std::vector<NodeGroup> signals_on_ways(const RoadNetwork& road) {
-  return groups_by_road(road, [](const RoadNetwork& network, const Edge& edge) {
+  constexpr double kAnyWidth = 1e9;
+  return groups_by_road(road, kAnyWidth, [](const RoadNetwork& network, const Edge& edge) {
     return leaves_no_room(network, edge) && is_at_a_signal(network, edge) &&
            ways_meet(network, edge);
   });

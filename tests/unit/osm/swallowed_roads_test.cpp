@@ -56,6 +56,25 @@ TEST(SwallowedRoads, OfCarsLeaveNoRoom) {
   EXPECT_THAT(swallowed_roads(road), IsEmpty()) << "two metres are left";
 }
 
+// 58 driveways of one street of Limerick became one junction of 120 m, and its walking areas took
+// for ever
+TEST(SwallowedRoads, AStreetOfDrivewaysIsNotOneJunction) {
+  RoadNetwork road;
+  constexpr int kDriveways = 12;
+  const auto name = [](int i) { return "d" + std::to_string(i); };
+  for (int i = 0; i < kDriveways; ++i) {
+    const double x = 7.0 * i;
+    add_road(road, name(i).c_str(), {x, 0}, name(i + 1).c_str(), {x + 7, 0},
+             {{x + 3.4, 0}, {x + 3.6, 0}});
+  }
+  std::size_t joined = 0;
+  for (const NodeGroup& group : swallowed_roads(road)) {
+    EXPECT_LE(group.size(), 4u);
+    joined += group.size();
+  }
+  EXPECT_GE(joined, 8u);
+}
+
 TEST(SwallowedRoads, OthersAreLeftAlone) {
   RoadNetwork road;
   add_road(road, "a", {0, 0}, "b", {6, 0}, {{2, 0}, {4, 0}});    // short, and between them
