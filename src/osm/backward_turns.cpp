@@ -53,13 +53,25 @@ bool reaches(const RoadNetwork& road, EdgeId from, EdgeId to, VehicleClassMask v
   return false;
 }
 
+/// Does a lane lead on for a class without some of the turns? One that doesn't is a trap.
+bool leads_on(const RoadNetwork& road, LaneId lane, VehicleClassMask vehicle,
+              const std::set<ConnectionId>& without) {
+  const std::vector<ConnectionId>& turns = road.lane(lane).outgoing;
+  return std::any_of(turns.begin(), turns.end(), [&](ConnectionId id) {
+    return !without.contains(id) && is_driven(road, id) &&
+           (road.lane(road.connection(id).to).allowed & vehicle) != 0;
+  });
+}
+
 bool is_dispensable(const RoadNetwork& road, ConnectionId id,
                     const std::set<ConnectionId>& without) {
   const Connection& turn = road.connection(id);
   const EdgeId from = road.lane(turn.from).edge, to = road.lane(turn.to).edge;
   const VehicleClassMask classes = classes_of(road, turn);
   for (VehicleClassMask vehicle = 1; vehicle != 0; vehicle <<= 1)
-    if ((classes & vehicle) != 0 && !reaches(road, from, to, vehicle, without)) return false;
+    if ((classes & vehicle) != 0 && (!leads_on(road, turn.from, vehicle, without) ||
+                                     !reaches(road, from, to, vehicle, without)))
+      return false;
   return true;
 }
 

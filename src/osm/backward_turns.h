@@ -14,7 +14,7 @@ namespace sumogamma::osm {
 std::vector<ConnectionId> backward_turns(const RoadNetwork& road);
 
 /// Those of some turns that nobody needs: whoever may make them gets from the one road to the other
-/// without any of those that are told, on whatever way there is.
+/// without any of those that are told, on whatever way there is, and their lane leads on elsewhere.
 std::vector<ConnectionId> dispensable_turns(const RoadNetwork& road,
                                             const std::vector<ConnectionId>& turns);
 

@@ -271,7 +271,7 @@ std::optional<RoadNetwork> patch(const OsmMap& map, const NetconvertRequest& net
   const OverlapLength left = overlap_length(*road, find_lane_overlaps(*road));
   if (left.wheels + left.walking > kWorthAnotherPass * left.all_wheels)
     road = patch_apart(netconvert, *road, NetworkPatch{}, result);
-  return road ? refuse_backward_turns(netconvert, *std::move(road), result) : std::nullopt;
+  return road;
 }
 
 /// The network of the map, made anew with junctions joined where only the finished one tells that
@@ -284,11 +284,12 @@ std::optional<RoadNetwork> convert_and_patch(const OsmMap& map, NetconvertReques
   road = patch(map, netconvert, *road, result);
   if (!road) return std::nullopt;
   const std::vector<NodeGroup> on_ways = signals_on_ways(*road);
-  if (on_ways.empty()) return road;
+  if (on_ways.empty()) return refuse_backward_turns(netconvert, *std::move(road), result);
   result = converted;  // notes tell of what is built, not of a first attempt
   join(on_ways, netconvert, result);
   road = convert_map(netconvert, result);
-  return road ? patch(map, netconvert, *road, result) : std::nullopt;
+  if (road) road = patch(map, netconvert, *road, result);
+  return road ? refuse_backward_turns(netconvert, *std::move(road), result) : std::nullopt;
 }
 
 /// Builds net.net.xml; false where it was stopped.

@@ -52,11 +52,15 @@ void rewrite_contraflow(OsmMap& map, bool left_hand, IssueLog& log) {
     const bool reversed = is_reversed(way);
     const std::string along = reversed ? "left" : "right", against = reversed ? "right" : "left";
     const std::string name = "way/" + std::to_string(way.id);
-    const BicycleLanes lanes = bicycle_lanes(way.tags, left_hand != reversed ? "right" : "left");
-    for (const char* key : kCycleways)
-      if (!kind_of(tag(way.tags, key)).empty()) way.tags.erase(key);
-    way.tags.erase("oneway:bicycle");
-    if (!lanes.along.empty()) way.tags["cycleway:" + along] = lanes.along;
+    const std::string oncoming = left_hand != reversed ? "right" : "left";
+    const BicycleLanes lanes = bicycle_lanes(way.tags, oncoming);
+    const bool astray = !kind_of(tag(way.tags, "cycleway:" + oncoming)).empty();
+    if (astray || !lanes.against.empty()) {
+      for (const char* key : kCycleways)
+        if (!kind_of(tag(way.tags, key)).empty()) way.tags.erase(key);
+      way.tags.erase("oneway:bicycle");
+      if (!lanes.along.empty()) way.tags["cycleway:" + along] = lanes.along;
+    }
     if (!lanes.against.empty() && !tag_is(way.tags, "bicycle", {"no", "use_sidepath"})) {
       way.tags["cycleway:" + against] = lanes.against;
       log.add(Severity::Note, "bicycle_contraflow",
