@@ -200,7 +200,7 @@ class Observers {
         flow_(sim.dt, sim.model.road),
         rules_(sim.dt, sim.model.road, locator_),
         smoothness_(sim.dt),
-        trajectories_(output_ / "trajectories.fcd.xml.gz", plan.options.trajectory_period,
+        trajectories_(output_ / "trajectories.fcd.xml.gz", plan.options.trajectory_period, sim.dt,
                       sim.model.road, &locator_) {
     if (plan.options.predict)
       predictor_ = std::make_unique<LivePredictor>(sim.model.types, live_predictor_parameters(),
@@ -220,9 +220,9 @@ class Observers {
     rules_.add(scene, types, sim_.road);
     smoothness_.add(scene, types);
     trajectories_.add(scene, types, name);
-    if (predictor_) predictor_->observe(scene);
+    if (predictor_) predictor_->observe(scene, &types);
     if (replay_) {
-      replay_->add(scene, &sim_.road, name);
+      replay_->add(scene, &sim_.road, name, &types);
       for (; collisions_marked_ < collisions_.pairs().size(); ++collisions_marked_) {
         const CollisionPair& pair = collisions_.pairs()[collisions_marked_];
         replay_->add_event(ReplayEventKind::Collision, pair.since, pair.position, pair.a, pair.b);
@@ -390,6 +390,8 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   world_options.max_vehicles = plan.control.any() ? plan.vehicles : 0;
   world_options.seed = plan.clock.seed;
   world_options.dt = plan.clock.step;
+  for (const auto& [key, where] : plan.config.given)
+    if (key.rfind("types.", 0) == 0) world_options.type_keys.insert(key);
   SumoWorld world(sim->model, *backend, world_options);
   CouplingMonitor coupling;
   world.coupling().compare = [&](const Vec2& written, const Vec2& reported) {

@@ -94,7 +94,8 @@ void ReplayRecorder::flush() {
   buffer_.clear();
 }
 
-void ReplayRecorder::add(const Scene& scene, const RoadState* road, const AgentName& name_of) {
+void ReplayRecorder::add(const Scene& scene, const RoadState* road, const AgentName& name_of,
+                         const AgentTypeTable* types) {
   if (!stream_) throw Error(file_.string(), "is closed already");
   // a little early: sums of steps don't meet the period exactly
   if (started_ && scene.time < next_time_ - 1e-6) return;
@@ -105,13 +106,14 @@ void ReplayRecorder::add(const Scene& scene, const RoadState* road, const AgentN
   put_count(static_cast<std::uint64_t>(std::max<std::int64_t>(ms - last_ms_, 0)));
   last_ms_ = ms;
   started_ = true;
-  append_changes(scene, name_of);
+  append_changes(scene, name_of, types);
   append_poses(scene);
   constexpr std::size_t kFlushAt = 1 << 16;
   if (buffer_.size() >= kFlushAt) flush();
 }
 
-void ReplayRecorder::append_changes(const Scene& scene, const AgentName& name_of) {
+void ReplayRecorder::append_changes(const Scene& scene, const AgentName& name_of,
+                                    const AgentTypeTable* types) {
   next_.clear();
   std::vector<std::uint64_t> gone;
   std::size_t row = 0;
@@ -133,7 +135,7 @@ void ReplayRecorder::append_changes(const Scene& scene, const AgentName& name_of
   for (; row < scene.size(); ++row) {
     next_.push_back({scene.id[row], 0, 0, 0, 0, 0});
     put_count(scene.id[row].value);
-    put_byte(static_cast<unsigned>(scene.type[row]));
+    put_byte(static_cast<unsigned>(types ? kind_of(*types, scene.type[row]) : scene.type[row]));
     put_byte(scene.control[row] == Control::External ? 1 : 0);
     put_text(name_of(scene.id[row]));
     put_byte(scene.footprint[row].count);

@@ -35,9 +35,11 @@ class ReplayRecorder {
   ReplayRecorder(const ReplayRecorder&) = delete;
   ReplayRecorder& operator=(const ReplayRecorder&) = delete;
 
-  /// Records the scene where the period is over. `road`: for signals, may be null. Throws Error
+  /// Records the scene where the period is over. `road`: for signals, may be null. `types`: the
+  /// scene's own where it has variants of the rows that the recorder was made with. Throws Error
   /// naming the file.
-  void add(const Scene& scene, const RoadState* road, const AgentName& name_of);
+  void add(const Scene& scene, const RoadState* road, const AgentName& name_of,
+           const AgentTypeTable* types = nullptr);
 
   /// Marks an event; `b` is kNobody where only one agent takes part.
   static constexpr std::uint32_t kNobody = ~0u;
@@ -53,7 +55,7 @@ class ReplayRecorder {
     std::int64_t x = 0, y = 0, heading = 0;  ///< as last written
     std::int64_t step_x = 0, step_y = 0;     ///< last differences
   };
-  void append_changes(const Scene& scene, const AgentName& name_of);
+  void append_changes(const Scene& scene, const AgentName& name_of, const AgentTypeTable* types);
   void append_poses(const Scene& scene);
   void append_signals(const RoadState& road);
   void put_byte(unsigned value) { buffer_.push_back(static_cast<char>(value & 0xffu)); }

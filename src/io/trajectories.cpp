@@ -51,11 +51,24 @@ void append_attribute(std::string& text, const char* name, std::string_view valu
   text += '"';
 }
 
+/// From an agent's centre to SUMO's reference point [m]: a vehicle's front, a person's centre.
+double reach_of(const Scene& scene, const AgentType& type, std::size_t row) {
+  double reach = 0;
+  if (type.kinematics != Kinematics::Holonomic)
+    for (const Vec2& vertex : scene.footprint[row].outline()) reach = std::max(reach, vertex.x());
+  return reach;
+}
+
+Vec2 reference_point(const Scene& scene, const AgentTypeTable& types, std::size_t row) {
+  return scene.position[row] +
+         reach_of(scene, type_of(types, scene.type[row]), row) * direction_of(scene.heading[row]);
+}
+
 }  // namespace
 
-TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& file, double period,
+TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& file, double period, double step,
                                    const RoadNetwork& network, const LaneLocator* locator)
-    : file_(file), period_(period), network_(network), locator_(locator) {
+    : file_(file), period_(period), step_(step), network_(network), locator_(locator) {
   // "T": plain text through the same interface
   stream_ = gzopen(file.c_str(), file.extension() == ".gz" ? "wb4" : "wbT");
   if (!stream_)
@@ -89,24 +102,21 @@ void TrajectoryWriter::flush_text() {
   text_.clear();
 }
 
-void TrajectoryWriter::add(const Scene& scene, const AgentTypeTable& types,
-                           const AgentName& name_of) {
-  if (!stream_) throw Error(file_.string(), "is closed already");
-  // a little early: sums of steps don't meet the period exactly
-  if (started_ && scene.time < next_time_ - 1e-6) return;
-  next_time_ = started_ ? std::max(next_time_ + period_, scene.time) : scene.time + period_;
-  started_ = true;
-  text_ += "    <timestep";
-  // hundredths as SUMO writes them, thousandths where the step needs them
-  const bool fine = std::llround(scene.time * 1000.0) % 10 != 0;
-  append_attribute(text_, "time", scene.time, fine ? 3 : 2);
-  text_ += ">\n";
-  for (const bool persons : {false, true})
-    for (std::size_t row = 0; row < scene.size(); ++row) {
-      const AgentType& type = type_of(types, scene.type[row]);
-      if ((type.kinematics == Kinematics::Holonomic) == persons)
-        append_agent(scene, row, type, name_of(scene.id[row]));
-    }
+void TrajectoryWriter::append_all(const Scene& scene, const AgentTypeTable& types,
+                                  const AgentName& name_of, Control control) {
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    if (scene.control[row] != control) continue;
+    const AgentType& type = type_of(types, scene.type[row]);
+    append_agent(scene, row, type, name_of(scene.id[row]),
+                 type.kinematics == Kinematics::Holonomic ? persons_ : vehicles_);
+  }
+}
+
+void TrajectoryWriter::finish_step() {
+  open_ = false;
+  text_ += head_;
+  text_ += vehicles_;
+  text_ += persons_;
   text_ += "    </timestep>\n";
   flush_text();
   // what is on the disk can be read up to here even if the process is killed
@@ -117,12 +127,41 @@ void TrajectoryWriter::add(const Scene& scene, const AgentTypeTable& types,
   }
 }
 
+void TrajectoryWriter::add(const Scene& scene, const AgentTypeTable& types,
+                           const AgentName& name_of) {
+  if (!stream_) throw Error(file_.string(), "is closed already");
+  if (open_) {
+    append_all(scene, types, name_of, Control::External);
+    finish_step();
+  }
+  const double began = scene.time - step_;
+  // a little early: sums of steps don't meet the period exactly
+  const bool due = !started_ || began >= next_time_ - 1e-6;
+  // speeds are over a tick, whether or not it is due
+  speed_.resize(scene.size());
+  for (std::size_t row = 0; row < scene.size(); ++row)
+    speed_[row] = scene.control[row] == Control::External
+                      ? scene.speed[row]
+                      : speeds_.update(scene, row, reference_point(scene, types, row), step_);
+  if (!due) return;
+  vehicles_.clear();
+  persons_.clear();
+  append_all(scene, types, name_of, Control::Gamma);
+  next_time_ = started_ ? std::max(next_time_ + period_, began) : began + period_;
+  started_ = open_ = true;
+  external_ = std::find(scene.control.begin(), scene.control.end(), Control::External) !=
+              scene.control.end();
+  head_ = "    <timestep";
+  // hundredths as SUMO writes them, thousandths where the step needs them
+  const bool fine = std::llround(began * 1000.0) % 10 != 0;
+  append_attribute(head_, "time", began, fine ? 3 : 2);
+  head_ += ">\n";
+}
+
 void TrajectoryWriter::append_agent(const Scene& scene, std::size_t row, const AgentType& type,
-                                    std::string_view name) {
+                                    std::string_view name, std::string& text) {
   const bool person = type.kinematics == Kinematics::Holonomic;
-  double reach = 0;
-  if (!person)
-    for (const Vec2& vertex : scene.footprint[row].outline()) reach = std::max(reach, vertex.x());
+  const double reach = reach_of(scene, type, row);
   const Vec2 place = scene.position[row] + reach * direction_of(scene.heading[row]);
   LanePosition lane = scene.lane[row];
   if (lane.lane == kNoLane && locator_) {
@@ -141,25 +180,28 @@ void TrajectoryWriter::append_agent(const Scene& scene, std::size_t row, const A
       slope = degrees(std::atan(rise));
     }
   }
-  text_ += person ? "        <person" : "        <vehicle";
-  append_attribute(text_, "id", name);
-  append_attribute(text_, "x", place.x());
-  append_attribute(text_, "y", place.y());
-  append_attribute(text_, "angle", sumo_from_heading(scene.heading[row]));
-  append_attribute(text_, "type", type.name);
-  append_attribute(text_, "speed", scene.velocity[row].norm());
-  append_attribute(text_, "pos", along);
+  text += person ? "        <person" : "        <vehicle";
+  append_attribute(text, "id", name);
+  append_attribute(text, "x", place.x());
+  append_attribute(text, "y", place.y());
+  append_attribute(text, "angle", sumo_from_heading(scene.heading[row]));
+  append_attribute(text, "type", type.name);
+  append_attribute(text, "speed",
+                   scene.control[row] == Control::External ? scene.speed[row] : speed_[row]);
+  append_attribute(text, "pos", along);
   if (person)
-    append_attribute(text_, "edge",
+    append_attribute(text, "edge",
                      lane.lane == kNoLane ? "" : network_.edge(network_.lane(lane.lane).edge).name);
   else
-    append_attribute(text_, "lane", lane.lane == kNoLane ? "" : network_.lane(lane.lane).name);
-  append_attribute(text_, "slope", slope);
-  text_ += "/>\n";
+    append_attribute(text, "lane", lane.lane == kNoLane ? "" : network_.lane(lane.lane).name);
+  append_attribute(text, "slope", slope);
+  text += "/>\n";
 }
 
 void TrajectoryWriter::close() {
   if (!stream_) return;
+  // where those whom the world drives were at its end isn't known
+  if (open_ && !external_) finish_step();
   text_ += "</fcd-export>\n";
   flush_text();
   const int code = gzclose(stream_);

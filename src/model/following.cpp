@@ -8,6 +8,7 @@ namespace sumogamma {
 
 double kept_headway(const AgentType& type, double speed) {
   constexpr double kLeast = 0.32, kFull = 11.0;  // of the headway; [m/s]
+  if (type.steady_headway) return type.headway;
   return type.headway * std::min(kLeast + (1.0 - kLeast) * std::max(speed, 0.0) / kFull, 1.0);
 }
 

@@ -560,10 +560,10 @@ enum class SignalDuty {
   GoAtRed,  ///< a red light is a stop sign to this traveller, and everybody else comes first
 };
 
-/// What a link's signal shows, and since when [s].
+/// What a link's signal shows, since when and, where that is amber, until when [s].
 struct Aspect {
   char letter = 'O';
-  double since = 0;
+  double since = 0, until = 0;
 };
 
 /// Does somebody who stood near its line for a gap before amber began, `since` [s], take the one
@@ -591,11 +591,16 @@ SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& 
   if (is_amber(signal) && model.road.connection(link.connection).storage > 0.0)
     return SignalDuty::None;
   if (is_amber(signal) && to_line > -1.0) {
-    // who would not be over the line before red brakes harder than at ease, and stands before it
-    // from a crawl, however near it is
-    const double left = kAmber - (scene.time - aspect.since);
+    // who might not be over the line before red brakes harder than at ease, who surely won't as
+    // hard as its body can, and stands before it from a crawl, however near it is
+    constexpr double kHardest = 0.95;
+    const double really_left = aspect.until - scene.time;
+    const double left = std::min(kAmber - (scene.time - aspect.since), really_left);
     const bool late = to_line > std::max(left, 0.0) * traveller.speed;
-    const double most = late ? 0.65 * type.max_deceleration : type.comfortable_deceleration;
+    const bool too_late = to_line > std::max(really_left, 0.0) * traveller.speed;
+    const double most = too_late ? kHardest * type.max_deceleration
+                        : late   ? 0.65 * type.max_deceleration
+                                 : type.comfortable_deceleration;
     if (!on_foot && takes_gap(scene, traveller, link, type, aspect.since, left))
       return SignalDuty::None;
     const bool stands = late && traveller.speed < kCrawl;
@@ -672,9 +677,10 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
   const double halt = stops_short ? link.halt : link.stop_line;
   const double stop_at = halt - kStopMargin;
   LinkDecision decision;
-  const SignalDuty duty = signal_duty(model, scene, traveller, link,
-                                      {signal, signal_since(road, connection, scene.time)}, halt,
-                                      is_amber(signal) ? drawn_line(view, traveller, link) : halt);
+  const SignalDuty duty = signal_duty(
+      model, scene, traveller, link,
+      {signal, signal_since(road, connection, scene.time), amber_until(road, connection)}, halt,
+      is_amber(signal) ? drawn_line(view, traveller, link) : halt);
   if (duty == SignalDuty::Stop) return {true, stop_at, LimitReason::Signal, -1};
   const bool at_red = duty == SignalDuty::GoAtRed;
   const bool stop_sign = (connection.state == 's' || connection.state == 'w') && signal == 'O';

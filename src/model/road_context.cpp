@@ -268,16 +268,18 @@ void update_road_contexts(const Model& model, const RoadState& road, const Spati
       if (path != nullptr) {
         const double along = scene.path_along[row];
         const Vec2 tangent = path->line.direction_at(along);
+        const AgentType& type = type_of(model.types, scene.type[row]);
+        const bool remembers = !path->walking && !type.steady_headway;
         const Course course{
             *path,
-            type_of(model.types, scene.type[row]),
+            type,
             row,
             along,
             cross(tangent, scene.position[row] - path->line.point_at(along)),
             half_extent(scene, row, tangent),
             path->walking ? std::max(0.0, scene.velocity[row].dot(tangent)) : scene.speed[row],
             scene.manners[row].headway_factor *
-                (path->walking ? 1.0 : headway_memory(scene.time - scene.stood_at[row]))};
+                (remembers ? headway_memory(scene.time - scene.stood_at[row]) : 1.0)};
         context.active = true;
         context.speed_limit =
             std::min(path->walking ? path->profile_at(along)

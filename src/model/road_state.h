@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@ struct RoadState {
   std::vector<std::shared_ptr<const Path>> paths;  ///< by PathId; null once its agent has left
   std::vector<std::string> signal_states;          ///< by SignalId, one letter a link as in SUMO
   std::vector<double> signal_since;                ///< by SignalId, when it last changed [s]
+  std::vector<double> amber_until;  ///< by SignalId, when it ends where one shows amber [s]; may be
+                                    ///< shorter than the signals: not known
 
   const Path* path(PathId id) const {
     return id == kNoPath ? nullptr : paths[static_cast<std::size_t>(id)].get();
@@ -35,6 +38,14 @@ inline double signal_since(const RoadState& road, const Connection& connection, 
   const bool known =
       connection.signal != kNoSignal && index_of(connection.signal) < road.signal_since.size();
   return known ? road.signal_since[index_of(connection.signal)] : now;
+}
+
+/// When the amber of a connection's signal ends [s]; infinite where that isn't known.
+inline double amber_until(const RoadState& road, const Connection& connection) {
+  const bool known =
+      connection.signal != kNoSignal && index_of(connection.signal) < road.amber_until.size();
+  return known ? road.amber_until[index_of(connection.signal)]
+               : std::numeric_limits<double>::infinity();
 }
 
 inline bool is_red(char signal) { return signal == 'r' || signal == 'u'; }

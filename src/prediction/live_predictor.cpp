@@ -94,7 +94,7 @@ void LivePredictor::drop_vanished() {
   });
 }
 
-void LivePredictor::observe(const Scene& scene) {
+void LivePredictor::observe(const Scene& scene, const AgentTypeTable* types) {
   constexpr double kTolerance = 1e-6;  // [s]
   if (frame_ >= 0 && scene.time < next_time_ - kTolerance) return;
   next_time_ = (frame_ < 0 ? scene.time : next_time_) + period_;
@@ -102,10 +102,11 @@ void LivePredictor::observe(const Scene& scene) {
   ObservedScene seen{static_cast<int>(frame_), period_, {}};
   ids_.clear();
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    const double behind = type_of(types_, scene.type[row]).rear_axle_to_center;
+    const AgentTypeId kind = kind_of(types ? *types : types_, scene.type[row]);
+    const double behind = type_of(types ? *types : types_, scene.type[row]).rear_axle_to_center;
     const Vec2 position = scene.position[row] - behind * direction_of(scene.heading[row]);
     History& history = history_[scene.id[row].value];
-    history.type = scene.type[row];
+    history.type = kind;
     history.frame = frame_;
     score_pending(history, position);
     if (history.position.size() == kKept) {
@@ -117,8 +118,7 @@ void LivePredictor::observe(const Scene& scene) {
       history.position.push_back(position);
       history.heading.push_back(scene.heading[row]);
     }
-    seen.agents.push_back(
-        {scene.id[row].value, scene.type[row], history.position, history.heading});
+    seen.agents.push_back({scene.id[row].value, kind, history.position, history.heading});
     ids_.push_back(scene.id[row].value);
   }
   drop_vanished();

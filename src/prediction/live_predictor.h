@@ -40,8 +40,9 @@ class LivePredictor {
                 const RoadNetwork* road = nullptr, double period = 0.4);
 
   /// Takes in the scene of a tick; does something only when a period has passed since the last time
-  /// (scene.time, which must not run backwards).
-  void observe(const Scene& scene);
+  /// (scene.time, which must not run backwards). `types`: the scene's own where it has variants of
+  /// the rows that the predictor was made with.
+  void observe(const Scene& scene, const AgentTypeTable* types = nullptr);
 
   /// Over all agents so far.
   LiveScore score() const { return mean_of(total_); }

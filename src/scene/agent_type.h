@@ -9,7 +9,7 @@
 
 namespace sumogamma {
 
-enum class AgentTypeId : std::uint8_t {};
+enum class AgentTypeId : std::uint16_t {};
 
 /// How a body follows a velocity (f_A of Eq. 1).
 enum class Kinematics : std::uint8_t {
@@ -39,10 +39,12 @@ struct AgentType {
   double horizon = 0;                              ///< tau [s]
   double attention_front = 0, attention_rear = 0;  ///< least reach of Att [m]; speed adds to it
   double headway = 0;                              ///< desired time gap to a leader [s]
+  bool steady_headway = false;                     ///< at every speed and in all traffic
   double min_gap = 0;                              ///< standstill gap to a leader [m]
-  double critical_gap = 1.0;  ///< left before whoever has the right of way in a place where ways
-                              ///< cross [s]: HCM's critical headway less the time of crossing
-  Compliance compliance{};    ///< how far it keeps the rules, and how its agents differ
+  double critical_gap = 1.0;     ///< left before whoever has the right of way in a place where ways
+                                 ///< cross [s]: HCM's critical headway less the time of crossing
+  Compliance compliance{};       ///< how far it keeps the rules, and how its agents differ
+  std::int32_t variant_of = -1;  ///< row that it counts as and whose name it has; -1: itself
 };
 
 /// Rows in a fixed order; index with AgentTypeId.
@@ -55,6 +57,13 @@ AgentTypeTable default_agent_types();
 
 /// Row named `name`, or -1 cast to the id type's count: throws Error listing the known names.
 AgentTypeId find_agent_type(const AgentTypeTable& types, std::string_view name);
+
+/// Row that an agent of this type counts as: rows that a vType of SUMO gave other values come and
+/// go with scenarios.
+inline AgentTypeId kind_of(const AgentTypeTable& types, AgentTypeId id) {
+  const std::int32_t of = types[static_cast<std::size_t>(id)].variant_of;
+  return of < 0 ? id : static_cast<AgentTypeId>(of);
+}
 
 inline const AgentType& type_of(const AgentTypeTable& types, AgentTypeId id) {
   return types[static_cast<std::size_t>(id)];

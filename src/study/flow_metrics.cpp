@@ -62,7 +62,7 @@ void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
     State& state = track_[row];
     const AgentType& type = type_of(types, scene.type[row]);
     const double speed = scene.velocity[row].norm();
-    Sums& sums = by_type_[static_cast<std::size_t>(scene.type[row])];
+    Sums& sums = by_type_[static_cast<std::size_t>(kind_of(types, scene.type[row]))];
     sums.speed += speed;
     ++sums.steps;
     const bool vehicle = type.kinematics == Kinematics::SingleTrack;

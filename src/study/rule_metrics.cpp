@@ -98,7 +98,8 @@ void RuleMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
   track_.match(scene.id);
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const AgentType& type = type_of(types, scene.type[row]);
-    const Row agent{scene, row, type, by_type_[static_cast<std::size_t>(scene.type[row])]};
+    const Row agent{scene, row, type,
+                    by_type_[static_cast<std::size_t>(kind_of(types, scene.type[row]))]};
     State& state = track_[row];
     const Vec2 front =
         scene.position[row] + front_reach(scene.footprint[row]) * direction_of(scene.heading[row]);
@@ -505,6 +506,7 @@ void RuleMonitor::note_waiting(State& state, const RoadState& road) {
 RuleResult RuleMonitor::result(const AgentTypeTable& types) const {
   RuleResult result;
   for (std::size_t type = 0; type < by_type_.size(); ++type) {
+    if (types[type].variant_of >= 0) continue;
     const RuleCounts& counts = by_type_[type];
     result.by_type[types[type].name] = counts;
     result.all.red_light_crossings += counts.red_light_crossings;

@@ -11,7 +11,7 @@ void SmoothnessMonitor::add(const Scene& scene, const AgentTypeTable& types) {
   track_.match(scene.id);
   for (std::size_t row = 0; row < scene.size(); ++row)
     add_agent(scene, row, type_of(types, scene.type[row]),
-              by_type_[static_cast<std::size_t>(scene.type[row])]);
+              by_type_[static_cast<std::size_t>(kind_of(types, scene.type[row]))]);
 }
 
 void SmoothnessMonitor::add_agent(const Scene& scene, std::size_t row, const AgentType& type,

@@ -18,6 +18,7 @@ struct SumoPose {
   const std::string* id = nullptr;
   Vec2 position = Vec2::Zero();  ///< [m]
   double angle = 0;              ///< [deg], any finite value: the back end wraps it
+  double speed = 0;              ///< vehicles: what SUMO is to tell of it, see take_over() [m/s]
 };
 
 /// A vehicle or person as SUMO reports it.
@@ -31,6 +32,14 @@ struct SumoAgent {
   double lane_position = 0;      ///< on it, as SUMO counts [m]
 };
 
+/// What SUMO tells of a vehicle's type beyond its body; negative: not told (persons).
+struct SumoVehicleType {
+  double acceleration = -1, deceleration = -1, emergency_deceleration = -1;  ///< [m/s^2]
+  double headway = -1;                                                       ///< tau [s]
+  double min_gap = -1;                                                       ///< [m]
+  double imperfection = -1;  ///< sigma; negative also of car-following models without one
+};
+
 /// What a newcomer is and wants, read once at departure.
 struct SumoAgentDetails {
   std::string id;
@@ -41,6 +50,7 @@ struct SumoAgentDetails {
   double max_speed =
       0;  ///< of the vType; persons: at most SUMO's walking speed, before the factor [m/s]
   double speed_factor = 1;
+  SumoVehicleType type;
   double allowed_speed = 0;  ///< vehicles: what SUMO lets it drive on its lane at departure [m/s]
   std::string lane;          ///< at departure, may be empty
   double lane_position = 0;  ///< front bumper along that lane [m]
@@ -83,6 +93,8 @@ class SumoBackend {
   /// Edges of the network that SUMO has loaded, those inside junctions included.
   virtual std::vector<std::string> edge_ids() = 0;
   virtual double time() const = 0;
+  /// When a signal changes next, by its place in signal_ids() [s]; infinite where SUMO can't tell.
+  virtual double next_switch(std::size_t signal) = 0;
 
   /// Moves every ghost and advances one step. A ghost left out for one step is forgotten by SUMO.
   virtual void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
@@ -98,6 +110,9 @@ class SumoBackend {
   /// is one, is returned as details; empty where the person has finished or rides.
   virtual void remove_vehicle(const std::string& id) = 0;
   virtual std::vector<std::string> finish_stage(const std::string& person) = 0;
+  /// A vehicle that step() moves from now on, at `speed` [m/s] so far: SUMO's limits no longer
+  /// apply to the speeds that step() has it tell.
+  virtual void take_over(const std::string& vehicle, double speed) = 0;
   /// SUMO-driven vehicle: hold this speed [m/s]; negative gives it back to SUMO.
   virtual void set_speed(const std::string& vehicle, double speed) = 0;
   /// Tells actuated signals that a vehicle passed `age` seconds ago, for each listed detector.

@@ -14,8 +14,10 @@ double wrapped_degrees(double angle) {
   return positive >= 360.0 ? 0.0 : positive;
 }
 
-void require_finite_pose(std::string_view id, Vec2 position, double angle) {
-  if (std::isfinite(position.x()) && std::isfinite(position.y()) && std::isfinite(angle)) return;
+void require_finite_pose(std::string_view id, Vec2 position, double angle, double speed) {
+  if (std::isfinite(position.x()) && std::isfinite(position.y()) && std::isfinite(angle) &&
+      std::isfinite(speed))
+    return;
   throw std::logic_error("the pose of agent '" + std::string(id) + "' is not finite");
 }
 

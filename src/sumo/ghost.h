@@ -16,6 +16,10 @@ enum class GhostMode {
             ///< route where possible
 };
 
+/// SUMO's speed mode in which setSpeed is obeyed as it stands, by no limit of lane, type or
+/// braking.
+constexpr int kSpeedModeFree = 0;
+
 /// The two arguments of moveToXY that make a ghost.
 struct GhostArguments {
   int keep_route = 2;
@@ -31,7 +35,7 @@ double wrapped_degrees(double angle);
 
 /// Throws std::logic_error for a pose that is not finite: our own bug, which SUMO would answer with
 /// garbage or a hang.
-void require_finite_pose(std::string_view id, Vec2 position, double angle);
+void require_finite_pose(std::string_view id, Vec2 position, double angle, double speed = 0);
 
 /// What SUMO says of an agent, for the start-up self-test.
 struct GhostObservation {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <sstream>
 #include <type_traits>
@@ -81,7 +82,14 @@ SumoAgentDetails common_details(const std::string& id) {
 }
 
 SumoAgentDetails vehicle_details(const std::string& id, double time) {
-  SumoAgentDetails details = common_details<libsumo::Vehicle>(id);
+  using libsumo::Vehicle;
+  SumoAgentDetails details = common_details<Vehicle>(id);
+  details.type = {value_or(-1.0, [&] { return Vehicle::getAccel(id); }),
+                  value_or(-1.0, [&] { return Vehicle::getDecel(id); }),
+                  value_or(-1.0, [&] { return Vehicle::getEmergencyDecel(id); }),
+                  value_or(-1.0, [&] { return Vehicle::getTau(id); }),
+                  value_or(-1.0, [&] { return Vehicle::getMinGap(id); }),
+                  value_or(-1.0, [&] { return Vehicle::getImperfection(id); })};
   details.allowed_speed = value_or(0.0, [&] { return libsumo::Vehicle::getAllowedSpeed(id); });
   details.route =
       value_or(std::vector<std::string>(), [&] { return libsumo::Vehicle::getRoute(id); });
@@ -120,6 +128,12 @@ class LibsumoBackend final : public SumoBackend {
     return guarded([] { return libsumo::Edge::getIDList(); });
   }
   double time() const override { return time_; }
+  double next_switch(std::size_t signal) override {
+    return guarded([&] {
+      return value_or(std::numeric_limits<double>::infinity(),
+                      [&] { return libsumo::TrafficLight::getNextSwitch(signal_ids_[signal]); });
+    });
+  }
   void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
             SumoStep& result) override;
   std::vector<SumoAgentDetails> details(std::span<const std::string> vehicles,
@@ -128,6 +142,7 @@ class LibsumoBackend final : public SumoBackend {
   void unwatch(const std::string& id, bool is_person) override { watched_.drop(id, is_person); }
   void remove_vehicle(const std::string& id) override;
   std::vector<std::string> finish_stage(const std::string& person) override;
+  void take_over(const std::string& vehicle, double speed) override;
   void set_speed(const std::string& vehicle, double speed) override;
   void override_detectors(std::span<const std::pair<std::string, double>> detectors) override;
   const std::vector<Detector>& detectors() const override { return detectors_; }
@@ -264,6 +279,7 @@ void LibsumoBackend::move(std::span<const SumoPose> poses, bool is_person, SumoS
       } else {
         to_vehicle(*pose.id, kNoHint, 0, pose.position.x(), pose.position.y(), angle,
                    arguments.keep_route, arguments.match_threshold);
+        libsumo::Vehicle::setSpeed(*pose.id, pose.speed);
       }
     } catch (const std::exception&) {
       result.lost.push_back(*pose.id);
@@ -290,8 +306,10 @@ void LibsumoBackend::read_step(SumoStep& result) {
 void LibsumoBackend::step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
                           SumoStep& result) {
   guarded([&] {
-    for (const SumoPose& pose : vehicles) require_finite_pose(*pose.id, pose.position, pose.angle);
-    for (const SumoPose& pose : persons) require_finite_pose(*pose.id, pose.position, pose.angle);
+    for (const SumoPose& pose : vehicles)
+      require_finite_pose(*pose.id, pose.position, pose.angle, pose.speed);
+    for (const SumoPose& pose : persons)
+      require_finite_pose(*pose.id, pose.position, pose.angle, pose.speed);
     result.lost.clear();
     GhostObservation sent_vehicle;
     if (vehicle_test_.pending() && !vehicles.empty())
@@ -412,8 +430,20 @@ std::vector<std::string> LibsumoBackend::finish_stage(const std::string& person)
   });
 }
 
+void LibsumoBackend::take_over(const std::string& vehicle, double speed) {
+  require_finite_pose(vehicle, Vec2::Zero(), 0, speed);
+  guarded([&] {
+    try {
+      libsumo::Vehicle::setSpeedMode(vehicle, kSpeedModeFree);
+      libsumo::Vehicle::setPreviousSpeed(vehicle, speed, 0.0);
+    } catch (const libsumo::TraCIException&) {
+      // it left meanwhile
+    }
+  });
+}
+
 void LibsumoBackend::set_speed(const std::string& vehicle, double speed) {
-  require_finite_pose(vehicle, Vec2::Zero(), speed);
+  require_finite_pose(vehicle, Vec2::Zero(), 0, speed);
   guarded([&] {
     try {
       libsumo::Vehicle::setSpeed(vehicle, speed);

@@ -23,8 +23,12 @@ Vec2 reference_point(const Vec2& center, double heading, double length) {
 
 }  // namespace
 
-SumoWorld::SumoWorld(const Model& model, SumoBackend& backend, SumoWorldOptions options)
-    : model_(model), backend_(backend), options_(std::move(options)), time_(backend.time()) {
+SumoWorld::SumoWorld(Model& model, SumoBackend& backend, SumoWorldOptions options)
+    : model_(model),
+      backend_(backend),
+      options_(std::move(options)),
+      rows_(model, options_.type_keys),
+      time_(backend.time()) {
   for (const std::string& id : backend_.signal_ids()) {
     const auto signal = model_.road.signal_by_name.find(id);
     signal_order_.push_back(signal == model_.road.signal_by_name.end() ? kNoSignal
@@ -70,12 +74,15 @@ void SumoWorld::observe(Scene& scene, RoadState& road) {
   scene.time = time_;
   road.signal_states.resize(model_.road.signals.size());
   road.signal_since.resize(model_.road.signals.size(), time_);
+  road.amber_until.resize(model_.road.signals.size(), time_);
   for (std::size_t i = 0; i < signal_order_.size() && i < step_.signal_states.size(); ++i) {
     if (signal_order_[i] == kNoSignal) continue;
     const std::size_t signal = index_of(signal_order_[i]);
     if (road.signal_states[signal] == step_.signal_states[i]) continue;
     road.signal_states[signal] = step_.signal_states[i];
     road.signal_since[signal] = time_;
+    if (std::any_of(step_.signal_states[i].begin(), step_.signal_states[i].end(), is_amber))
+      road.amber_until[signal] = backend_.next_switch(i);
   }
   take_arrived(scene, road);
   finish_driven(scene, road);
@@ -94,11 +101,12 @@ void SumoWorld::take_departed(Scene&) {
   if (step_.departed_vehicles.empty() && step_.departed_persons.empty()) return;
   for (SumoAgentDetails& details :
        backend_.details(step_.departed_vehicles, step_.departed_persons)) {
-    const auto type = agent_type_of(model_.types, details);
+    auto type = agent_type_of(model_.types, details);
     if (!type) {
       ++life_cycle_.left_to_sumo["rail or water"];
       continue;
     }
+    type = rows_.row_of(*type, details);
     Pending pending{std::move(details), *type, nullptr, {}, false};
     choose_pace(model_.road, pending.details);
     bool driven = options_.control.any() && wants_control(pending.details, *type);
@@ -116,6 +124,7 @@ void SumoWorld::take_departed(Scene&) {
       }
     }
     if (driven) {
+      if (!pending.details.is_person) backend_.take_over(pending.details.id, 0.0);
       pending_.push_back(std::move(pending));
     } else {
       backend_.watch(pending.details.id, pending.details.is_person);
@@ -321,6 +330,7 @@ bool SumoWorld::insert_on(const Pending& pending, const std::shared_ptr<const Pa
   agent.speed = *speed;
 
   register_agent(details, false, time_);
+  if (!details.is_person) backend_.take_over(details.id, agent.speed);
   road.paths.resize(known_.size());
   road.paths[id.value] = path;
   append_agent(scene, agent);
@@ -419,7 +429,7 @@ bool SumoWorld::in_region(const Vec2& position) const {
 void SumoWorld::take_over(AgentId id, Scene& scene, std::size_t row) {
   Known& known = known_[id.value];
   backend_.unwatch(known.sumo_id, known.is_person);
-  if (known.speed_held) backend_.set_speed(known.sumo_id, -1.0);
+  if (!known.is_person) backend_.take_over(known.sumo_id, scene.speed[row]);
   known.external = known.speed_held = false;
   scene.control[row] = Control::Gamma;
   scene.manners[row] =
@@ -468,6 +478,7 @@ void SumoWorld::advance(const Scene& scene) {
     SumoPose pose{&known.sumo_id,
                   reference_point(scene.position[row], scene.heading[row], known.length),
                   sumo_from_heading(scene.heading[row])};
+    pose.speed = speeds_.update(scene, row, pose.position, options_.dt);
     (known.is_person ? person_poses_ : vehicle_poses_).push_back(pose);
     const auto watched = written_.find(known.sumo_id);
     if (watched != written_.end()) watched->second.second = pose.position;

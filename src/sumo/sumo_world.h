@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "model/model.h"
+#include "scene/point_speeds.h"
 #include "scene/trip.h"
 #include "simulation/world.h"
 #include "sumo/backend.h"
+#include "sumo/vehicle_types.h"
 
 namespace sumogamma {
 
@@ -31,8 +33,9 @@ struct SumoWorldOptions {
   ControlChoice control;
   std::size_t max_vehicles = 0;  ///< cap on vehicles on the road at once, 0: none
   std::uint64_t seed = 1;
-  double dt = 0.05;          ///< [s]
-  std::size_t watched = 32;  ///< ghosts whose pose is read back to measure the coupling
+  double dt = 0.05;                 ///< [s]
+  std::set<std::string> type_keys;  ///< of scenario.toml that win over vTypes: "types.car.headway"
+  std::size_t watched = 32;         ///< ghosts whose pose is read back to measure the coupling
 };
 
 /// Counts of the life cycle, by type name.
@@ -60,8 +63,9 @@ struct CouplingCheck {
 /// until its place is free) -> driven -> arrived.
 class SumoWorld : public World {
  public:
-  /// `model` and `backend` outlive the world.
-  SumoWorld(const Model& model, SumoBackend& backend, SumoWorldOptions options);
+  /// `model` and `backend` outlive the world, which adds rows to the model's tables of types for
+  /// vTypes that ask for one, in observe() alone.
+  SumoWorld(Model& model, SumoBackend& backend, SumoWorldOptions options);
 
   void observe(Scene& scene, RoadState& road) override;
   void advance(const Scene& scene) override;
@@ -117,6 +121,7 @@ class SumoWorld : public World {
   const Model& model_;
   SumoBackend& backend_;
   SumoWorldOptions options_;
+  VehicleTypeRows rows_;
   SumoStep step_;
   LifeCycle life_cycle_;
   CouplingCheck coupling_;
@@ -128,6 +133,7 @@ class SumoWorld : public World {
   std::vector<SignalId> signal_order_;                       ///< of the back end's list
   std::map<std::string, std::pair<AgentId, Vec2>> written_;  ///< watched ghosts: what was sent
   std::vector<SumoPose> vehicle_poses_, person_poses_;
+  PointSpeeds speeds_;  ///< of the reference points of those whom we drive
   struct LaneDetector {
     std::size_t index = 0;  ///< into detector_ages_
     double position = 0;    ///< along the lane [m]

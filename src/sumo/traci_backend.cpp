@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -131,12 +132,17 @@ constexpr std::uint8_t kDetailVariables[] = {
     traci::kType,     traci::kVehicleClass, traci::kLength, traci::kWidth,       traci::kHeight,
     traci::kMaxSpeed, traci::kSpeedFactor,  traci::kLane,   traci::kLanePosition};
 
+constexpr std::uint8_t kTypeVariables[] = {
+    traci::kAcceleration, traci::kDeceleration, traci::kEmergencyDeceleration,
+    traci::kHeadway,      traci::kMinGap,       traci::kImperfection};
+
 void ask_details(TraciWriter& message, const std::string& id, bool is_person) {
   const std::uint8_t domain = is_person ? traci::kPerson : traci::kVehicle;
   for (const std::uint8_t variable : kDetailVariables) message.get(domain, variable, id);
   if (is_person) {
     message.get(domain, traci::kStage, id, 0);
   } else {
+    for (const std::uint8_t variable : kTypeVariables) message.get(domain, variable, id);
     message.get(domain, traci::kAllowedSpeed, id);
     message.get(domain, traci::kEdges, id);
     message.get(domain, traci::kStops, id, 0);
@@ -168,6 +174,11 @@ SumoAgentDetails read_details(TraciReader& reply, const std::string& id, bool is
       }
     }
   } else {
+    SumoVehicleType& type = details.type;
+    double* const fields[] = {&type.acceleration, &type.deceleration, &type.emergency_deceleration,
+                              &type.headway,      &type.min_gap,      &type.imperfection};
+    for (std::size_t k = 0; k < std::size(kTypeVariables); ++k)
+      *fields[k] = read_number(reply, domain, kTypeVariables[k], -1);
     details.allowed_speed = read_number(reply, domain, traci::kAllowedSpeed, 0);
     details.route = read_texts(reply, domain, traci::kEdges);
     if (std::optional<TraciReader> value = read_answer(reply, domain, traci::kStops))
@@ -198,6 +209,7 @@ class TraciBackend final : public SumoBackend {
   const std::vector<std::string>& signal_ids() const override { return signal_ids_; }
   std::vector<std::string> edge_ids() override;
   double time() const override { return time_; }
+  double next_switch(std::size_t signal) override;
   void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
             SumoStep& result) override;
   std::vector<SumoAgentDetails> details(std::span<const std::string> vehicles,
@@ -206,8 +218,9 @@ class TraciBackend final : public SumoBackend {
   void unwatch(const std::string& id, bool is_person) override;
   void remove_vehicle(const std::string& id) override;
   std::vector<std::string> finish_stage(const std::string& person) override;
+  void take_over(const std::string& vehicle, double speed) override;
   void set_speed(const std::string& vehicle, double speed) override {
-    require_finite_pose(vehicle, Vec2::Zero(), speed);
+    require_finite_pose(vehicle, Vec2::Zero(), 0, speed);
     queued_.set_double(traci::kVehicle, traci::kSpeed, vehicle, speed);
   }
   void override_detectors(std::span<const std::pair<std::string, double>> detectors) override {
@@ -443,16 +456,30 @@ std::string TraciBackend::option(const std::string& name) {
   });
 }
 
+double TraciBackend::next_switch(std::size_t signal) {
+  return guarded([&] {
+    message_.clear();
+    message_.get(traci::kTrafficLight, traci::kNextSwitch, signal_ids_[signal]);
+    TraciReader reply = exchange(message_);
+    return read_number(reply, traci::kTrafficLight, traci::kNextSwitch,
+                       std::numeric_limits<double>::infinity());
+  });
+}
+
 void TraciBackend::compose_step(std::span<const SumoPose> vehicles,
                                 std::span<const SumoPose> persons) {
-  for (const SumoPose& pose : vehicles) require_finite_pose(*pose.id, pose.position, pose.angle);
-  for (const SumoPose& pose : persons) require_finite_pose(*pose.id, pose.position, pose.angle);
+  for (const SumoPose& pose : vehicles)
+    require_finite_pose(*pose.id, pose.position, pose.angle, pose.speed);
+  for (const SumoPose& pose : persons)
+    require_finite_pose(*pose.id, pose.position, pose.angle, pose.speed);
   message_.clear();
   // ghosts first: what other commands leave on SUMO's stack is best not below them
   // (docs/coupling.md, hazards)
   for (const SumoPose& pose : vehicles) append_ghost(message_, pose, false, vehicle_test_.mode());
   for (const SumoPose& pose : persons) append_ghost(message_, pose, true, person_test_.mode());
   message_.append(queued_);
+  for (const SumoPose& pose : vehicles)
+    message_.set_double(traci::kVehicle, traci::kSpeed, *pose.id, pose.speed);
   // last: SUMO does not process what stands behind it reliably. Among several clients alone, later:
   // SUMO gives what it has answered before a step to the client whose turn is next
   if (!start_.client_order) message_.simulation_step();
@@ -469,6 +496,7 @@ void TraciBackend::read_step(std::span<const SumoPose> vehicles, std::span<const
   // what was queued concerned agents that may have left meanwhile: a refusal means nothing
   for (std::size_t left = queued_.command_count(); left > 0; --left) reply.status();
   queued_.clear();
+  for (std::size_t left = vehicles.size(); left > 0; --left) reply.status();
   if (apart) {
     message_.clear();
     message_.simulation_step();
@@ -681,6 +709,12 @@ void TraciBackend::watch(const std::string& id, bool is_person) {
 
 void TraciBackend::unwatch(const std::string& id, bool is_person) {
   if (watched_.drop(id, is_person)) watch_changed_ = true;
+}
+
+void TraciBackend::take_over(const std::string& vehicle, double speed) {
+  require_finite_pose(vehicle, Vec2::Zero(), 0, speed);
+  queued_.set_integer(traci::kVehicle, traci::kSpeedMode, vehicle, kSpeedModeFree);
+  queued_.set_pair(traci::kVehicle, traci::kPreviousSpeed, vehicle, speed, 0.0);
 }
 
 void TraciBackend::remove_vehicle(const std::string& id) {

@@ -119,6 +119,16 @@ void TraciWriter::set_integer(std::uint8_t domain, std::uint8_t variable, std::s
   typed_integer(value);
 }
 
+void TraciWriter::set_pair(std::uint8_t domain, std::uint8_t variable, std::string_view id,
+                           double first, double second) {
+  begin_command(traci::set_command(domain), 1 + (4 + id.size()) + 5 + 9 + 9);
+  raw_byte(variable);
+  raw_string(id);
+  compound(2);
+  typed_double(first);
+  typed_double(second);
+}
+
 void TraciWriter::set_double(std::uint8_t domain, std::uint8_t variable, std::string_view id,
                              double value) {
   begin_command(traci::set_command(domain), 5 + id.size() + 9);

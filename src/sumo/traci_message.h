@@ -42,8 +42,11 @@ inline constexpr std::uint8_t kIdList = 0x00, kPosition = 0x42, kAngle = 0x43, k
                               kHeight = 0xbc, kType = 0x4f, kLane = 0x51, kEdges = 0x54,
                               kLanePosition = 0x56, kSpeedFactor = 0x5e, kStops = 0x74,
                               kAllowedSpeed = 0xb7, kMoveToXy = 0xb4, kRemove = 0x81, kStage = 0xc0,
-                              kStagesLeft = 0xc2, kRemoveStage = 0xc5, kVirtualDetection = 0x22,
-                              kSignalState = 0x20, kOption = 0x32, kTime = 0x66, kStepLength = 0x7b;
+                              kStagesLeft = 0xc2, kRemoveStage = 0xc5, kAcceleration = 0x46,
+                              kDeceleration = 0x47, kEmergencyDeceleration = 0x7b, kHeadway = 0x48,
+                              kMinGap = 0x4c, kImperfection = 0x5d, kSpeedMode = 0xb3,
+                              kPreviousSpeed = 0x3c, kVirtualDetection = 0x22, kSignalState = 0x20,
+                              kNextSwitch = 0x2d, kOption = 0x32, kTime = 0x66, kStepLength = 0x7b;
 inline constexpr std::uint8_t kDepartedVehicles = 0x74, kArrivedVehicles = 0x7a,
                               kDepartedPersons = 0x25, kArrivedPersons = 0x27,
                               kTeleportCount = 0x75, kEmergencyStopCount = 0x89,
@@ -85,6 +88,9 @@ class TraciWriter {
   void set_integer(std::uint8_t domain, std::uint8_t variable, std::string_view id,
                    std::int32_t value);
   void set_double(std::uint8_t domain, std::uint8_t variable, std::string_view id, double value);
+  /// A compound of two numbers.
+  void set_pair(std::uint8_t domain, std::uint8_t variable, std::string_view id, double first,
+                double second);
   /// Reports variables of an object after each step from now on (from -infinity to +infinity).
   void subscribe(std::uint8_t domain, std::string_view id, std::span<const std::uint8_t> variables);
   void simulation_step();

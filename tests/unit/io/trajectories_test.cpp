@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kStep = 0.05;
+
 std::string inflate(const fs::path& file) {
   gzFile stream = gzopen(file.c_str(), "rb");
   std::string content(1 << 20, '\0');
@@ -59,7 +61,7 @@ class Trajectories : public ::testing::Test {
 
 TEST_F(Trajectories, SumoReferencePointsAndAngles) {
   {
-    TrajectoryWriter writer(file_, 0, net_, &locator_);
+    TrajectoryWriter writer(file_, 0, kStep, net_, &locator_);
     writer.add(scene_, types_, name_);
   }
   pugi::xml_document document;
@@ -80,9 +82,10 @@ TEST_F(Trajectories, SumoReferencePointsAndAngles) {
 
 TEST_F(Trajectories, RecordsOncePerPeriod) {
   {
-    TrajectoryWriter writer(file_, 0.5, net_);
+    TrajectoryWriter writer(file_, 0.5, kStep, net_);
+    // after each tick
     for (int tick = 0; tick <= 40; ++tick) {
-      scene_.time = tick * 0.05;
+      scene_.time = (tick + 1) * kStep;
       writer.add(scene_, types_, name_);
     }
   }
@@ -95,17 +98,47 @@ TEST_F(Trajectories, RecordsOncePerPeriod) {
   EXPECT_EQ(times, (std::vector<double>{0, 0.5, 1.0, 1.5, 2.0}));
 }
 
+// as SUMO names its steps; whom SUMO drives is seen when the next tick begins
+TEST_F(Trajectories, AStepIsNamedByItsBeginAndHoldsEverybodyAtItsEnd) {
+  scene_.control[1] = Control::External;
+  {
+    TrajectoryWriter writer(file_, 0, kStep, net_);
+    for (int tick = 1; tick <= 3; ++tick) {
+      scene_.tick = tick;
+      scene_.time = 7.0 + tick * kStep;
+      scene_.position[0].x() += 0.3;
+      scene_.position[1].x() += 0.1;
+      writer.add(scene_, types_, name_);
+    }
+  }
+  pugi::xml_document document;
+  const std::string content = inflate(file_);
+  ASSERT_TRUE(document.load_string(content.c_str()));
+  std::vector<double> times, cars, walkers, speeds;
+  for (const pugi::xml_node step : document.child("fcd-export").children()) {
+    times.push_back(step.attribute("time").as_double());
+    cars.push_back(step.child("vehicle").attribute("x").as_double());
+    speeds.push_back(step.child("vehicle").attribute("speed").as_double());
+    walkers.push_back(step.child("person").attribute("x").as_double());
+  }
+  // the last one isn't whole
+  EXPECT_EQ(times, (std::vector<double>{7.0, 7.05}));
+  EXPECT_EQ(cars, (std::vector<double>{22.55, 22.85}));
+  EXPECT_EQ(walkers, (std::vector<double>{30.2, 30.3}));
+  EXPECT_EQ(speeds, (std::vector<double>{5.0, 6.0})) << "of the way made in it";
+}
+
 TEST_F(Trajectories, AnEmptyRunIsAValidDocument) {
-  { TrajectoryWriter writer(file_, 0.5, net_); }
+  { TrajectoryWriter writer(file_, 0.5, kStep, net_); }
   pugi::xml_document document;
   EXPECT_TRUE(document.load_string(inflate(file_).c_str()));
   EXPECT_TRUE(document.child("fcd-export"));
 }
 
 TEST_F(Trajectories, FullDiskAndUnwritableFolder) {
-  EXPECT_THROW(TrajectoryWriter("/dev/null/x.xml.gz", 0, net_), Error);
+  EXPECT_THROW(TrajectoryWriter("/dev/null/x.xml.gz", 0, kStep, net_), Error);
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
-  TrajectoryWriter writer("/dev/full", 0, net_);
+  TrajectoryWriter writer("/dev/full", 0, kStep, net_);
   try {
     for (int i = 0; i < 1000; ++i) writer.add(scene_, types_, name_);
     writer.close();

@@ -295,6 +295,24 @@ TEST_F(SignalTest, AmberStopsWhoCanStopAtEaseAndLetsTheOthersThrough) {
   EXPECT_NE(other.context(near).reason, LimitReason::Signal);
 }
 
+// Amber of one second: who reckoned with two and a half drove on from where it could halt still,
+// and passed at red.
+TEST_F(SignalTest, WhoGetsOverNoMoreWithinAShortAmberBrakesAsHardAsItCan) {
+  const std::size_t own = here_.add("car", {"in", "out"}, 60, 13);
+  show('y');
+  here_.scene.time = 100;
+  here_.road.signal_since.assign(here_.road.signal_states.size(), 100);
+  auto is_held = [&](double lasts, double before) {
+    here_.road.amber_until.assign(here_.road.signal_states.size(), 100 + lasts);
+    here_.move(own, here_.path(own).links.front().stop_line - 2.25 - before);
+    here_.update();
+    return here_.context(own).reason == LimitReason::Signal;
+  };
+  EXPECT_TRUE(is_held(1.0, 14.5));
+  EXPECT_FALSE(is_held(1.0, 12.5)) << "it gets over";
+  EXPECT_FALSE(is_held(3.0, 14.5)) << "it gets over";
+}
+
 TEST_F(SignalTest, WhoIsInsideClearsTheJunction) {
   show('r');
   const std::size_t own = here_.add("car", {"in", "out"}, 97, 5);

@@ -28,6 +28,7 @@ TEST(RequireFinitePose, TellsWhoseBugItIs) {
   EXPECT_NO_THROW(require_finite_pose("a", Vec2(1e9, -1e9), 1e9));
   EXPECT_THROW(require_finite_pose("a", Vec2(kNan, 0), 0), std::logic_error);
   EXPECT_THROW(require_finite_pose("a", Vec2(0, -kInfinity), 0), std::logic_error);
+  EXPECT_THROW(require_finite_pose("a", Vec2(0, 0), 0, kNan), std::logic_error);
   try {
     require_finite_pose("truck 7", Vec2(0, 0), kInfinity);
     FAIL();
