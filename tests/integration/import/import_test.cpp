@@ -322,8 +322,8 @@ INSTANTIATE_TEST_SUITE_P(Maps, SharedMapTest,
                            return name.substr(0, name.find('.'));
                          });
 
-// of Shi Men Er Lu the extract holds 228 m of a road that nothing leads to, of the motorway little
-// else than roads like that
+// of Shi Men Er Lu the extract holds 228 m of a road that nothing leads to, of the motorway one of
+// its carriageways is like that; along the other one there is a bay for buses
 TEST_F(ImportTest, FewTripsStayOnARoadThatStandsAlone) {
   const auto share_within_edge = [&](const char* map) {
     EXPECT_EQ(import(kSharedMaps / map, {"--force"}).exit_code, 0);
@@ -342,7 +342,7 @@ TEST_F(ImportTest, FewTripsStayOnARoadThatStandsAlone) {
   };
   if (!fs::exists(kSharedMaps)) GTEST_SKIP() << "no " << kSharedMaps << ": its extracts don't ship";
   EXPECT_LT(share_within_edge("shi_men_er_lu.osm"), 0.05);
-  EXPECT_GT(share_within_edge("highway.osm"), 0.95);
+  EXPECT_GT(share_within_edge("highway.osm"), 0.2);
 }
 
 // there a queue at the signal would stand across a turn over it, drawn over the junction before
@@ -595,8 +595,8 @@ INSTANTIATE_TEST_SUITE_P(
                     std::pair{"t_access.osm", "closed_to_some"},
                     std::pair{"t_lanes.osm", "lanes_not_meant"},
                     std::pair{"t_maxspeed.osm", "maxspeed_not_meant"}),
-    [](const auto& info) {
-      return std::string(info.param.first, std::string(info.param.first).find('.'));
+    [](const auto& one) {
+      return std::string(one.param.first, std::string(one.param.first).find('.'));
     });
 
 TEST_F(ImportTest, SurvivesDamagedMaps) {

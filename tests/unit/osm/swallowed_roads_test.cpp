@@ -56,8 +56,7 @@ TEST(SwallowedRoads, OfCarsLeaveNoRoom) {
   EXPECT_THAT(swallowed_roads(road), IsEmpty()) << "two metres are left";
 }
 
-// 58 driveways of one street of Limerick became one junction of 120 m, and its walking areas took
-// for ever
+// a junction of a whole street has turns that lead backwards and walking areas without end
 TEST(SwallowedRoads, AStreetOfDrivewaysIsNotOneJunction) {
   RoadNetwork road;
   constexpr int kDriveways = 12;
