@@ -40,9 +40,11 @@ OutputFolder::OutputFolder(fs::path folder, bool force)
       throw Error(folder_.string(), "holds another run's " + std::string(name) +
                                         ", choose another folder or replace it with --force");
     }
-    // what this run may not write itself must not pass for its own
+    // what this run may not write itself must not pass for its own; where a link leads is the
+    // user's
     const std::string_view file = name;
-    if (file.rfind("replay", 0) == 0 || file == "results.json") fs::remove(folder_ / name);
+    const bool stale = file.rfind("replay", 0) == 0 || file == "results.json";
+    if (stale && !fs::is_symlink(folder_ / name)) fs::remove(folder_ / name);
   }
 }
 

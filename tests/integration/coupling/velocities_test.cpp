@@ -104,9 +104,12 @@ void expect_the_same(const std::string& scenario, const std::string& backend) {
     gained_error = std::max(gained_error, std::abs(gained - theirs.acceleration));
     EXPECT_NEAR(gained, theirs.acceleration, 2.0 * kRounded / kStep) << id << " at " << time;
   }
-  RecordProperty("greatest_speed_error_mm_s", static_cast<int>(1000.0 * speed_error));
-  RecordProperty("greatest_acceleration_error_mm_s2", static_cast<int>(1000.0 * gained_error));
-  RecordProperty("greatest_error_of_displacement_mm_s", static_cast<int>(1000.0 * moved_error));
+  testing::Test::RecordProperty("greatest_speed_error_mm_s",
+                                static_cast<int>(1000.0 * speed_error));
+  testing::Test::RecordProperty("greatest_acceleration_error_mm_s2",
+                                static_cast<int>(1000.0 * gained_error));
+  testing::Test::RecordProperty("greatest_error_of_displacement_mm_s",
+                                static_cast<int>(1000.0 * moved_error));
   EXPECT_GT(fast, 100u) << "nobody drives";
 }
 
@@ -165,7 +168,7 @@ TEST_P(Velocities, OnARealMap) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Coupling, Velocities, testing::Values("traci", "libsumo"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& tested) { return std::string(tested.param); });
 
 }  // namespace
 }  // namespace sumogamma

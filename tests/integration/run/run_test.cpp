@@ -388,7 +388,7 @@ TEST_F(UserConfigTest, FoldersMayHaveCommasAndBlanks) {
 TEST_F(UserConfigTest, ANetworkOfANewerSumoIsConverted) {
   std::string net = content(folder_ / "own" / "net.net.xml");
   const std::string old_text = "disallow=\"";
-  const std::size_t at = net.find(old_text);
+  const std::size_t at = net.find(old_text, net.find("<lane "));
   ASSERT_NE(at, std::string::npos);
   net.insert(at + old_text.size(), "cable_car wheelchair ");
   put("net.net.xml", net);

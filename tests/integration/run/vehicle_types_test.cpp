@@ -47,7 +47,7 @@ struct Saying {
 /// One run for all of them, 60 s: NAME_first on the empty road, NAME behind NAME_slow.
 Tracks run(const std::vector<Saying>& sayings) {
   const TemporaryFolder folder;
-  std::string nodes, edges, types, early, late;
+  std::string nodes, edges, types, early, slow, late;
   for (std::size_t k = 0; k < sayings.size(); ++k) {
     const auto& [name, attributes] = sayings[k];
     const std::string y = std::to_string(30 * k),
@@ -60,14 +60,14 @@ Tracks run(const std::vector<Saying>& sayings) {
     early += "<vehicle id=\"" + name + "_first\" type=\"" + name +
              "\" depart=\"0\" departPos=\"20\"><route edges=\"" + name + "\"/><stop lane=\"" +
              name + "_0\" endPos=\"100\" duration=\"2\"/></vehicle>";
-    late += "<vehicle id=\"" + name + "_slow\" type=\"slow\" depart=\"10\" departPos=\"60" + route +
-            "<vehicle id=\"" + name + "\" type=\"" + name + "\" depart=\"12" + route;
+    slow += "<vehicle id=\"" + name + "_slow\" type=\"slow\" depart=\"10\" departPos=\"60" + route;
+    late += "<vehicle id=\"" + name + "\" type=\"" + name + "\" depart=\"12" + route;
   }
   folder.write("nodes.xml", "<nodes>" + nodes + "</nodes>");
   folder.write("edges.xml", "<edges>" + edges + "</edges>");
   folder.write("routes.rou.xml",
                "<routes><vType id=\"slow\" vClass=\"passenger\" speedDev=\"0\" maxSpeed=\"4\"/>" +
-                   types + early + late + "</routes>");
+                   types + early + slow + late + "</routes>");
   folder.write("s.sumocfg",
                "<configuration><input><net-file value=\"net.net.xml\"/><route-files "
                "value=\"routes.rou.xml\"/></input></configuration>");
@@ -96,7 +96,12 @@ Tracks run(const std::vector<Saying>& sayings) {
   request.time_limit = 300.0;
   const ProcessResult result = run_process(request);
   EXPECT_EQ(result.exit_code, 0) << result.errors;
-  return read_tracks(folder.file("out/trajectories.fcd.xml.gz"));
+  Tracks tracks = read_tracks(folder.file("out/trajectories.fcd.xml.gz"));
+  for (const Saying& saying : sayings)
+    for (const char* which : {"", "_first", "_slow"})
+      if (!tracks.contains(saying.name + which))
+        throw std::runtime_error(saying.name + which + " didn't come");
+  return tracks;
 }
 
 double fastest(const std::vector<Sample>& track) {
