@@ -390,6 +390,9 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   world_options.max_vehicles = plan.control.any() ? plan.vehicles : 0;
   world_options.seed = plan.clock.seed;
   world_options.dt = plan.clock.step;
+  world_options.rerouter_edges = plan.inventory.rerouter_edges;
+  world_options.sign_lanes = plan.inventory.sign_lanes;
+  world_options.others_steer = !plan.options.connect.empty() || plan.options.clients > 1;
   for (const auto& [key, where] : plan.config.given)
     if (key.rfind("types.", 0) == 0) world_options.type_keys.insert(key);
   SumoWorld world(sim->model, *backend, world_options);

@@ -13,6 +13,10 @@ namespace sumogamma {
 
 namespace {
 
+bool driven_by_us(const Scene& scene, std::size_t row) {
+  return scene.control[row] == Control::Gamma;
+}
+
 void append_number(std::string& text, double value, int decimals) {
   char digits[64];
   const auto end =
@@ -103,9 +107,9 @@ void TrajectoryWriter::flush_text() {
 }
 
 void TrajectoryWriter::append_all(const Scene& scene, const AgentTypeTable& types,
-                                  const AgentName& name_of, Control control) {
+                                  const AgentName& name_of, bool driven) {
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (scene.control[row] != control) continue;
+    if (driven_by_us(scene, row) != driven) continue;
     const AgentType& type = type_of(types, scene.type[row]);
     append_agent(scene, row, type, name_of(scene.id[row]),
                  type.kinematics == Kinematics::Holonomic ? persons_ : vehicles_);
@@ -131,7 +135,7 @@ void TrajectoryWriter::add(const Scene& scene, const AgentTypeTable& types,
                            const AgentName& name_of) {
   if (!stream_) throw Error(file_.string(), "is closed already");
   if (open_) {
-    append_all(scene, types, name_of, Control::External);
+    append_all(scene, types, name_of, false);
     finish_step();
   }
   const double began = scene.time - step_;
@@ -140,17 +144,17 @@ void TrajectoryWriter::add(const Scene& scene, const AgentTypeTable& types,
   // speeds are over a tick, whether or not it is due
   speed_.resize(scene.size());
   for (std::size_t row = 0; row < scene.size(); ++row)
-    speed_[row] = scene.control[row] == Control::External
-                      ? scene.speed[row]
-                      : speeds_.update(scene, row, reference_point(scene, types, row), step_);
+    speed_[row] = driven_by_us(scene, row)
+                      ? speeds_.update(scene, row, reference_point(scene, types, row), step_)
+                      : scene.speed[row];
   if (!due) return;
   vehicles_.clear();
   persons_.clear();
-  append_all(scene, types, name_of, Control::Gamma);
+  append_all(scene, types, name_of, true);
   next_time_ = started_ ? std::max(next_time_ + period_, began) : began + period_;
   started_ = open_ = true;
-  external_ = std::find(scene.control.begin(), scene.control.end(), Control::External) !=
-              scene.control.end();
+  external_ = std::any_of(scene.control.begin(), scene.control.end(),
+                          [](Control control) { return control != Control::Gamma; });
   head_ = "    <timestep";
   // hundredths as SUMO writes them, thousandths where the step needs them
   const bool fine = std::llround(began * 1000.0) % 10 != 0;
@@ -186,8 +190,7 @@ void TrajectoryWriter::append_agent(const Scene& scene, std::size_t row, const A
   append_attribute(text, "y", place.y());
   append_attribute(text, "angle", sumo_from_heading(scene.heading[row]));
   append_attribute(text, "type", type.name);
-  append_attribute(text, "speed",
-                   scene.control[row] == Control::External ? scene.speed[row] : speed_[row]);
+  append_attribute(text, "speed", driven_by_us(scene, row) ? speed_[row] : scene.speed[row]);
   append_attribute(text, "pos", along);
   if (person)
     append_attribute(text, "edge",

@@ -45,8 +45,9 @@ class TrajectoryWriter {
  private:
   void append_agent(const Scene& scene, std::size_t row, const AgentType& type,
                     std::string_view name, std::string& text);
+  /// Those whom we drive, or all others.
   void append_all(const Scene& scene, const AgentTypeTable& types, const AgentName& name_of,
-                  Control control);
+                  bool driven);
   void finish_step();
   void flush_text();
   [[noreturn]] void fail();

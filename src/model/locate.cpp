@@ -1,10 +1,26 @@
 #include "model/locate.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <utility>
 
 namespace sumogamma {
+
+namespace {
+
+/// The index on `path` of the halt that is next on `old`: those before it are over.
+std::int32_t next_stop_on(const Path& path, const Path& old, std::int32_t next) {
+  const auto index = static_cast<std::size_t>(next);
+  if (index >= old.stops.size()) return static_cast<std::int32_t>(path.stops.size());
+  const auto found = std::find_if(path.stops.begin(), path.stops.end(), [&](const PathStop& stop) {
+    return stop.plan >= old.stops[index].plan;
+  });
+  return static_cast<std::int32_t>(found - path.stops.begin());
+}
+
+}  // namespace
 
 double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& scene,
                       std::size_t row) {
@@ -29,9 +45,10 @@ double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& 
 }
 
 void take_path(Path path, double along, std::size_t row, RoadState& road, Scene& scene) {
+  const Path* old = road.path(scene.path[row]);
+  scene.next_stop[row] = old ? next_stop_on(path, *old, scene.next_stop[row]) : 0;
   road.paths[scene.id[row].value] = std::make_shared<const Path>(std::move(path));
   scene.path_along[row] = along;
-  scene.next_stop[row] = 0;
   scene.gate[row] = std::numeric_limits<double>::infinity();
 }
 

@@ -271,7 +271,7 @@ std::optional<RoadNetwork> patch(const OsmMap& map, const NetconvertRequest& net
   const OverlapLength left = overlap_length(*road, find_lane_overlaps(*road));
   if (left.wheels + left.walking > kWorthAnotherPass * left.all_wheels)
     road = patch_apart(netconvert, *road, NetworkPatch{}, result);
-  return road;
+  return road ? refuse_backward_turns(netconvert, *std::move(road), result) : std::nullopt;
 }
 
 /// The network of the map, made anew with junctions joined where only the finished one tells that

@@ -36,6 +36,20 @@ double aside_cost(const RoadNetwork& network, const Connection& connection) {
   return kRate * std::abs(cross(mean, to.points().front() - from.points().back()));
 }
 
+/// The lane changes from lane `entry` of the route's edge `index`, over the lanes of its stops
+/// there, to lane `exit`: what they cost. `from`: where they begin [m].
+double cost_on_edge(const PathRequest& request, std::size_t index, int entry, int exit, double from,
+                    double length) {
+  double cost = 0.0;
+  for (const RouteStop& stop : request.stops) {
+    if (stop.route_index != index || stop.lane_index < 0 || stop.along < from) continue;
+    cost += change_cost(std::abs(stop.lane_index - entry), stop.along - from);
+    entry = stop.lane_index;
+    from = stop.along;
+  }
+  return cost + change_cost(std::abs(exit - entry), length - from);
+}
+
 /// Backward dynamic program over the route: cheapest lane choice for every lane of every edge.
 std::vector<std::vector<LaneOption>> plan_lanes(const RoadNetwork& network,
                                                 const PathRequest& request) {
@@ -75,17 +89,18 @@ std::vector<std::vector<LaneOption>> plan_lanes(const RoadNetwork& network,
       if (!allows(lane, request.vehicle_class)) continue;
       LaneOption& choice = plan[i][static_cast<std::size_t>(entry)];
       // who starts at the end of an edge has little room to change on it
-      const double room = lane.centerline.length() - (i == 0 ? request.start_along : 0.0);
+      const double length = lane.centerline.length();
+      const double begin = i == 0 ? request.start_along : 0.0;
       for (int exit = 0; exit < count; ++exit) {
-        const double cost =
-            exit_cost[static_cast<std::size_t>(exit)] + change_cost(std::abs(exit - entry), room);
+        const double cost = exit_cost[static_cast<std::size_t>(exit)] +
+                            cost_on_edge(request, i, entry, exit, begin, length);
         if (cost < choice.cost)
           choice = {
               .cost = cost, .exit_index = exit, .next = exit_link[static_cast<std::size_t>(exit)]};
       }
       choice.leave_cost = exit_cost[static_cast<std::size_t>(entry)];
       choice.leave = exit_link[static_cast<std::size_t>(entry)];
-      choice.drivable = lane.centerline.length() + onward[static_cast<std::size_t>(entry)];
+      choice.drivable = length + onward[static_cast<std::size_t>(entry)];
     }
   }
   return plan;
@@ -226,7 +241,8 @@ class Builder {
     PathStretch stretch;
     stretch.lane = id;
     stretch.route_index = route_index_;
-    stretch.speed_limit = lane.speed_limit;
+    stretch.speed_limit =
+        request_.speed_limits ? (*request_.speed_limits)[index_of(id)] : lane.speed_limit;
     const auto may_use = [&](const Lane& beside) { return allows(beside, request_.vehicle_class); };
     const double inner = 0.5 * lane.width + width_beside(network_, lane, true, may_use);
     const double outer = 0.5 * lane.width + width_beside(network_, lane, false, may_use);
@@ -286,6 +302,17 @@ double end_of(const Trip& trip, std::size_t index, const Lane& lane) {
              : length;
 }
 
+double length_of(const RoadNetwork& network, const Edge& edge, int lane) {
+  return network.lane(edge.lanes[static_cast<std::size_t>(lane)]).centerline.length();
+}
+
+/// The first stop on the route's edge `index` beyond `from` along it that has to be in a lane.
+const RouteStop* stop_on_lane(const Trip& trip, std::size_t index, double from) {
+  for (const RouteStop& stop : trip.request.stops)
+    if (stop.route_index == index && stop.lane_index >= 0 && stop.along > from) return &stop;
+  return nullptr;
+}
+
 /// Goes on from lane `entry` of the route's edge `index`, `from` along it, to the trip's end.
 bool drive_on(const RoadNetwork& network, const Trip& trip, std::size_t index, int entry,
               double from, Builder& builder, std::string& why) {
@@ -293,6 +320,13 @@ bool drive_on(const RoadNetwork& network, const Trip& trip, std::size_t index, i
     const Edge& edge = network.edge(trip.route[i]);
     builder.enter_edge(i);
     const LaneOption& option = trip.options[i][static_cast<std::size_t>(entry)];
+    while (const RouteStop* stop = stop_on_lane(trip, i, from)) {
+      const double scale = length_of(network, edge, entry) /
+                           std::max(length_of(network, edge, stop->lane_index), 0.1);
+      cover_edge(network, edge, entry, stop->lane_index, from, stop->along * scale, builder);
+      entry = stop->lane_index;
+      from = stop->along;
+    }
     const double to = end_of(trip, i, network.lane(edge.lanes[static_cast<std::size_t>(entry)]));
     cover_edge(network, edge, entry, option.exit_index, std::min(from, to), to, builder);
     if (i + 1 == trip.route.size()) break;
@@ -306,28 +340,25 @@ bool drive_on(const RoadNetwork& network, const Trip& trip, std::size_t index, i
   return true;
 }
 
-/// Halts of the old path from `along` on, at the same places of the same edges of the new one.
-void carry_stops(const RoadNetwork& network, const Path& old_path, double along, Path& path) {
-  for (const PathStop& stop : old_path.stops) {
-    if (stop.along < along) continue;
-    const PathStretch& old = old_path.stretch_at(stop.along);
-    const double on_lane = old.lane_from + stop.along - old.from;
-    place_stop(network, network.lane(old.lane).edge, on_lane, stop.duration, path);
+/// Adds the halts of a trip to a path of it, but for those behind its beginning.
+void place_stops(const RoadNetwork& network, const Trip& trip, Path& path) {
+  constexpr double kForever = std::numeric_limits<double>::infinity();
+  constexpr double kSame = 0.5;  // [m]
+  for (const RouteStop& stop : trip.request.stops) {
+    for (const PathStretch& stretch : path.stretches) {
+      if (stretch.route_index != static_cast<int>(stop.route_index) ||
+          network.lane(stretch.lane).kind == LaneKind::Internal)
+        continue;
+      const double place = stretch.from + stop.along - stretch.lane_from;
+      if (place > stretch.to + kSame) continue;
+      if (place > -kSame)
+        path.stops.push_back({std::max(place, stretch.from), kForever, stop.room, stop.plan});
+      break;
+    }
   }
 }
 
 }  // namespace
-
-void place_stop(const RoadNetwork& network, EdgeId edge, double on_lane, double duration,
-                Path& path) {
-  for (const PathStretch& stretch : path.stretches) {
-    if (network.lane(stretch.lane).edge != edge) continue;
-    const double place = stretch.from + std::max(on_lane - stretch.lane_from, 0.0);
-    if (place > stretch.to + 0.5) continue;
-    path.stops.push_back({place, duration});
-    return;
-  }
-}
 
 std::optional<Path> build_driving_path(const RoadNetwork& network, const PathRequest& request,
                                        std::string& why) {
@@ -362,6 +393,7 @@ std::optional<Path> build_driving_path(const RoadNetwork& network, const PathReq
   Builder builder(network, trip->request);
   if (!drive_on(network, *trip, 0, entry, request.start_along, builder, why)) return std::nullopt;
   Path path = builder.finish();
+  place_stops(network, *trip, path);
   path.trip = std::move(trip);
   return path;
 }
@@ -393,8 +425,8 @@ struct Remade {
     std::string why;
     if (!drive_on(network, *trip, first, entry, from, builder, why)) return std::nullopt;
     Path remade = builder.finish();
+    place_stops(network, *trip, remade);
     remade.trip = std::move(trip);
-    carry_stops(network, path, along, remade);
     place = on_lane - begin;
     return remade;
   }
@@ -412,8 +444,9 @@ bool has_room_to_change(const Trip& trip, std::size_t index, const Lane& lane, d
   const double radius = trip.request.cornering.turning_radius;
   const double shortest = std::clamp(3.0 * (radius > 0.0 ? radius : kCar), kLeast, kMost);
   const LaneOption& option = trip.options[index][static_cast<std::size_t>(lane.index)];
-  const int changes = std::abs(option.exit_index - lane.index);
-  return from + shortest * changes / 0.85 <= end_of(trip, index, lane);
+  const RouteStop* stop = stop_on_lane(trip, index, from);
+  const int changes = std::abs((stop ? stop->lane_index : option.exit_index) - lane.index);
+  return from + shortest * changes / 0.85 <= (stop ? stop->along : end_of(trip, index, lane));
 }
 
 }  // namespace
@@ -532,11 +565,20 @@ std::optional<Path> take_route(const RoadNetwork& network, const Path& path, dou
   trip->route = std::move(route);
   trip->request = path.trip->request;
   trip->request.route = trip->route;
+  trip->request.stops.clear();
   trip->options = plan_lanes(network, trip->request);
   const LaneOption& option = trip->options.front()[static_cast<std::size_t>(old.lane.index)];
   if (option.cost == kUnreachable || option.exit_index != old.lane.index) return std::nullopt;
   Builder builder(network, trip->request);
   return old.finish(builder, trip, 0, old.lane.index, old.begin, along);
+}
+
+Path with_speed_limits(const Path& path, const std::vector<double>& limits) {
+  Path changed = path;
+  for (PathStretch& stretch : changed.stretches)
+    if (stretch.lane != kNoLane) stretch.speed_limit = limits[index_of(stretch.lane)];
+  compute_speed_profile(path.trip->request, changed);
+  return changed;
 }
 
 }  // namespace sumogamma

@@ -43,7 +43,18 @@ struct PathLink {
 /// A planned halt: a <stop> of the route.
 struct PathStop {
   double along = 0;     ///< front bumper's place [m]
-  double duration = 0;  ///< [s]
+  double duration = 0;  ///< [s]; infinite: until the world lets it go on
+  double room = 0;      ///< before `along`, in which it may halt behind another that does [m]
+  int plan = -1;        ///< index in the plan of its vehicle, as the world counts
+};
+
+/// A planned halt as a trip has it: an edge of the route, a lane of that and a place on it.
+struct RouteStop {
+  std::size_t route_index = 0;
+  int lane_index = -1;  ///< -1: any lane
+  double along = 0;     ///< front bumper's place along the lane [m]
+  double room = 0;      ///< as PathStop::room
+  int plan = -1;        ///< as PathStop::plan
 };
 
 /// Where a walk leads straight over a road between junctions, from kerb to kerb.
@@ -61,6 +72,9 @@ struct Cornering {
   bool keep_left = false;        ///< the kerb is on the left
 };
 
+/// Speed limits that hold now, by LaneId [m/s]: variable speed signs. Null: the network's.
+using SpeedLimits = std::shared_ptr<const std::vector<double>>;
+
 /// What a path is made from.
 struct PathRequest {
   std::span<const EdgeId> route;
@@ -72,7 +86,9 @@ struct PathRequest {
   double comfortable_deceleration = 2.5;  ///< [m/s^2]
   double max_speed = 50;                  ///< [m/s]
   double speed_factor = 1;                ///< of the lane limits
-  Cornering cornering;                    ///< none: as the lanes lie
+  SpeedLimits speed_limits;      ///< shared by all: what changes there holds for new pieces
+  Cornering cornering;           ///< none: as the lanes lie
+  std::vector<RouteStop> stops;  ///< in order; the path is in their lanes at their places
   double mid_block = -1;  ///< in [0, 1): on foot crosses between junctions, that share of the way
                           ///< to the junction ahead; negative: on crossings alone
 };
@@ -144,14 +160,11 @@ struct Path {
 };
 
 /// Path of a vehicle along its route: the lanes that need the fewest lane changes, changes spread
-/// over the edge. nullopt with `why` set where a pair of edges isn't connected for the class.
+/// over the edge. It halts at the request's stops until the world lets it go on, and has none of
+/// those that lie behind its beginning. nullopt with `why` set where a pair of edges isn't
+/// connected for the class.
 std::optional<Path> build_driving_path(const RoadNetwork& network, const PathRequest& request,
                                        std::string& why);
-
-/// Adds a halt `on_lane` [m] along a lane of `edge` to a path that leads over it; nothing where it
-/// doesn't get there.
-void place_stop(const RoadNetwork& network, EdgeId edge, double on_lane, double duration,
-                Path& path);
 
 /// The path of the same trip that moves over into `target`, a neighbour of the lane at `along`,
 /// within `distance` from there, and goes on as the trip needs. It begins `back` [m] behind the
@@ -193,6 +206,9 @@ std::optional<Path> enter_beside(const RoadNetwork& network, const Path& path, d
 /// ahead gets another route: nullopt then, too.
 std::optional<Path> take_route(const RoadNetwork& network, const Path& path, double& along,
                                std::vector<EdgeId> route, double back);
+
+/// The same path by the speed limits that hold now. Precondition: it is a vehicle's.
+Path with_speed_limits(const Path& path, const std::vector<double>& limits);
 
 /// Path of a pedestrian along the edges of a walk: sidewalks in either direction, walking areas and
 /// crossings between them found by least distance. nullopt with `why` set where the walk can't be

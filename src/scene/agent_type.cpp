@@ -196,6 +196,45 @@ AgentTypeTable default_agent_types() {
        .attention_rear = 2.0,
        .headway = 0.9,
        .min_gap = 0.4});
+  // on rails and on water: SUMO moves them, the others have to know their size and how they brake
+  // (rail vehicles: SUMO's vClass defaults; service brakes)
+  const AgentType rail{.name = "tram",
+                       .sumo_class = "tram",
+                       .length = 22.0,
+                       .width = 2.4,
+                       .wheelbase = 11.0,
+                       .rear_axle_to_center = 5.5,
+                       .max_steering = radians(30),
+                       .max_steering_rate = radians(30),
+                       .max_speed = 22.0,
+                       .preferred_speed = 12.0,
+                       .max_acceleration = 1.0,
+                       .comfortable_deceleration = 1.2,
+                       .max_deceleration = 3.0,
+                       .max_lateral_acceleration = 1.0,
+                       .tracking_error = 0.6,
+                       .horizon = 5.0,
+                       .attention_front = 20.0,
+                       .attention_rear = 8.0,
+                       .headway = 1.8,
+                       .min_gap = 2.5,
+                       .guided = true};
+  add(rail);
+  AgentType train = rail;
+  train.name = "train";
+  train.sumo_class = "rail";
+  train.length = 135.0;
+  train.width = 2.84;
+  train.max_speed = 61.0;
+  add(train);
+  AgentType ship = rail;
+  ship.name = "ship";
+  ship.sumo_class = "ship";
+  ship.length = 17.0;
+  ship.width = 4.0;
+  ship.max_speed = 10.0;
+  ship.preferred_speed = 8.0;
+  add(ship);
   return types;
 }
 

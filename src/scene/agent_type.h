@@ -43,6 +43,7 @@ struct AgentType {
   double min_gap = 0;                              ///< standstill gap to a leader [m]
   double critical_gap = 1.0;     ///< left before whoever has the right of way in a place where ways
                                  ///< cross [s]: HCM's critical headway less the time of crossing
+  bool guided = false;           ///< on rails or on water: SUMO alone moves it
   Compliance compliance{};       ///< how far it keeps the rules, and how its agents differ
   std::int32_t variant_of = -1;  ///< row that it counts as and whose name it has; -1: itself
 };
@@ -50,9 +51,9 @@ struct AgentType {
 /// Rows in a fixed order; index with AgentTypeId.
 using AgentTypeTable = std::vector<AgentType>;
 
-/// The nine built-in types: pedestrian, bicycle, motorcycle, car, van, bus, truck,
-/// electric_tricycle, gyro_scooter. Sizes and limits after AgentParams of the reference and SUMO's
-/// vClass defaults; sources stand beside the rows.
+/// The built-in types: pedestrian, bicycle, motorcycle, car, van, bus, truck, electric_tricycle,
+/// gyro_scooter, and those that SUMO alone moves: tram, train, ship. Sizes and limits after
+/// AgentParams of the reference and SUMO's vClass defaults; sources stand beside the rows.
 AgentTypeTable default_agent_types();
 
 /// Row named `name`, or -1 cast to the id type's count: throws Error listing the known names.

@@ -31,6 +31,7 @@ struct LanePosition {
 enum class Control : std::uint8_t {
   Gamma,     ///< by this model
   External,  ///< by the world (SUMO): observed, never commanded
+  Parked,    ///< by nobody: it stands off the road, in a place of the world's
 };
 
 /// The state of everybody at one instant: parallel arrays of equal length, one entry an agent, in

@@ -32,8 +32,11 @@ class PhaseClock {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Planned halts: stands out a stop's time once the front is there, then looks to the next one.
+/// Planned halts: stands out a stop's time once the front is there, or once it stands behind
+/// another that halts where there is room for both, then looks to the next one.
 void update_halt(const Path& path, double dt, Scene& scene, std::size_t row) {
+  constexpr double kThere = 0.4;   // SUMO counts a stop as reached half a metre before it [m]
+  constexpr double kPassed = 5.0;  // [m]
   const auto next = static_cast<std::size_t>(scene.next_stop[row]);
   if (next >= path.stops.size()) return;
   if (scene.stop_left[row] > 0.0) {
@@ -46,10 +49,14 @@ void update_halt(const Path& path, double dt, Scene& scene, std::size_t row) {
   }
   const double front = scene.path_along[row] +
                        half_extent(scene, row, path.line.direction_at(scene.path_along[row]));
-  if (front > path.stops[next].along + 5.0)
+  const PathStop& stop = path.stops[next];
+  const std::size_t foe = foe_row(scene, row);
+  const bool behind_another = foe < scene.size() && scene.stop_left[foe] > 0.0;
+  const double there = stop.along - (behind_another ? std::max(stop.room, kThere) : kThere);
+  if (front > stop.along + kPassed)
     ++scene.next_stop[row];  // passed: it began beyond its stop
-  else if (front > path.stops[next].along - 1.5 && scene.speed[row] < 0.2)
-    scene.stop_left[row] = std::max(path.stops[next].duration, dt);
+  else if (front > there && scene.speed[row] < 0.2)
+    scene.stop_left[row] = std::max(stop.duration, dt);
 }
 
 void apply(const BodyState& next, double dt, Scene& scene, std::size_t row) {
@@ -102,8 +109,8 @@ void tick(Simulation& sim, World& world) {
   clock.end(sim.times.model);
 
   for (std::size_t row = 0; row < rows; ++row) {
-    if (const Path* path = sim.road.path(scene.path[row])) update_halt(*path, sim.dt, scene, row);
     if (scene.control[row] == Control::Gamma) {
+      if (const Path* path = sim.road.path(scene.path[row])) update_halt(*path, sim.dt, scene, row);
       apply(sim.commands[row], sim.dt, scene, row);
       ++sim.times.agent_steps;
     }

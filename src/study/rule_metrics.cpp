@@ -110,7 +110,7 @@ void RuleMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
     if (type.kinematics == Kinematics::Holonomic) {
       judge_crossing(agent, state, road);
       judge_mid_block(agent, state, road);
-    } else {
+    } else if (scene.control[row] != Control::Parked && !type.guided) {
       judge_ground(agent, state);
       if (state.known) judge_stop_line(agent, state, front, road);
       if (state.passed != kNoLane) judge_turn(agent, state);

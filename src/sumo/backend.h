@@ -30,7 +30,30 @@ struct SumoAgent {
   double speed = 0;              ///< [m/s]
   std::string lane;              ///< "" off every lane
   double lane_position = 0;      ///< on it, as SUMO counts [m]
+  int stop_state = 0;            ///< vehicles: bits of stop_state below
+  std::string rides;             ///< persons: the vehicle that it sits in, "" outside of any
+  int stages_left = 0;           ///< persons: of its plan, the present one included
 };
+
+/// Bits of a vehicle's stop state (TraCI, "stop state", 0xb5).
+namespace stop_state {
+inline constexpr int kStopped = 1, kParking = 2;
+}
+
+/// What a person is doing, by its present stage (TraCI, "get stage").
+enum class StageKind {
+  None,  ///< its plan is over
+  Walking,
+  Waiting,  ///< at a stop of its plan
+  Riding,   ///< in a vehicle or waiting for one
+  Other,    ///< access to a platform, a trip that has not been routed
+};
+
+/// Bits of a planned stop (TraCI, "stop", 0x12), as they are read and as they are set.
+namespace stop_flags {
+inline constexpr int kParking = 1, kStoppingPlace = 8 | 16 | 32 | 64;  // bus, container, charging,
+                                                                       // parking area
+}
 
 /// What SUMO tells of a vehicle's type beyond its body; negative: not told (persons).
 struct SumoVehicleType {
@@ -60,9 +83,21 @@ struct SumoAgentDetails {
   double mid_block = -1;         ///< as PathRequest::mid_block; not SUMO's
   struct Stop {
     std::string lane;
-    double start = 0, end = 0, duration = 0;
+    double start = 0, end = 0;  ///< along the lane [m]
+    double duration = -1;       ///< at the least [s]; negative: none
+    double until = -1;          ///< not before this time [s]; negative: none
+    std::string place;          ///< bus stop, parking area, ...; empty: a place on the lane
+    int flags = 0;              ///< bits of stop_flags
+    double speed = 0;           ///< > 0: passed at this speed at most (a waypoint) [m/s]
   };
-  std::vector<Stop> stops;  ///< vehicles: in order
+  std::vector<Stop> stops;     ///< vehicles: those ahead, in order
+  int stop_state = 0;          ///< vehicles: bits of stop_state
+  int route_index = 0;         ///< vehicles: of the edge in `route` that SUMO has it on
+  bool is_taxi = false;        ///< vehicles: SUMO's taxi dispatch gives it its ways
+  double reroute_period = -1;  ///< vehicles with a rerouting device: time between its looks [s], 0
+                               ///< for one at departure; negative: without
+  StageKind stage = StageKind::None;  ///< persons
+  int stages_left = 0;                ///< persons: of the plan, the present one included
 };
 
 /// What happened during a step.
@@ -72,6 +107,8 @@ struct SumoStep {
   std::vector<std::string> arrived_vehicles, arrived_persons;
   std::vector<std::string> lost;  ///< ids whose pose SUMO refused (vanished between read and write)
   std::vector<SumoAgent> agents;  ///< poses of the agents asked for with watch(), after the step
+  std::vector<std::pair<bool, std::string>>
+      gone;  ///< watched ones that SUMO doesn't know any more: is it a person, id
   std::vector<std::string> signal_states;  ///< one a signal, in the order of signal_ids()
   int teleports = 0, emergency_stops = 0, collisions = 0;
   int waiting_to_insert = 0;  ///< SUMO's own insertion backlog
@@ -96,6 +133,10 @@ class SumoBackend {
   /// When a signal changes next, by its place in signal_ids() [s]; infinite where SUMO can't tell.
   virtual double next_switch(std::size_t signal) = 0;
 
+  /// Who is in the simulation already: of a loaded state, or of a SUMO that the user started.
+  virtual std::vector<std::string> present_vehicles() = 0;
+  virtual std::vector<std::string> present_persons() = 0;
+
   /// Moves every ghost and advances one step. A ghost left out for one step is forgotten by SUMO.
   virtual void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
                     SumoStep& result) = 0;
@@ -106,13 +147,28 @@ class SumoBackend {
   /// An agent that is gone is dropped silently.
   virtual void watch(const std::string& id, bool is_person) = 0;
   virtual void unwatch(const std::string& id, bool is_person) = 0;
-  /// Takes a vehicle out as arrived, or ends a person's current stage: the next stage's walk, if it
-  /// is one, is returned as details; empty where the person has finished or rides.
+  /// Takes a vehicle out as arrived, or ends a person's current stage and tells the next one.
   virtual void remove_vehicle(const std::string& id) = 0;
-  virtual std::vector<std::string> finish_stage(const std::string& person) = 0;
+  virtual StageKind finish_stage(const std::string& person) = 0;
+  /// Puts a ghost onto a lane at `pose` in the coming step, where SUMO's stops and rerouters find
+  /// it; from then on SUMO moves it, from `speed` [m/s], until it is a ghost again.
+  virtual void put_on_lane(const SumoPose& pose, const std::string& lane, double speed) = 0;
+  /// Adds a stop to a vehicle's plan.
+  virtual void add_stop(const std::string& vehicle, const SumoAgentDetails::Stop& stop) = 0;
+  /// The route of a vehicle from its first edge on.
+  virtual void set_route(const std::string& vehicle, const std::vector<std::string>& edges) = 0;
+  /// SUMO's fastest route for a vType by the travel times of set_travel_time; empty: there is none.
+  virtual std::vector<std::string> find_route(const std::string& from, const std::string& to,
+                                              const std::string& type) = 0;
+  /// What SUMO's routers take for the travel time of an edge from now on [s].
+  virtual void set_travel_time(const std::string& edge, double seconds) = 0;
+  /// Present speed limits of lanes [m/s], negative where SUMO doesn't know the lane.
+  virtual std::vector<double> lane_speeds(std::span<const std::string> lanes) = 0;
   /// A vehicle that step() moves from now on, at `speed` [m/s] so far: SUMO's limits no longer
   /// apply to the speeds that step() has it tell.
   virtual void take_over(const std::string& vehicle, double speed) = 0;
+  /// The other way round: SUMO drives it by its own limits.
+  virtual void release(const std::string& vehicle) = 0;
   /// SUMO-driven vehicle: hold this speed [m/s]; negative gives it back to SUMO.
   virtual void set_speed(const std::string& vehicle, double speed) = 0;
   /// Tells actuated signals that a vehicle passed `age` seconds ago, for each listed detector.

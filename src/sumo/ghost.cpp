@@ -1,5 +1,6 @@
 #include "sumo/ghost.h"
 
+#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -7,6 +8,20 @@
 #include "base/error.h"
 
 namespace sumogamma {
+
+LaneHint lane_hint(const std::string& lane) {
+  const std::size_t line = lane.rfind('_');
+  if (line == std::string::npos) return {};
+  LaneHint hint{lane.substr(0, line), 0};
+  std::from_chars(lane.data() + line + 1, lane.data() + lane.size(), hint.index);
+  return hint;
+}
+
+double reroute_period(const std::string& parameter) {
+  double period = -1.0;
+  std::from_chars(parameter.data(), parameter.data() + parameter.size(), period);
+  return period;
+}
 
 double wrapped_degrees(double angle) {
   const double wrapped = std::fmod(angle, 360.0);

@@ -19,15 +19,30 @@ enum class GhostMode {
 /// SUMO's speed mode in which setSpeed is obeyed as it stands, by no limit of lane, type or
 /// braking.
 constexpr int kSpeedModeFree = 0;
+/// SUMO's default one.
+constexpr int kSpeedModeSafe = 31;
 
 /// The two arguments of moveToXY that make a ghost.
 struct GhostArguments {
   int keep_route = 2;
   double match_threshold = -1e9;
 };
+/// Those that put it onto the nearest lane of its route, at its very pose.
+inline constexpr GhostArguments kOntoLane{3, 100.0};
 constexpr GhostArguments ghost_arguments(GhostMode mode) {
   return mode == GhostMode::OffLane ? GhostArguments{2, -1e9} : GhostArguments{3, 1e9};
 }
+
+/// A lane's name in two parts, as moveToXY and stops want it; no lane: an empty edge.
+struct LaneHint {
+  std::string edge;
+  int index = 0;
+};
+LaneHint lane_hint(const std::string& lane);
+
+/// The time between two looks of a vehicle's rerouting device [s] from the text of its parameter
+/// "device.rerouting.period"; negative: it has none.
+double reroute_period(const std::string& parameter);
 
 /// The same angle in [0, 360) [deg]. SUMO subtracts 360 in a loop, so an angle must be wrapped
 /// before it is sent.

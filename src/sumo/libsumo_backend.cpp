@@ -81,7 +81,14 @@ SumoAgentDetails common_details(const std::string& id) {
   return details;
 }
 
-SumoAgentDetails vehicle_details(const std::string& id, double time) {
+StageKind stage_kind(int type) {
+  return type == libsumo::STAGE_WAITING   ? StageKind::Waiting
+         : type == libsumo::STAGE_WALKING ? StageKind::Walking
+         : type == libsumo::STAGE_DRIVING ? StageKind::Riding
+                                          : StageKind::Other;
+}
+
+SumoAgentDetails vehicle_details(const std::string& id) {
   using libsumo::Vehicle;
   SumoAgentDetails details = common_details<Vehicle>(id);
   details.type = {value_or(-1.0, [&] { return Vehicle::getAccel(id); }),
@@ -95,9 +102,20 @@ SumoAgentDetails vehicle_details(const std::string& id, double time) {
       value_or(std::vector<std::string>(), [&] { return libsumo::Vehicle::getRoute(id); });
   const auto stops = value_or(std::vector<libsumo::TraCINextStopData>(),
                               [&] { return libsumo::Vehicle::getStops(id); });
+  constexpr double kNone = -1.0;
   for (const libsumo::TraCINextStopData& stop : stops)
-    details.stops.push_back({stop.lane, stop.startPos, stop.endPos,
-                             stop.duration < 0 ? std::max(0.0, stop.until - time) : stop.duration});
+    details.stops.push_back({stop.lane, stop.startPos, stop.endPos, std::max(stop.duration, kNone),
+                             std::max(stop.until, kNone), stop.stoppingPlaceID, stop.stopFlags,
+                             stop.speed});
+  details.stop_state = value_or(0, [&] { return libsumo::Vehicle::getStopState(id); });
+  details.route_index =
+      std::max(value_or(0, [&] { return libsumo::Vehicle::getRouteIndex(id); }), 0);
+  const auto parameter = [&](const char* key) {
+    return value_or(std::string(), [&] { return libsumo::Vehicle::getParameter(id, key); });
+  };
+  details.is_taxi = parameter("has.taxi.device") == "true";
+  if (parameter("has.rerouting.device") == "true")
+    details.reroute_period = reroute_period(parameter("device.rerouting.period"));
   return details;
 }
 
@@ -107,7 +125,9 @@ SumoAgentDetails person_details(const std::string& id) {
   details.max_speed = walking_speed(value_or(
       details.max_speed, [&] { return libsumo::VehicleType::getMaxSpeed(details.type_id); }));
   const auto stage = value_or(libsumo::TraCIStage(), [&] { return libsumo::Person::getStage(id); });
-  if (stage.type == libsumo::STAGE_WALKING) {
+  details.stages_left = value_or(0, [&] { return libsumo::Person::getRemainingStages(id); });
+  if (!details.type_id.empty()) details.stage = stage_kind(stage.type);
+  if (details.stage == StageKind::Walking) {
     details.route = stage.edges;
     details.arrival_position = stage.arrivalPos;
   }
@@ -141,8 +161,22 @@ class LibsumoBackend final : public SumoBackend {
   void watch(const std::string& id, bool is_person) override { watched_.add(id, is_person); }
   void unwatch(const std::string& id, bool is_person) override { watched_.drop(id, is_person); }
   void remove_vehicle(const std::string& id) override;
-  std::vector<std::string> finish_stage(const std::string& person) override;
+  StageKind finish_stage(const std::string& person) override;
+  std::vector<std::string> present_vehicles() override {
+    return guarded([] { return libsumo::Vehicle::getIDList(); });
+  }
+  std::vector<std::string> present_persons() override {
+    return guarded([] { return libsumo::Person::getIDList(); });
+  }
+  void put_on_lane(const SumoPose& pose, const std::string& lane, double speed) override;
+  void set_route(const std::string& vehicle, const std::vector<std::string>& edges) override;
+  std::vector<std::string> find_route(const std::string& from, const std::string& to,
+                                      const std::string& type) override;
+  void set_travel_time(const std::string& edge, double seconds) override;
+  std::vector<double> lane_speeds(std::span<const std::string> lanes) override;
+  void add_stop(const std::string& vehicle, const SumoAgentDetails::Stop& stop) override;
   void take_over(const std::string& vehicle, double speed) override;
+  void release(const std::string& vehicle) override;
   void set_speed(const std::string& vehicle, double speed) override;
   void override_detectors(std::span<const std::pair<std::string, double>> detectors) override;
   const std::vector<Detector>& detectors() const override { return detectors_; }
@@ -311,6 +345,7 @@ void LibsumoBackend::step(std::span<const SumoPose> vehicles, std::span<const Su
     for (const SumoPose& pose : persons)
       require_finite_pose(*pose.id, pose.position, pose.angle, pose.speed);
     result.lost.clear();
+    result.gone.clear();
     GhostObservation sent_vehicle;
     if (vehicle_test_.pending() && !vehicles.empty())
       sent_vehicle.route = value_or(std::vector<std::string>(), [&] {
@@ -384,6 +419,9 @@ void LibsumoBackend::read_watched(SumoStep& result) {
                                    : libsumo::Vehicle::getLaneID(entry.id);
       agent.lane_position = entry.is_person ? libsumo::Person::getLanePosition(entry.id)
                                             : libsumo::Vehicle::getLanePosition(entry.id);
+      agent.stop_state = entry.is_person ? 0 : libsumo::Vehicle::getStopState(entry.id);
+      agent.rides = entry.is_person ? libsumo::Person::getVehicle(entry.id) : std::string();
+      agent.stages_left = entry.is_person ? libsumo::Person::getRemainingStages(entry.id) : 0;
     } catch (const std::exception&) {
       gone.push_back(entry);
       continue;
@@ -393,14 +431,17 @@ void LibsumoBackend::read_watched(SumoStep& result) {
     ++kept;
   }
   result.agents.resize(kept);
-  for (const WatchList::Entry& entry : gone) unwatch(entry.id, entry.is_person);
+  for (const WatchList::Entry& entry : gone) {
+    result.gone.emplace_back(entry.is_person, entry.id);
+    unwatch(entry.id, entry.is_person);
+  }
 }
 
 std::vector<SumoAgentDetails> LibsumoBackend::details(std::span<const std::string> vehicles,
                                                       std::span<const std::string> persons) {
   return guarded([&] {
     std::vector<SumoAgentDetails> all;
-    for (const std::string& id : vehicles) all.push_back(vehicle_details(id, time_));
+    for (const std::string& id : vehicles) all.push_back(vehicle_details(id));
     for (const std::string& id : persons) all.push_back(person_details(id));
     return all;
   });
@@ -417,15 +458,83 @@ void LibsumoBackend::remove_vehicle(const std::string& id) {
   });
 }
 
-std::vector<std::string> LibsumoBackend::finish_stage(const std::string& person) {
-  return guarded([&]() -> std::vector<std::string> {
+StageKind LibsumoBackend::finish_stage(const std::string& person) {
+  return guarded([&] {
     try {
+      // in place of the last one SUMO has it wait for no time
+      const bool was_last = libsumo::Person::getRemainingStages(person) <= 1;
       libsumo::Person::removeStage(person, 0);
-      if (libsumo::Person::getRemainingStages(person) <= 0) return {};
-      const libsumo::TraCIStage stage = libsumo::Person::getStage(person, 0);
-      return stage.type == libsumo::STAGE_WALKING ? stage.edges : std::vector<std::string>();
+      return was_last ? StageKind::None : stage_kind(libsumo::Person::getStage(person, 0).type);
     } catch (const libsumo::TraCIException&) {
-      return {};  // it has finished
+      return StageKind::None;  // it has finished
+    }
+  });
+}
+
+void LibsumoBackend::put_on_lane(const SumoPose& pose, const std::string& lane, double speed) {
+  require_finite_pose(*pose.id, pose.position, pose.angle);
+  guarded([&] {
+    const LaneHint hint = lane_hint(lane);
+    try {
+      // what SUMO derives from its motion as a ghost is no speed to start with
+      libsumo::Vehicle::setPreviousSpeed(*pose.id, speed, 0.0);
+      libsumo::Vehicle::moveToXY(*pose.id, hint.edge, hint.index, pose.position.x(),
+                                 pose.position.y(), wrapped_degrees(pose.angle),
+                                 kOntoLane.keep_route, kOntoLane.match_threshold);
+    } catch (const libsumo::TraCIException&) {
+      // it left meanwhile
+    }
+  });
+}
+
+void LibsumoBackend::set_route(const std::string& vehicle, const std::vector<std::string>& edges) {
+  guarded([&] {
+    try {
+      libsumo::Vehicle::setRoute(vehicle, edges);
+    } catch (const libsumo::TraCIException&) {
+      // it left meanwhile
+    }
+  });
+}
+
+std::vector<std::string> LibsumoBackend::find_route(const std::string& from, const std::string& to,
+                                                    const std::string& type) {
+  return guarded([&] {
+    return value_or(std::vector<std::string>(),
+                    [&] { return libsumo::Simulation::findRoute(from, to, type, -1.0, 0).edges; });
+  });
+}
+
+void LibsumoBackend::set_travel_time(const std::string& edge, double seconds) {
+  guarded([&] {
+    try {
+      libsumo::Edge::adaptTraveltime(edge, seconds);
+    } catch (const libsumo::TraCIException&) {
+      // no such edge: the traci back end ignores it, too
+    }
+  });
+}
+
+std::vector<double> LibsumoBackend::lane_speeds(std::span<const std::string> lanes) {
+  return guarded([&] {
+    std::vector<double> speeds;
+    for (const std::string& lane : lanes)
+      speeds.push_back(value_or(-1.0, [&] { return libsumo::Lane::getMaxSpeed(lane); }));
+    return speeds;
+  });
+}
+
+void LibsumoBackend::add_stop(const std::string& vehicle, const SumoAgentDetails::Stop& stop) {
+  guarded([&] {
+    const bool at_place = (stop.flags & stop_flags::kStoppingPlace) != 0;
+    const LaneHint hint = lane_hint(stop.lane);
+    try {
+      libsumo::Vehicle::setStop(vehicle, at_place ? stop.place : hint.edge, stop.end, hint.index,
+                                std::max(stop.duration, 0.0),  // none would be for ever
+                                stop.flags, stop.start,
+                                stop.until >= 0.0 ? stop.until : libsumo::INVALID_DOUBLE_VALUE);
+    } catch (const libsumo::TraCIException&) {
+      // SUMO refuses it: the vehicle drives on (SumoWorld sees that it doesn't stand)
     }
   });
 }
@@ -436,6 +545,17 @@ void LibsumoBackend::take_over(const std::string& vehicle, double speed) {
     try {
       libsumo::Vehicle::setSpeedMode(vehicle, kSpeedModeFree);
       libsumo::Vehicle::setPreviousSpeed(vehicle, speed, 0.0);
+    } catch (const libsumo::TraCIException&) {
+      // it left meanwhile
+    }
+  });
+}
+
+void LibsumoBackend::release(const std::string& vehicle) {
+  guarded([&] {
+    try {
+      libsumo::Vehicle::setSpeedMode(vehicle, kSpeedModeSafe);
+      libsumo::Vehicle::setSpeed(vehicle, -1.0);
     } catch (const libsumo::TraCIException&) {
       // it left meanwhile
     }

@@ -73,6 +73,16 @@ std::string_view attribute(const char** attributes, const char* name) {
   return {};
 }
 
+/// Names in an attribute, which SUMO parts by blanks or commas.
+void append_names(std::string_view text, std::vector<std::string>& names) {
+  constexpr std::string_view kBetween = " \t\n,";
+  for (std::size_t begin = text.find_first_not_of(kBetween); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(kBetween, begin), text.size());
+    names.emplace_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(kBetween, end);
+  }
+}
+
 void Inventory::note(const std::string& file, const std::string& what, const std::string& id,
                      std::string_view why) {
   const auto [place, added] = places_.emplace(std::pair(file, what), result.not_followed.size());
@@ -122,6 +132,9 @@ void Inventory::begin(Reading& reading, std::string_view element, const char** a
     return;
   }
   if (plain_) return;
+  if (element == "rerouter") append_names(attribute(attributes, "edges"), result.rerouter_edges);
+  if (element == "variableSpeedSign")
+    append_names(attribute(attributes, "lanes"), result.sign_lanes);
   if (element == "param") {
     const std::string_view key = attribute(attributes, "key");
     const CompatibilityRow* row = find_compatibility(ScenarioPart::Parameter, key);

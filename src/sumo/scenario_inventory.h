@@ -24,6 +24,8 @@ struct ScenarioInventory {
   std::set<std::string> types;            ///< ids of vTypes
   std::set<std::string> ids;              ///< of vehicles, trips, people, containers
   std::set<std::string> flows;  ///< ids of flows, whose vehicles are called ID.0, ID.1, ...
+  std::vector<std::string> rerouter_edges;  ///< on which rerouters act
+  std::vector<std::string> sign_lanes;      ///< of variable speed signs
   bool complete = true;  ///< all demand was read: a loaded state or calibrators may bring others
 };
 

@@ -38,6 +38,48 @@ AgentTypeId nearest_body(const AgentTypeTable& types, double length, double widt
 
 }  // namespace
 
+namespace {
+
+/// How many edges of its route a vehicle has left behind; none where it isn't known on which it is.
+std::size_t begun_edges(const RoadNetwork& network, const SumoAgentDetails& details) {
+  const auto lane = network.lane_by_name.find(details.lane);
+  const auto index = static_cast<std::size_t>(details.route_index);
+  if (details.is_person || lane == network.lane_by_name.end() || index >= details.route.size())
+    return 0;
+  return network.edge(network.lane(lane->second).edge).name == details.route[index] ? index : 0;
+}
+
+/// The halts of a vehicle's plan on edges of its route, in order. Waypoints, which it only passes,
+/// are none.
+std::vector<RouteStop> route_stops(const RoadNetwork& network, const SumoAgentDetails& details,
+                                   const std::vector<EdgeId>& route, const PathRequest& request) {
+  std::vector<RouteStop> stops;
+  std::size_t at = 0;
+  double reached = request.start_along;
+  for (std::size_t plan = 0; plan < details.stops.size(); ++plan) {
+    const SumoAgentDetails::Stop& stop = details.stops[plan];
+    const auto found = network.lane_by_name.find(stop.lane);
+    if (stop.speed > 0.0 || found == network.lane_by_name.end()) continue;
+    const Lane& lane = network.lane(found->second);
+    const double scale = lane.length > 0.0 ? lane.centerline.length() / lane.length : 1.0;
+    const double along = stop.end * scale;
+    std::size_t index = at;
+    while (index < route.size() &&
+           (route[index] != lane.edge || (index == at && along < reached - 0.5)))
+      ++index;
+    if (index == route.size()) continue;
+    const bool usable = (lane.allowed & request.vehicle_class) != 0;
+    // SUMO: half of its length has to be within the stop
+    const double room = std::max((stop.end - stop.start) * scale - 0.5 * details.length, 0.0);
+    stops.push_back({index, usable ? lane.index : -1, along, room, static_cast<int>(plan)});
+    at = index;
+    reached = along;
+  }
+  return stops;
+}
+
+}  // namespace
+
 std::optional<AgentTypeId> agent_type_of(const AgentTypeTable& types,
                                          const SumoAgentDetails& details) {
   for (std::size_t row = 0; row < types.size(); ++row)
@@ -49,22 +91,26 @@ std::optional<AgentTypeId> agent_type_of(const AgentTypeTable& types,
                                          {"delivery", "van"},     {"truck", "truck"},
                                          {"trailer", "truck"},    {"bus", "bus"},
                                          {"coach", "bus"},        {"motorcycle", "motorcycle"},
-                                         {"moped", "motorcycle"}, {"bicycle", "bicycle"}};
+                                         {"moped", "motorcycle"}, {"bicycle", "bicycle"},
+                                         {"tram", "tram"},        {"ship", "ship"}};
   if (details.is_person) return find_agent_type(types, "pedestrian");
   for (const ByClass& row : kByClass)
     if (row.sumo_class == details.vehicle_class) return find_agent_type(types, row.type);
   // what says who may use a lane, not which body comes: emergency, evehicle, hov, custom1, ...
   const VehicleClassMask mask = vehicle_class_from_name(details.vehicle_class);
+  if ((mask & vehicle_class::kOnRails) != 0 && details.vehicle_class != "ignoring")
+    return find_agent_type(types, "train");
   if ((mask & vehicle_class::kMotor) == 0) return std::nullopt;
   return nearest_body(types, details.length, details.width);
 }
 
 std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& details,
-                              AgentTypeId type_id, std::string& why) {
+                              AgentTypeId type_id, std::string& why, const SpeedLimits& limits) {
   const RoadNetwork& network = model.road;
   const AgentType& type = type_of(model.types, type_id);
   std::vector<EdgeId> route;
-  for (const std::string& name : details.route) {
+  const std::size_t begun = begun_edges(network, details);
+  for (const std::string& name : std::span(details.route).subspan(begun)) {
     const auto edge = network.edge_by_name.find(name);
     if (edge == network.edge_by_name.end()) {
       why = "edge '" + name + "' is not in the network file";
@@ -82,6 +128,7 @@ std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& detail
   request.max_speed =
       details.max_speed > 0.0 ? std::min(details.max_speed, type.max_speed) : type.max_speed;
   request.speed_factor = details.speed_factor;
+  request.speed_limits = limits;
   if (type.kinematics == Kinematics::SingleTrack)
     request.cornering = {1.1 * type.wheelbase / std::tan(type.max_steering), details.length,
                          details.width, network.left_hand};
@@ -89,17 +136,10 @@ std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& detail
   if (lane != network.lane_by_name.end()) request.start_lane = lane->second;
   request.start_along =
       std::max(0.0, details.lane_position - (details.is_person ? 0.0 : 0.5 * details.length));
+  if (!details.is_person) request.stops = route_stops(network, details, route, request);
   auto path = details.is_person ? build_walking_path(network, request, why)
                                 : build_driving_path(network, request, why);
   if (!path) return nullptr;
-  // planned halts on lanes of the path
-  for (const SumoAgentDetails::Stop& stop : details.stops) {
-    const auto stop_lane = network.lane_by_name.find(stop.lane);
-    if (stop_lane == network.lane_by_name.end()) continue;
-    place_stop(network, network.lane(stop_lane->second).edge, stop.end, stop.duration, *path);
-  }
-  std::sort(path->stops.begin(), path->stops.end(),
-            [](const PathStop& a, const PathStop& b) { return a.along < b.along; });
   return std::make_shared<Path>(std::move(*path));
 }
 
@@ -126,7 +166,8 @@ std::vector<std::shared_ptr<const Path>> paths_besides(const Model& model,
     SumoAgentDetails moved = details;
     moved.lane = model.road.lane(id).name;
     std::string why;
-    if (auto besides = path_of(model, moved, type_id, why)) paths.push_back(std::move(besides));
+    if (auto besides = path_of(model, moved, type_id, why, path.trip->request.speed_limits))
+      paths.push_back(std::move(besides));
   }
   return paths;
 }

@@ -14,10 +14,10 @@ namespace sumogamma {
 std::optional<AgentTypeId> agent_type_of(const AgentTypeTable& types,
                                          const SumoAgentDetails& details);
 
-/// The path that a departing agent is going to follow; null with `why` set where the network does
-/// not carry it.
+/// The path that an agent is going to follow from where it is, by the speed limits that hold now;
+/// null with `why` set where the network does not carry it.
 std::shared_ptr<Path> path_of(const Model& model, const SumoAgentDetails& details, AgentTypeId type,
-                              std::string& why);
+                              std::string& why, const SpeedLimits& limits = nullptr);
 
 /// Paths of the same vehicle from the lanes beside the one where `path` starts, nearest first:
 /// those that its trip can start on and that lead on as far as this one, or for kilometres.

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/units.h"
 #include "sumo/entry.h"
@@ -25,6 +26,7 @@ Vec2 reference_point(const Vec2& center, double heading, double length) {
 
 SumoWorld::SumoWorld(Model& model, SumoBackend& backend, SumoWorldOptions options)
     : model_(model),
+      locator_(model.road),
       backend_(backend),
       options_(std::move(options)),
       rows_(model, options_.type_keys),
@@ -35,6 +37,25 @@ SumoWorld::SumoWorld(Model& model, SumoBackend& backend, SumoWorldOptions option
                                                                        : signal->second);
   }
   read_detectors();
+  edge_speeds_ = EdgeSpeeds(model_.road);
+  for (const std::string& name : options_.rerouter_edges) {
+    const auto edge = model_.road.edge_by_name.find(name);
+    if (edge == model_.road.edge_by_name.end()) continue;
+    at_rerouter_.resize(model_.road.edges.size(), false);
+    at_rerouter_[index_of(edge->second)] = true;
+  }
+  for (const std::string& name : options_.sign_lanes) {
+    const auto lane = model_.road.lane_by_name.find(name);
+    if (lane != model_.road.lane_by_name.end()) limited_.push_back(lane->second);
+  }
+  if (options_.others_steer) {
+    limited_.clear();
+    for (std::size_t i = 0; i < model_.road.lanes.size(); ++i)
+      if (model_.road.lanes[i].kind == LaneKind::Normal) limited_.push_back(static_cast<LaneId>(i));
+  }
+  if (limited_.empty()) return;
+  limits_ = std::make_shared<std::vector<double>>();
+  for (const Lane& lane : model_.road.lanes) limits_->push_back(lane.speed_limit);
 }
 
 void SumoWorld::read_detectors() {
@@ -46,12 +67,12 @@ void SumoWorld::read_detectors() {
   }
 }
 
-/// Actuated signals don't see ghosts: they are told when one of ours was last on each of their
-/// loops.
+/// Actuated signals don't see ghosts: they are told when a vehicle was last on each of their loops.
 void SumoWorld::feed_detectors(const Scene& scene) {
   if (detectors_.empty()) return;
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (scene.control[row] != Control::Gamma || known_[scene.id[row].value].is_person) continue;
+    // an override hides SUMO's own vehicles from the loop: they are reported, too
+    if (scene.control[row] == Control::Parked || known_[scene.id[row].value].is_person) continue;
     const auto lane = detectors_.find(scene.lane[row].lane);
     if (lane == detectors_.end()) continue;
     const double half = 0.5 * known_[scene.id[row].value].length;
@@ -86,8 +107,13 @@ void SumoWorld::observe(Scene& scene, RoadState& road) {
   }
   take_arrived(scene, road);
   finish_driven(scene, road);
-  take_departed(scene);
+  read_speed_limits(scene, road);
+  take_departed();
   update_external(scene, road);
+  follow_rerouters(scene, road);
+  look_for_faster_routes(scene, road);
+  tell_routes(scene, road);
+  begin_services(scene, road);
   insert_pending(scene, road);
   // each event is handled once
   step_.departed_vehicles.clear();
@@ -95,50 +121,111 @@ void SumoWorld::observe(Scene& scene, RoadState& road) {
   step_.arrived_vehicles.clear();
   step_.arrived_persons.clear();
   step_.lost.clear();
+  step_.gone.clear();
 }
 
-void SumoWorld::take_departed(Scene&) {
+void SumoWorld::take_departed() {
+  if (!observed_) {
+    // of a loaded state, or of a SUMO that has run before us
+    observed_ = true;
+    for (SumoAgentDetails& details :
+         backend_.details(backend_.present_vehicles(), backend_.present_persons()))
+      take_newcomer(std::move(details), true);
+  }
   if (step_.departed_vehicles.empty() && step_.departed_persons.empty()) return;
   for (SumoAgentDetails& details :
-       backend_.details(step_.departed_vehicles, step_.departed_persons)) {
-    auto type = agent_type_of(model_.types, details);
-    if (!type) {
-      ++life_cycle_.left_to_sumo["rail or water"];
-      continue;
-    }
-    type = rows_.row_of(*type, details);
-    Pending pending{std::move(details), *type, nullptr, {}, false};
-    choose_pace(model_.road, pending.details);
-    bool driven = options_.control.any() && wants_control(pending.details, *type);
-    if (driven || options_.control.has_region)
-      choose_speed_factor(type_of(model_.types, *type), options_.seed, pending.details);
-    if (driven) choose_mid_block(type_of(model_.types, *type), options_.seed, pending.details);
-    if (options_.control.any()) {
-      std::string why = "a person who does not walk";
-      if (!pending.details.route.empty())
-        pending.path = path_of(model_, pending.details, *type, why);
-      if (driven && !pending.path) {
-        driven = false;
-        ++life_cycle_.left_to_sumo[why];
-        spdlog::warn("{}: left to SUMO: {}", pending.details.id, why);
-      }
-    }
-    if (driven) {
-      if (!pending.details.is_person) backend_.take_over(pending.details.id, 0.0);
-      pending_.push_back(std::move(pending));
-    } else {
-      backend_.watch(pending.details.id, pending.details.is_person);
-      std::string id = pending.details.id;
-      external_arriving_.insert_or_assign(std::move(id), std::move(pending));
-    }
-  }
+       backend_.details(step_.departed_vehicles, step_.departed_persons))
+    take_newcomer(std::move(details), false);
 }
 
-AgentId SumoWorld::register_agent(const SumoAgentDetails& details, bool external, double time) {
+namespace {
+
+/// Why nobody but SUMO can move an agent; empty: we can.
+std::string_view sumos_own(const AgentType& type, const SumoAgentDetails& details) {
+  if (type.guided) return "on rails or water";
+  if (details.is_taxi) return "a taxi: SUMO's dispatch sends it";
+  return "";
+}
+
+/// Does a vehicle depart at the first stop of its plan?
+bool departs_at_stop(const SumoAgentDetails& details) {
+  constexpr double kAt = 0.1;  // [m]
+  if (details.is_person || details.stops.empty()) return false;
+  if ((details.stop_state & stop_state::kStopped) != 0) return true;
+  const SumoAgentDetails::Stop& first = details.stops.front();
+  return first.lane == details.lane && first.speed <= 0.0 &&
+         details.lane_position > first.start - kAt && details.lane_position < first.end + kAt;
+}
+
+}  // namespace
+
+void SumoWorld::take_newcomer(SumoAgentDetails details, bool moves_already) {
+  auto type = agent_type_of(model_.types, details);
+  if (!type) {
+    ++life_cycle_.left_to_sumo["of no known class"];
+    return;
+  }
+  type = rows_.row_of(*type, details);
+  const AgentType& kind = type_of(model_.types, *type);
+  Pending pending;
+  pending.details = std::move(details);
+  pending.type = *type;
+  choose_pace(model_.road, pending.details);
+  bool driven = options_.control.any() && wants_control(pending.details, *type);
+  const std::string_view sumos = sumos_own(kind, pending.details);
+  if (driven && !sumos.empty()) {
+    driven = false;
+    ++life_cycle_.left_to_sumo[std::string(sumos)];
+  }
+  if (driven || options_.control.has_region)
+    choose_speed_factor(kind, options_.seed, pending.details);
+  if (driven) choose_mid_block(kind, options_.seed, pending.details);
+  const bool walks = pending.details.stage == StageKind::Walking;
+  const bool later = pending.details.is_person ? !walks : departs_at_stop(pending.details);
+  pending.resumes = driven && (later || moves_already);
+  if (options_.control.any() && !pending.details.route.empty()) {
+    std::string why;
+    pending.path = path_of(model_, pending.details, *type, why, limits_);
+    if (driven && !pending.path) {
+      driven = pending.resumes = false;
+      ++life_cycle_.left_to_sumo[why];
+      spdlog::warn("{}: left to SUMO: {}", pending.details.id, why);
+    }
+  }
+  if (driven && !pending.resumes) {
+    if (!pending.details.is_person) backend_.take_over(pending.details.id, 0.0);
+    pending_.push_back(std::move(pending));
+    return;
+  }
+  backend_.watch(pending.details.id, pending.details.is_person);
+  Traveller traveller{pending.details.is_person, pending.details.id};
+  external_arriving_.insert_or_assign(std::move(traveller), std::move(pending));
+}
+
+AgentId SumoWorld::register_agent(const SumoAgentDetails& details, bool external,
+                                  AgentTypeId type) {
   const AgentId id{static_cast<std::uint32_t>(known_.size())};
-  known_.push_back({details.id, details.is_person, external, false, time,
-                    details.is_person ? 0.0 : details.length});
+  Known known;
+  known.sumo_id = details.id;
+  known.is_person = details.is_person;
+  known.external = external;
+  known.length = details.is_person ? 0.0 : details.length;
+  known.stops = details.stops;
+  known.stages_left = details.stages_left;
+  known.type_id = details.type_id;
+  known.route = details.route;
+  known.reroute_period = details.reroute_period;
+  known.next_reroute = time_ + details.reroute_period;
+  if (details.reroute_period > 0.0) has_rerouting_ = true;
+  // who departs on an edge with rerouters has been seen by them
+  const auto edge = details.route.empty() ? model_.road.edge_by_name.end()
+                                          : model_.road.edge_by_name.find(details.route.front());
+  if (edge != model_.road.edge_by_name.end()) known.edge = edge->second;
+  known_.push_back(std::move(known));
   names_.push_back(details.id);
+  const bool first =
+      journeys_.try_emplace({details.is_person, details.id}, Journey{id, type, time_}).second;
+  if (first) ++life_cycle_.by_type[type_of(model_.types, type).name].inserted;
   return id;
 }
 
@@ -150,76 +237,87 @@ void SumoWorld::forget(AgentId id, Scene& scene, RoadState& road, std::vector<bo
   written_.erase(known_[id.value].sumo_id);
 }
 
-void SumoWorld::record_arrival(const Scene& scene, std::size_t row) {
-  const AgentTypeId type = scene.type[row];
+void SumoWorld::record_arrival(const Traveller& traveller) {
+  const auto journey = journeys_.find(traveller);
+  if (journey == journeys_.end()) return;
+  const auto& [id, type, departed] = journey->second;
   ++life_cycle_.by_type[type_of(model_.types, type).name].arrived;
-  life_cycle_.trips.push_back({scene.id[row], type, known_[scene.id[row].value].departed, time_});
+  life_cycle_.trips.push_back({id, type, departed, time_});
+  journeys_.erase(journey);
 }
 
 void SumoWorld::take_arrived(Scene& scene, RoadState& road) {
   std::vector<bool> removed;
-  auto arrived = [&](const std::string& sumo_id) {
-    external_arriving_.erase(sumo_id);
-    const auto external = external_ids_.find(sumo_id);
+  auto arrived = [&](bool is_person, const std::string& sumo_id) {
+    const Traveller traveller{is_person, sumo_id};
+    external_arriving_.erase(traveller);
+    absent_.erase(traveller);
+    record_arrival(traveller);
+    const auto external = external_ids_.find(traveller);
     if (external == external_ids_.end()) return;
     const AgentId id = external->second;
     const std::size_t row = find_row(scene, id);
     external_ids_.erase(external);
-    if (row == scene.size()) return;
-    record_arrival(scene, row);
-    forget(id, scene, road, removed, row);
+    if (row < scene.size()) forget(id, scene, road, removed, row);
   };
-  for (const std::string& id : step_.arrived_vehicles) arrived(id);
-  for (const std::string& id : step_.arrived_persons) arrived(id);
+  for (const std::string& id : step_.arrived_vehicles) arrived(false, id);
+  for (const std::string& id : step_.arrived_persons) arrived(true, id);
+  // who sat in a vehicle of ours that has arrived got out there: SUMO lists that before its step
+  for (const auto& [is_person, id] : step_.gone) arrived(is_person, id);
   // refused by SUMO: it vanished there between read and write
-  for (const std::string& lost : step_.lost)
+  for (const std::string& lost : step_.lost) {
+    std::erase_if(pending_, [&](const Pending& pending) { return pending.details.id == lost; });
     for (std::size_t row = 0; row < scene.size(); ++row) {
-      const AgentId id = scene.id[row];
-      if (known_[id.value].external || known_[id.value].sumo_id != lost) continue;
+      const Known& known = known_[scene.id[row].value];
+      if (known.external || known.sumo_id != lost) continue;
       ++life_cycle_.removed["refused by SUMO"];
-      forget(id, scene, road, removed, row);
+      journeys_.erase({known.is_person, lost});
+      forget(scene.id[row], scene, road, removed, row);
     }
+  }
   if (!removed.empty()) remove_agents(scene, removed);
 }
+
+namespace {
+
+/// Is a driven agent at the end of its path? Vehicles arrive with their front, before it crosses
+/// whatever line is there (the place on the path is that of a tick ago), walkers when they are
+/// there within a step or two, and where others wait for a ride, too, behind those.
+bool is_at_end(const Path& path, const Scene& scene, std::size_t row, double length, double dt) {
+  constexpr double kOnFoot = 0.7, kInCrowd = 3.0;  // [m]
+  constexpr double kStood = 2.0;                   // [s]
+  const double along = scene.path_along[row];
+  if (!path.walking)
+    return static_cast<std::size_t>(scene.next_stop[row]) >= path.stops.size() &&
+           along + 0.5 * length + 0.3 + 2.0 * scene.speed[row] * dt >= path.arrival;
+  return along + kOnFoot >= path.arrival ||
+         (along + kInCrowd >= path.arrival && scene.standing_time[row] > kStood);
+}
+
+}  // namespace
 
 void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
   std::vector<bool> removed;
   for (std::size_t row = 0; row < scene.size(); ++row) {
     if (scene.control[row] != Control::Gamma) continue;
-    const Path* path = road.path(scene.path[row]);
     const Known& known = known_[scene.id[row].value];
-    // vehicles arrive with their front, before it crosses whatever line is there (the place on the
-    // path is that of a tick ago), walkers when they are there within a step or two
-    const double reached =
-        scene.path_along[row] +
-        (known.is_person ? 0.7 : 0.5 * known.length + 0.3 + 2.0 * scene.speed[row] * options_.dt);
-    if (reached < path->arrival) continue;
+    if (!is_at_end(*road.path(scene.path[row]), scene, row, known.length, options_.dt)) continue;
     if (known.is_person) {
-      const std::vector<std::string> next = backend_.finish_stage(known.sumo_id);
-      if (!next.empty()) {
-        const std::string one[] = {known.sumo_id};
-        auto details = backend_.details({}, one);
-        std::string why = "it is gone";
-        if (!details.empty()) {
-          const AgentType& type = type_of(model_.types, scene.type[row]);
-          choose_speed_factor(type, options_.seed, details.front());
-          choose_mid_block(type, options_.seed, details.front());
-        }
-        auto next_path =
-            details.empty() ? nullptr : path_of(model_, details.front(), scene.type[row], why);
-        if (next_path) {
-          scene.path_along[row] = next_path->line.project(scene.position[row]).along;
-          road.paths[scene.id[row].value] = std::move(next_path);
-          continue;
-        }
-        ++life_cycle_.removed["next walk impossible: " + why];
+      const StageKind next = backend_.finish_stage(known.sumo_id);
+      if (next == StageKind::Walking && walk_on(scene, road, row)) continue;
+      if (next != StageKind::None && next != StageKind::Walking) {
+        hand_over_person(scene.id[row], row, scene, road);
+        continue;
+      }
+      if (next == StageKind::Walking) {
+        journeys_.erase({true, known.sumo_id});
         forget(scene.id[row], scene, road, removed, row);
         continue;
       }
     } else {
       backend_.remove_vehicle(known.sumo_id);
     }
-    record_arrival(scene, row);
+    record_arrival({known.is_person, known.sumo_id});
     forget(scene.id[row], scene, road, removed, row);
   }
   if (!removed.empty()) remove_agents(scene, removed);
@@ -329,13 +427,12 @@ bool SumoWorld::insert_on(const Pending& pending, const std::shared_ptr<const Pa
   if (!speed) return false;
   agent.speed = *speed;
 
-  register_agent(details, false, time_);
+  register_agent(details, false, pending.type);
   if (!details.is_person) backend_.take_over(details.id, agent.speed);
   road.paths.resize(known_.size());
   road.paths[id.value] = path;
   append_agent(scene, agent);
   scene.height.back() = ground.height;
-  ++life_cycle_.by_type[type_of(model_.types, pending.type).name].inserted;
   // spread over the run, a few ghosts at a time are read back
   if (written_.size() < options_.watched) {
     backend_.watch(details.id, details.is_person);
@@ -367,55 +464,105 @@ void SumoWorld::place_external(const SumoAgent& seen, Scene& scene, std::size_t 
 }
 
 void SumoWorld::update_external(Scene& scene, RoadState& road) {
+  std::vector<bool> removed;
   for (const SumoAgent& seen : step_.agents) {
     // SUMO's invalid numbers (-2^30): between two places, as while it is teleported
     if (!(std::abs(seen.speed) < 1e4) || !(seen.position.norm() < 1e8)) continue;
-    const auto arriving = external_arriving_.find(seen.id);
-    const double heading = heading_from_sumo(seen.angle);
+    const Traveller traveller{seen.is_person, seen.id};
+    if (absent_.contains(traveller)) watch_absent(seen);
+    const auto arriving = external_arriving_.find(traveller);
     if (arriving != external_arriving_.end()) {
-      const SumoAgentDetails& details = arriving->second.details;
-      const AgentType& type = type_of(model_.types, arriving->second.type);
-      const AgentId id = register_agent(details, true, time_);
-      AgentState agent;
-      agent.id = id;
-      agent.type = arriving->second.type;
-      agent.footprint = details.is_person ? box_footprint(type.length, type.width)
-                                          : box_footprint(details.length, details.width);
-      agent.position = reference_point(seen.position, heading, -known_[id.value].length);
-      agent.heading = heading;
-      agent.speed = seen.speed;
-      agent.preferred_speed = details.max_speed;
-      agent.behavior = draw_behavior(type, options_.seed, id);
-      agent.control = Control::External;
-      road.paths.resize(known_.size());
-      if (arriving->second.path) {
-        agent.path = static_cast<PathId>(id.value);
-        road.paths[id.value] = arriving->second.path;
-      }
-      append_agent(scene, agent);
-      place_external(seen, scene, scene.size() - 1);
-      ++life_cycle_.by_type[type.name].inserted;
-      external_ids_.emplace(seen.id, id);
+      Pending pending = std::move(arriving->second);
       external_arriving_.erase(arriving);
+      appear(seen, pending, scene, road);
       continue;
     }
-    const auto external = external_ids_.find(seen.id);
+    const auto external = external_ids_.find(traveller);
     if (external == external_ids_.end()) continue;
     const AgentId id = external->second;
     const std::size_t row = find_row(scene, id);
-    if (row == scene.size()) continue;
-    const Vec2 velocity = seen.speed * direction_of(heading);
-    scene.acceleration[row] = (velocity - scene.velocity[row]) / options_.dt;
-    scene.position[row] = reference_point(seen.position, heading, -known_[id.value].length);
-    scene.heading[row] = heading;
-    scene.velocity[row] = velocity;
-    scene.speed[row] = seen.speed;
-    place_external(seen, scene, row);
-    const Path* path = road.path(scene.path[row]);
-    if (path != nullptr && scene.path_along[row] == 0.0)
-      scene.path_along[row] = path->line.project(scene.position[row]).along;
-    if (path != nullptr && in_region(scene.position[row])) take_over(id, scene, row);
+    if (row < scene.size()) follow(seen, id, row, scene, road, removed);
   }
+  if (removed.empty()) return;
+  removed.resize(scene.size(), false);
+  remove_agents(scene, removed);
+}
+
+void SumoWorld::appear(const SumoAgent& seen, Pending& pending, Scene& scene, RoadState& road) {
+  const SumoAgentDetails& details = pending.details;
+  const AgentType& type = type_of(model_.types, pending.type);
+  const Traveller traveller{seen.is_person, seen.id};
+  const AgentId id = register_agent(details, true, pending.type);
+  Known& known = known_[id.value];
+  known.resumes = pending.resumes;
+  known.stages_left = seen.stages_left;
+  if (pending.resumes && departs_at_stop(details)) known.service = Service::Asked;
+  known.asked_at = time_;
+  if (is_out_of_sight(seen, known.length)) {
+    absent_.insert_or_assign(traveller, std::move(pending));
+    return;
+  }
+  const double heading = heading_from_sumo(seen.angle);
+  AgentState agent;
+  agent.id = id;
+  agent.type = pending.type;
+  agent.footprint = details.is_person ? box_footprint(type.length, type.width)
+                                      : box_footprint(details.length, details.width);
+  agent.position = reference_point(seen.position, heading, -known.length);
+  agent.heading = heading;
+  agent.speed = seen.speed;
+  agent.preferred_speed = details.max_speed;
+  agent.behavior = draw_behavior(type, options_.seed, id);
+  agent.control = Control::External;
+  road.paths.resize(known_.size());
+  if (pending.path) {
+    agent.path = static_cast<PathId>(id.value);
+    road.paths[id.value] = pending.path;
+  }
+  append_agent(scene, agent);
+  place_external(seen, scene, scene.size() - 1);
+  external_ids_.insert_or_assign(traveller, id);
+}
+
+void SumoWorld::follow(const SumoAgent& seen, AgentId id, std::size_t row, Scene& scene,
+                       RoadState& road, std::vector<bool>& removed) {
+  const Known& known = known_[id.value];
+  if (!known.external) {
+    follow_service(seen, id, row, scene, road, removed);
+    return;
+  }
+  if (is_out_of_sight(seen, known.length)) {
+    leave_sight(seen, id, row, scene, road, removed);
+    return;
+  }
+  if (known.keeps_place) {
+    take_back(seen, id, row, scene, road);
+    return;
+  }
+  const double heading = heading_from_sumo(seen.angle);
+  const Vec2 velocity = seen.speed * direction_of(heading);
+  scene.acceleration[row] = (velocity - scene.velocity[row]) / options_.dt;
+  scene.position[row] = reference_point(seen.position, heading, -known.length);
+  scene.heading[row] = heading;
+  scene.velocity[row] = velocity;
+  scene.speed[row] = seen.speed;
+  place_external(seen, scene, row);
+  const Path* path = road.path(scene.path[row]);
+  if (path != nullptr && scene.path_along[row] == 0.0)
+    scene.path_along[row] = path->line.project(scene.position[row]).along;
+  const bool stopped = (seen.stop_state & stop_state::kStopped) != 0;
+  if (scene.stop_left[row] > 0.0 && !stopped) ++scene.next_stop[row];
+  scene.stop_left[row] = stopped ? options_.dt : 0.0;
+  const bool parks = stopped && (seen.stop_state & stop_state::kParking) != 0;
+  const bool leaves = !parks && scene.control[row] == Control::Parked;
+  if (known.resumes && take_back(seen, id, row, scene, road)) return;
+  if (known.resumes && leaves && rejoin(seen, true)) {
+    external_ids_.erase({seen.is_person, seen.id});
+    forget(id, scene, road, removed, row);
+    return;
+  }
+  scene.control[row] = parks ? Control::Parked : Control::External;
+  if (path != nullptr && in_region(scene.position[row])) take_over(id, scene, row);
 }
 
 bool SumoWorld::in_region(const Vec2& position) const {
@@ -425,17 +572,19 @@ bool SumoWorld::in_region(const Vec2& position) const {
 }
 
 /// From SUMO to us, in motion: the pose stays, only who decides on the next one changes. It stays
-/// ours until it arrives.
+/// ours until it arrives, but for its halts.
 void SumoWorld::take_over(AgentId id, Scene& scene, std::size_t row) {
   Known& known = known_[id.value];
   backend_.unwatch(known.sumo_id, known.is_person);
   if (!known.is_person) backend_.take_over(known.sumo_id, scene.speed[row]);
-  known.external = known.speed_held = false;
+  known.external = known.speed_held = known.resumes = known.keeps_place = false;
+  known.service = Service::None;
+  scene.stop_left[row] = 0.0;
   scene.control[row] = Control::Gamma;
   scene.manners[row] =
       draw_manners(type_of(model_.types, scene.type[row]).compliance, options_.seed, id.value);
   scene.steering[row] = 0.0;
-  external_ids_.erase(known.sumo_id);
+  external_ids_.erase({known.is_person, known.sumo_id});
 }
 
 /// SUMO is blind to ghosts: a vehicle that it drives is slowed by us where a ghost binds it, and
@@ -475,17 +624,28 @@ void SumoWorld::advance(const Scene& scene) {
   for (std::size_t row = 0; row < scene.size(); ++row) {
     if (scene.control[row] != Control::Gamma) continue;
     const Known& known = known_[scene.id[row].value];
+    if (known.service != Service::None) continue;  // SUMO has it
     SumoPose pose{&known.sumo_id,
                   reference_point(scene.position[row], scene.heading[row], known.length),
                   sumo_from_heading(scene.heading[row])};
     pose.speed = speeds_.update(scene, row, pose.position, options_.dt);
+    if (!known.is_person && enters_rerouter(scene, row)) {
+      backend_.put_on_lane(pose, model_.road.lane(scene.lane[row].lane).name, pose.speed);
+      shown_.push_back(scene.id[row]);
+      continue;
+    }
     (known.is_person ? person_poses_ : vehicle_poses_).push_back(pose);
     const auto watched = written_.find(known.sumo_id);
     if (watched != written_.end()) watched->second.second = pose.position;
   }
   const Vec2 waiting_place = lobby(model_.road);
-  for (const Pending& pending : pending_) {
-    const SumoPose pose{&pending.details.id, waiting_place, 0.0};
+  for (Pending& pending : pending_) {
+    const bool parked = pending.waits_at.allFinite();
+    // once off its lane a vehicle stays off it, unseen, until it is moved again; for each that is
+    // moved SUMO searches its backlog
+    if (std::exchange(pending.off_lane, true) && !parked && !pending.details.is_person) continue;
+    const SumoPose pose{&pending.details.id, parked ? pending.waits_at : waiting_place,
+                        parked ? pending.waiting_angle : 0.0};
     (pending.details.is_person ? person_poses_ : vehicle_poses_).push_back(pose);
   }
   backend_.step(vehicle_poses_, person_poses_, step_);

@@ -37,24 +37,31 @@ constexpr std::uint8_t kStepVariables[] = {traci::kTime,
                                            traci::kPendingVehicles};
 constexpr std::uint8_t kWatchedVariables[] = {traci::kPosition, traci::kAngle, traci::kSpeed,
                                               traci::kLane, traci::kLanePosition};
+constexpr double kInvalidDouble = -1073741824.0;  // SUMO's word for none
+constexpr double kNoTime = -1.0;  // what stops that name no duration or end have [s]
 
 // moveToXY (docs/coupling.md): SUMO's own number for it, a compound of 7 items for vehicles and 6
-// for persons
-void append_ghost(TraciWriter& message, const SumoPose& pose, bool is_person, GhostMode mode) {
+// for persons, who are on no lane
+void append_move(TraciWriter& message, const SumoPose& pose, const LaneHint& hint, bool is_person,
+                 const GhostArguments& arguments) {
   const std::string& id = *pose.id;
-  const std::size_t body = 1 + (4 + id.size()) + 5 + 5 + (is_person ? 0 : 5) + 9 + 9 + 9 + 2 + 9;
-  const GhostArguments arguments = ghost_arguments(mode);
+  const std::size_t body =
+      1 + (4 + id.size()) + 5 + (5 + hint.edge.size()) + (is_person ? 0 : 5) + 9 + 9 + 9 + 2 + 9;
   message.begin_command(traci::set_command(is_person ? traci::kPerson : traci::kVehicle), body);
   message.raw_byte(traci::kMoveToXy);
   message.raw_string(id);
   message.compound(is_person ? 6 : 7);
-  message.typed_string("");                  // no hint of an edge
-  if (!is_person) message.typed_integer(0);  // its lane: of no edge
+  message.typed_string(hint.edge);
+  if (!is_person) message.typed_integer(hint.index);
   message.typed_double(pose.position.x());
   message.typed_double(pose.position.y());
   message.typed_double(wrapped_degrees(pose.angle));
   message.typed_byte(static_cast<std::uint8_t>(arguments.keep_route));
   message.typed_double(arguments.match_threshold);
+}
+
+void append_ghost(TraciWriter& message, const SumoPose& pose, bool is_person, GhostMode mode) {
+  append_move(message, pose, {}, is_person, ghost_arguments(mode));
 }
 
 // one command's status and, where it is fine, its value; empty: refused, with the reason in status
@@ -84,27 +91,33 @@ double read_number(TraciReader& reply, std::uint8_t domain, std::uint8_t variabl
   return value ? value->typed_double() : otherwise;
 }
 
+int read_integer(TraciReader& reply, std::uint8_t domain, std::uint8_t variable) {
+  std::optional<TraciReader> value = read_answer(reply, domain, variable);
+  return value ? value->typed_integer() : 0;
+}
+
 std::vector<std::string> read_texts(TraciReader& reply, std::uint8_t domain,
                                     std::uint8_t variable) {
   std::optional<TraciReader> value = read_answer(reply, domain, variable);
   return value ? value->typed_strings() : std::vector<std::string>();
 }
 
-// 16 items a stop in 1.15; the first 7 are ours
-std::vector<SumoAgentDetails::Stop> read_stops(TraciReader value, double time) {
+// 16 items a stop in 1.15
+std::vector<SumoAgentDetails::Stop> read_stops(TraciReader value) {
   std::vector<SumoAgentDetails::Stop> stops;
   value.compound();
   for (std::int32_t left = value.typed_integer(); left > 0; --left) {
     SumoAgentDetails::Stop stop;
     stop.lane = value.typed_string();
     stop.end = value.typed_double();
-    value.typed_string();   // stopping place
-    value.typed_integer();  // flags
-    stop.duration = value.typed_double();
-    const double until = value.typed_double();
+    stop.place = value.typed_string();
+    stop.flags = value.typed_integer();
+    stop.duration = std::max(value.typed_double(), kNoTime);
+    stop.until = std::max(value.typed_double(), kNoTime);
     stop.start = value.typed_double();
-    for (int rest = 9; rest > 0; --rest) value.skip_value();
-    if (stop.duration < 0) stop.duration = std::max(0.0, until - time);
+    // arrivals, departure, parts of trains, activity, trip, line
+    for (int rest = 8; rest > 0; --rest) value.skip_value();
+    stop.speed = value.typed_double();
     stops.push_back(std::move(stop));
   }
   return stops;
@@ -128,6 +141,13 @@ Stage read_stage(TraciReader value) {
   return stage;
 }
 
+StageKind stage_kind(int type) {
+  return type == traci::kStageWaiting   ? StageKind::Waiting
+         : type == traci::kStageWalking ? StageKind::Walking
+         : type == traci::kStageDriving ? StageKind::Riding
+                                        : StageKind::Other;
+}
+
 constexpr std::uint8_t kDetailVariables[] = {
     traci::kType,     traci::kVehicleClass, traci::kLength, traci::kWidth,       traci::kHeight,
     traci::kMaxSpeed, traci::kSpeedFactor,  traci::kLane,   traci::kLanePosition};
@@ -141,16 +161,20 @@ void ask_details(TraciWriter& message, const std::string& id, bool is_person) {
   for (const std::uint8_t variable : kDetailVariables) message.get(domain, variable, id);
   if (is_person) {
     message.get(domain, traci::kStage, id, 0);
+    message.get(domain, traci::kStagesLeft, id);
   } else {
     for (const std::uint8_t variable : kTypeVariables) message.get(domain, variable, id);
     message.get(domain, traci::kAllowedSpeed, id);
     message.get(domain, traci::kEdges, id);
     message.get(domain, traci::kStops, id, 0);
+    message.get(domain, traci::kStopState, id);
+    message.get(domain, traci::kRouteIndex, id);
+    message.get(domain, traci::kParameter, id, "has.taxi.device");
+    message.get(domain, traci::kParameter, id, "has.rerouting.device");
   }
 }
 
-SumoAgentDetails read_details(TraciReader& reply, const std::string& id, bool is_person,
-                              double time) {
+SumoAgentDetails read_details(TraciReader& reply, const std::string& id, bool is_person) {
   const std::uint8_t domain = is_person ? traci::kPerson : traci::kVehicle;
   SumoAgentDetails details;
   details.id = id;
@@ -168,11 +192,13 @@ SumoAgentDetails read_details(TraciReader& reply, const std::string& id, bool is
     details.max_speed = walking_speed(details.max_speed);
     if (std::optional<TraciReader> value = read_answer(reply, domain, traci::kStage)) {
       const Stage stage = read_stage(*value);
-      if (stage.type == traci::kStageWalking) {
+      details.stage = stage_kind(stage.type);
+      if (details.stage == StageKind::Walking) {
         details.route = stage.edges;
         details.arrival_position = stage.arrival_position;
       }
     }
+    details.stages_left = read_integer(reply, domain, traci::kStagesLeft);
   } else {
     SumoVehicleType& type = details.type;
     double* const fields[] = {&type.acceleration, &type.deceleration, &type.emergency_deceleration,
@@ -182,7 +208,12 @@ SumoAgentDetails read_details(TraciReader& reply, const std::string& id, bool is
     details.allowed_speed = read_number(reply, domain, traci::kAllowedSpeed, 0);
     details.route = read_texts(reply, domain, traci::kEdges);
     if (std::optional<TraciReader> value = read_answer(reply, domain, traci::kStops))
-      details.stops = read_stops(*value, time);
+      details.stops = read_stops(*value);
+    details.stop_state = read_integer(reply, domain, traci::kStopState);
+    details.route_index = std::max(read_integer(reply, domain, traci::kRouteIndex), 0);
+    details.is_taxi = read_text(reply, domain, traci::kParameter) == "true";
+    // how often is asked of those that have one: SUMO counts other questions as errors
+    if (read_text(reply, domain, traci::kParameter) == "true") details.reroute_period = 0.0;
   }
   return details;
 }
@@ -217,8 +248,18 @@ class TraciBackend final : public SumoBackend {
   void watch(const std::string& id, bool is_person) override;
   void unwatch(const std::string& id, bool is_person) override;
   void remove_vehicle(const std::string& id) override;
-  std::vector<std::string> finish_stage(const std::string& person) override;
+  StageKind finish_stage(const std::string& person) override;
+  std::vector<std::string> present_vehicles() override { return id_list(traci::kVehicle); }
+  std::vector<std::string> present_persons() override { return id_list(traci::kPerson); }
+  void put_on_lane(const SumoPose& pose, const std::string& lane, double speed) override;
+  void set_route(const std::string& vehicle, const std::vector<std::string>& edges) override;
+  std::vector<std::string> find_route(const std::string& from, const std::string& to,
+                                      const std::string& type) override;
+  void set_travel_time(const std::string& edge, double seconds) override;
+  std::vector<double> lane_speeds(std::span<const std::string> lanes) override;
+  void add_stop(const std::string& vehicle, const SumoAgentDetails::Stop& stop) override;
   void take_over(const std::string& vehicle, double speed) override;
+  void release(const std::string& vehicle) override;
   void set_speed(const std::string& vehicle, double speed) override {
     require_finite_pose(vehicle, Vec2::Zero(), 0, speed);
     queued_.set_double(traci::kVehicle, traci::kSpeed, vehicle, speed);
@@ -246,6 +287,8 @@ class TraciBackend final : public SumoBackend {
   }
   [[noreturn]] void report_failure(const std::string& what);
   std::string scenario() const;
+  std::vector<std::string> id_list(std::uint8_t domain);
+  void read_reroute_periods(std::vector<SumoAgentDetails>& all);
 
   void compose_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons);
   void read_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
@@ -583,6 +626,7 @@ void TraciBackend::step(std::span<const SumoPose> vehicles, std::span<const Sumo
     result.arrived_vehicles.clear();
     result.arrived_persons.clear();
     result.lost.clear();
+    result.gone.clear();
     result.signal_states.resize(signal_ids_.size());
     GhostObservation sent_vehicle, sent_person;
     prepare_test(vehicle_test_, false, vehicles, sent_vehicle);
@@ -644,9 +688,13 @@ void TraciBackend::poll_watched(SumoStep& result) {
   if (entries.empty()) return;
   if (watch_changed_) {
     watch_message_.clear();
-    for (const WatchList::Entry& entry : entries)
+    for (const WatchList::Entry& entry : entries) {
+      const std::uint8_t domain = entry.is_person ? traci::kPerson : traci::kVehicle;
       for (const std::uint8_t variable : kWatchedVariables)
-        watch_message_.get(entry.is_person ? traci::kPerson : traci::kVehicle, variable, entry.id);
+        watch_message_.get(domain, variable, entry.id);
+      watch_message_.get(domain, entry.is_person ? traci::kRidesIn : traci::kStopState, entry.id);
+      if (entry.is_person) watch_message_.get(domain, traci::kStagesLeft, entry.id);
+    }
     watch_changed_ = false;
   }
   TraciReader reply = exchange(watch_message_);
@@ -660,6 +708,9 @@ void TraciBackend::poll_watched(SumoStep& result) {
     std::optional<TraciReader> speed = read_answer(reply, domain, traci::kSpeed);
     std::optional<TraciReader> lane = read_answer(reply, domain, traci::kLane);
     std::optional<TraciReader> along = read_answer(reply, domain, traci::kLanePosition);
+    agent.rides = entry.is_person ? read_text(reply, domain, traci::kRidesIn) : std::string();
+    agent.stop_state = entry.is_person ? 0 : read_integer(reply, domain, traci::kStopState);
+    agent.stages_left = entry.is_person ? read_integer(reply, domain, traci::kStagesLeft) : 0;
     if (!position || !angle || !speed || !lane || !along) {
       gone.push_back(entry);
       continue;
@@ -675,7 +726,10 @@ void TraciBackend::poll_watched(SumoStep& result) {
     ++kept;
   }
   result.agents.resize(kept);
-  for (const WatchList::Entry& entry : gone) unwatch(entry.id, entry.is_person);
+  for (const WatchList::Entry& entry : gone) {
+    result.gone.emplace_back(entry.is_person, entry.id);
+    unwatch(entry.id, entry.is_person);
+  }
 }
 
 std::vector<SumoAgentDetails> TraciBackend::details(std::span<const std::string> vehicles,
@@ -687,8 +741,9 @@ std::vector<SumoAgentDetails> TraciBackend::details(std::span<const std::string>
     for (const std::string& id : persons) ask_details(message_, id, true);
     TraciReader reply = exchange(message_);
     std::vector<SumoAgentDetails> all;
-    for (const std::string& id : vehicles) all.push_back(read_details(reply, id, false, time_));
-    for (const std::string& id : persons) all.push_back(read_details(reply, id, true, time_));
+    for (const std::string& id : vehicles) all.push_back(read_details(reply, id, false));
+    for (const std::string& id : persons) all.push_back(read_details(reply, id, true));
+    read_reroute_periods(all);
     return all;
   });
 }
@@ -717,25 +772,132 @@ void TraciBackend::take_over(const std::string& vehicle, double speed) {
   queued_.set_pair(traci::kVehicle, traci::kPreviousSpeed, vehicle, speed, 0.0);
 }
 
+void TraciBackend::release(const std::string& vehicle) {
+  queued_.set_integer(traci::kVehicle, traci::kSpeedMode, vehicle, kSpeedModeSafe);
+  queued_.set_double(traci::kVehicle, traci::kSpeed, vehicle, -1.0);
+}
+
 void TraciBackend::remove_vehicle(const std::string& id) {
   unwatch(id, false);
   queued_.set_byte(traci::kVehicle, traci::kRemove, id, traci::kRemovedAsArrived);
 }
 
-std::vector<std::string> TraciBackend::finish_stage(const std::string& person) {
+StageKind TraciBackend::finish_stage(const std::string& person) {
   return guarded([&] {
     message_.clear();
-    message_.set_integer(traci::kPerson, traci::kRemoveStage, person, 0);
     message_.get(traci::kPerson, traci::kStagesLeft, person);
+    message_.set_integer(traci::kPerson, traci::kRemoveStage, person, 0);
     message_.get(traci::kPerson, traci::kStage, person, 0);
     TraciReader reply = exchange(message_);
+    // in place of the last one SUMO has it wait for no time
+    const bool was_last = read_integer(reply, traci::kPerson, traci::kStagesLeft) <= 1;
     reply.status();
-    std::optional<TraciReader> left = read_answer(reply, traci::kPerson, traci::kStagesLeft);
     std::optional<TraciReader> value = read_answer(reply, traci::kPerson, traci::kStage);
-    if (!left || !value || left->typed_integer() <= 0) return std::vector<std::string>();
-    Stage stage = read_stage(*value);
-    return stage.type == traci::kStageWalking ? std::move(stage.edges) : std::vector<std::string>();
+    return was_last || !value ? StageKind::None : stage_kind(read_stage(*value).type);
   });
+}
+
+void TraciBackend::read_reroute_periods(std::vector<SumoAgentDetails>& all) {
+  const auto reroutes = [](const SumoAgentDetails& details) {
+    return details.reroute_period >= 0.0;
+  };
+  if (std::none_of(all.begin(), all.end(), reroutes)) return;
+  message_.clear();
+  for (const SumoAgentDetails& details : all)
+    if (reroutes(details))
+      message_.get(traci::kVehicle, traci::kParameter, details.id, "device.rerouting.period");
+  TraciReader reply = exchange(message_);
+  for (SumoAgentDetails& details : all)
+    if (reroutes(details))
+      details.reroute_period = reroute_period(read_text(reply, traci::kVehicle, traci::kParameter));
+}
+
+std::vector<std::string> TraciBackend::id_list(std::uint8_t domain) {
+  return guarded([&] {
+    message_.clear();
+    message_.get(domain, traci::kIdList, "");
+    TraciReader reply = exchange(message_);
+    return read_texts(reply, domain, traci::kIdList);
+  });
+}
+
+void TraciBackend::put_on_lane(const SumoPose& pose, const std::string& lane, double speed) {
+  require_finite_pose(*pose.id, pose.position, pose.angle, speed);
+  // what SUMO derives from its motion as a ghost is no speed to start with
+  queued_.set_pair(traci::kVehicle, traci::kPreviousSpeed, *pose.id, speed, 0.0);
+  append_move(queued_, pose, lane_hint(lane), false, kOntoLane);
+}
+
+void TraciBackend::set_route(const std::string& vehicle, const std::vector<std::string>& edges) {
+  std::size_t body = 5 + vehicle.size() + 5;
+  for (const std::string& edge : edges) body += 4 + edge.size();
+  queued_.begin_command(traci::set_command(traci::kVehicle), body);
+  queued_.raw_byte(traci::kRoute);
+  queued_.raw_string(vehicle);
+  queued_.typed_strings(edges);
+}
+
+std::vector<std::string> TraciBackend::find_route(const std::string& from, const std::string& to,
+                                                  const std::string& type) {
+  return guarded([&] {
+    message_.clear();
+    message_.append(queued_);  // travel times that have been set meanwhile
+    const std::size_t before = queued_.command_count();
+    queued_.clear();
+    message_.begin_command(traci::kSimulation,
+                           5 + 5 + (5 + from.size()) + (5 + to.size()) + (5 + type.size()) + 9 + 5);
+    message_.raw_byte(traci::kFindRoute);
+    message_.raw_string("");
+    message_.compound(5);
+    message_.typed_string(from);
+    message_.typed_string(to);
+    message_.typed_string(type);
+    message_.typed_double(-1.0);  // now
+    message_.typed_integer(0);    // by those travel times
+    TraciReader reply = exchange(message_);
+    for (std::size_t left = before; left > 0; --left) reply.status();
+    std::optional<TraciReader> value = read_answer(reply, traci::kSimulation, traci::kFindRoute);
+    return value ? read_stage(*value).edges : std::vector<std::string>();
+  });
+}
+
+void TraciBackend::set_travel_time(const std::string& edge, double seconds) {
+  queued_.begin_command(traci::set_command(traci::kEdge), 5 + edge.size() + 5 + 9);
+  queued_.raw_byte(traci::kTravelTime);
+  queued_.raw_string(edge);
+  queued_.compound(1);
+  queued_.typed_double(seconds);
+}
+
+std::vector<double> TraciBackend::lane_speeds(std::span<const std::string> lanes) {
+  return guarded([&] {
+    message_.clear();
+    for (const std::string& lane : lanes) message_.get(traci::kLaneDomain, traci::kMaxSpeed, lane);
+    TraciReader reply = exchange(message_);
+    std::vector<double> speeds;
+    for (std::size_t i = 0; i < lanes.size(); ++i)
+      speeds.push_back(read_number(reply, traci::kLaneDomain, traci::kMaxSpeed, -1.0));
+    return speeds;
+  });
+}
+
+void TraciBackend::add_stop(const std::string& vehicle, const SumoAgentDetails::Stop& stop) {
+  const bool at_place = (stop.flags & stop_flags::kStoppingPlace) != 0;
+  const LaneHint hint = lane_hint(stop.lane);
+  const std::string& where = at_place ? stop.place : hint.edge;
+  queued_.begin_command(traci::set_command(traci::kVehicle),
+                        5 + vehicle.size() + 5 + (5 + where.size()) + 9 + 2 + 9 + 2 + 9 + 9);
+  queued_.raw_byte(traci::kStop);
+  queued_.raw_string(vehicle);
+  queued_.compound(7);
+  queued_.typed_string(where);
+  queued_.typed_double(stop.end);
+  queued_.typed_byte(static_cast<std::uint8_t>(hint.index));
+  // none would be for ever
+  queued_.typed_double(std::max(stop.duration, 0.0));
+  queued_.typed_byte(static_cast<std::uint8_t>(stop.flags));
+  queued_.typed_double(stop.start);
+  queued_.typed_double(stop.until >= 0 ? stop.until : kInvalidDouble);
 }
 
 void TraciBackend::close() {

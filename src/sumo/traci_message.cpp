@@ -72,6 +72,12 @@ void TraciWriter::typed_string(std::string_view value) {
   raw_string(value);
 }
 
+void TraciWriter::typed_strings(const std::vector<std::string>& values) {
+  raw_byte(traci::kTypeStringList);
+  raw_integer(static_cast<std::int32_t>(values.size()));
+  for (const std::string& value : values) raw_string(value);
+}
+
 void TraciWriter::compound(std::int32_t items) {
   raw_byte(traci::kTypeCompound);
   raw_integer(items);
@@ -101,6 +107,14 @@ void TraciWriter::get(std::uint8_t domain, std::uint8_t variable, std::string_vi
   raw_byte(variable);
   raw_string(id);
   typed_integer(argument);
+}
+
+void TraciWriter::get(std::uint8_t domain, std::uint8_t variable, std::string_view id,
+                      std::string_view argument) {
+  begin_command(domain, 5 + id.size() + 5 + argument.size());
+  raw_byte(variable);
+  raw_string(id);
+  typed_string(argument);
 }
 
 void TraciWriter::set_byte(std::uint8_t domain, std::uint8_t variable, std::string_view id,

@@ -17,7 +17,7 @@ inline constexpr std::uint8_t kGetVersion = 0x00, kSimulationStep = 0x02, kSetOr
 
 /// A domain's get command; set, subscribe and the responses are fixed offsets from it.
 inline constexpr std::uint8_t kInductionLoop = 0xa0, kTrafficLight = 0xa2, kVehicle = 0xa4,
-                              kEdge = 0xaa, kSimulation = 0xab, kPerson = 0xae;
+                              kEdge = 0xaa, kSimulation = 0xab, kPerson = 0xae, kLaneDomain = 0xa3;
 constexpr std::uint8_t set_command(std::uint8_t domain) {
   return static_cast<std::uint8_t>(domain + 0x20);
 }
@@ -46,13 +46,16 @@ inline constexpr std::uint8_t kIdList = 0x00, kPosition = 0x42, kAngle = 0x43, k
                               kDeceleration = 0x47, kEmergencyDeceleration = 0x7b, kHeadway = 0x48,
                               kMinGap = 0x4c, kImperfection = 0x5d, kSpeedMode = 0xb3,
                               kPreviousSpeed = 0x3c, kVirtualDetection = 0x22, kSignalState = 0x20,
-                              kNextSwitch = 0x2d, kOption = 0x32, kTime = 0x66, kStepLength = 0x7b;
+                              kNextSwitch = 0x2d, kOption = 0x32, kTime = 0x66, kStepLength = 0x7b,
+                              kStop = 0x12, kStopState = 0xb5, kRouteIndex = 0x69,
+                              kParameter = 0x7e, kRidesIn = 0xc3, kRoute = 0x57, kTravelTime = 0x58,
+                              kFindRoute = 0x86;
 inline constexpr std::uint8_t kDepartedVehicles = 0x74, kArrivedVehicles = 0x7a,
                               kDepartedPersons = 0x25, kArrivedPersons = 0x27,
                               kTeleportCount = 0x75, kEmergencyStopCount = 0x89,
                               kCollidingCount = 0x80, kPendingVehicles = 0x94;
 inline constexpr std::uint8_t kRemovedAsArrived = 2;
-inline constexpr int kStageWalking = 2;
+inline constexpr int kStageWaiting = 1, kStageWalking = 2, kStageDriving = 3;
 }  // namespace traci
 
 /// A message under construction: commands in order, big-endian, behind a length that frame() fills
@@ -74,6 +77,7 @@ class TraciWriter {
   void typed_integer(std::int32_t value);
   void typed_double(double value);
   void typed_string(std::string_view value);
+  void typed_strings(const std::vector<std::string>& values);
   void compound(std::int32_t items);
 
   /// Starts a command whose body will be body_size bytes long: the short length form up to 255
@@ -83,6 +87,9 @@ class TraciWriter {
   void get(std::uint8_t domain, std::uint8_t variable, std::string_view id);
   /// The same with one typed integer argument.
   void get(std::uint8_t domain, std::uint8_t variable, std::string_view id, std::int32_t argument);
+  /// The same with one typed string argument.
+  void get(std::uint8_t domain, std::uint8_t variable, std::string_view id,
+           std::string_view argument);
   void set_byte(std::uint8_t domain, std::uint8_t variable, std::string_view id,
                 std::uint8_t value);
   void set_integer(std::uint8_t domain, std::uint8_t variable, std::string_view id,

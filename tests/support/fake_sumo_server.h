@@ -140,12 +140,14 @@ class FakeSumoServer {
       put_integer(body, listed ? static_cast<std::int32_t>(signals.size()) : 0);
       if (listed)
         for (const std::string& signal : signals) put_string(body, signal);
-    } else if (domain == kSimulation && variable != kTime && variable != kOption) {
+    } else if ((domain == kSimulation && variable != kTime && variable != kOption) ||
+               variable == kStopState || variable == kStagesLeft || variable == kRouteIndex) {
       body.push_back(kTypeInteger);
       put_integer(body, 0);
-    } else if (domain == kTrafficLight || variable == kOption || variable == kLane) {
+    } else if (domain == kTrafficLight || variable == kOption || variable == kLane ||
+               variable == kRidesIn || variable == kParameter) {
       body.push_back(kTypeString);
-      put_string(body, domain == kTrafficLight ? "rG" : lane);
+      put_string(body, domain == kTrafficLight ? "rG" : variable == kLane ? lane : "");
     } else if (variable == kEdges) {
       body.push_back(kTypeStringList);
       put_integer(body, 0);

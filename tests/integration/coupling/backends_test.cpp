@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "road/sumo_net_reader.h"
 #include "sumo/backend.h"
 #include "sumo/sumo_arguments.h"
 #include "support/coupling_scenario.h"
@@ -139,6 +140,43 @@ TEST_P(Backends, TellsTheStopsOfAVehicle) {
   EXPECT_DOUBLE_EQ(details[0].stops[0].start, 60);
   EXPECT_DOUBLE_EQ(details[0].stops[0].end, 80);
   EXPECT_DOUBLE_EQ(details[0].stops[0].duration, 10);
+  EXPECT_LT(details[0].stops[0].until, 0);
+  EXPECT_FALSE(details[0].is_taxi);
+}
+
+// a ghost that stands at its stop is put onto its lane: SUMO serves the stop, and it is a ghost
+// again
+TEST_P(Backends, ServesTheStopOfAGhost) {
+  const auto sumo = start();
+  SumoStep step;
+  ASSERT_TRUE(run_until(*sumo, step, 20, [&] { return has(step.departed_vehicles, "stopper"); }));
+  const std::string stopper = "stopper";
+  const auto stop = sumo->details({&stopper, 1}, {}).at(0).stops.at(0);
+  const SumoPose first{&stopper, Vec2(60, 150), 90};
+  sumo->step({&first, 1}, {}, step);
+  const auto stop_state_now = [&] {
+    for (const SumoAgent& seen : step.agents)
+      if (seen.id == stopper) return seen.stop_state;
+    return -1;
+  };
+  EXPECT_TRUE(sumo->details({&stopper, 1}, {}).at(0).stops.empty()) << "SUMO forgets it";
+  sumo->watch(stopper, false);
+  // on the stop's lane, its front at the end of it
+  const RoadNetwork net = read_sumo_net(scenario().folder().file("net.net.xml"));
+  const Lane& lane = net.lane(net.lane_by_name.at(stop.lane));
+  const SumoPose there{&stopper, lane.centerline.point_at(stop.end), 90};
+  sumo->put_on_lane(there, stop.lane, 0.0);
+  sumo->add_stop(stopper, stop);
+  double began = -1, ended = -1;
+  for (int i = 0; i < 200 && ended < 0; ++i) {
+    sumo->step({}, {}, step);
+    const int state = stop_state_now();
+    if (began < 0 && (state & stop_state::kStopped)) began = step.time;
+    if (began >= 0 && !(state & stop_state::kStopped)) ended = step.time;
+  }
+  EXPECT_NEAR(ended - began, 10, 0.3);
+  sumo->step({&there, 1}, {}, step);
+  EXPECT_TRUE(step.lost.empty());
 }
 
 // vehicles and persons are reported at the very pose that was written, anywhere, at any angle
@@ -209,7 +247,7 @@ TEST_P(Backends, AnAgentThatVanishedDoesNotEndTheRun) {
   sumo->remove_vehicle("nobody else");
   sumo->override_detectors(std::vector<std::pair<std::string, double>>{{"no loop", 1.0}});
   sumo->watch("nobody", false);
-  EXPECT_TRUE(sumo->finish_stage("nobody").empty());
+  EXPECT_EQ(sumo->finish_stage("nobody"), StageKind::None);
   for (int i = 0; i < 3; ++i) {
     sumo->step(poses, {&person, 1}, step);
     EXPECT_EQ(step.lost, (std::vector<std::string>{"nobody", "nobody"}));
@@ -282,10 +320,14 @@ TEST_P(Backends, FinishesWalksOneByOne) {
     }
   };
   walk(20);
-  EXPECT_EQ(sumo->finish_stage(walker), (std::vector<std::string>{"B1B2", "B2C2"}));
-  EXPECT_NEAR(sumo->details({}, {&walker, 1}).at(0).arrival_position, 40, 1e-6);
+  EXPECT_EQ(sumo->finish_stage(walker), StageKind::Walking);
+  const SumoAgentDetails next = sumo->details({}, {&walker, 1}).at(0);
+  EXPECT_EQ(next.stage, StageKind::Walking);
+  EXPECT_EQ(next.stages_left, 1);
+  EXPECT_EQ(next.route, (std::vector<std::string>{"B1B2", "B2C2"}));
+  EXPECT_NEAR(next.arrival_position, 40, 1e-6);
   walk(20);
-  EXPECT_TRUE(sumo->finish_stage(walker).empty());
+  EXPECT_EQ(sumo->finish_stage(walker), StageKind::None);
   bool arrived = false;
   for (int i = 0; i < 3; ++i) {
     sumo->step({}, {}, step);

@@ -813,5 +813,54 @@ TEST(DrivingPath, FollowsInternalLanesOfSmallNet) {
   EXPECT_NEAR(path.line.length(), 200, 1e-9);
 }
 
+// the way leads into the lane of a stop before it, and out of it again for the turn behind it
+TEST(RouteStops, ArePassedInTheirLane) {
+  const RoadNetwork network = read_plain_net(crossroads("priority"));
+  const std::vector<EdgeId> route = route_of(network, {"WC", "CN"});
+  PathRequest request = request_of(route);
+  request.start_lane = network.lane_by_name.at("WC_1");
+  request.stops = {{0, 0, 90.0, 12.0, 3}};
+  std::string why;
+  const std::optional<Path> path = build_driving_path(network, request, why);
+  ASSERT_TRUE(path) << why;
+  expect_sound(*path);
+  EXPECT_EQ(lanes_of(network, *path), (std::vector<std::string>{"WC_1", "WC_0", "WC_1", "CN_0"}));
+  ASSERT_EQ(path->stops.size(), 1u);
+  const PathStop& stop = path->stops.front();
+  EXPECT_EQ(network.lane(path->stretch_at(stop.along).lane).name, "WC_0");
+  EXPECT_NEAR((path->line.point_at(stop.along) -
+               network.lane(network.lane_by_name.at("WC_0")).centerline.point_at(90.0))
+                  .norm(),
+              0.0, 0.3);
+  EXPECT_EQ(stop.plan, 3);
+  EXPECT_EQ(stop.room, 12.0);
+  EXPECT_TRUE(std::isinf(stop.duration));
+}
+
+TEST(RouteStops, BehindTheBeginningAreNone) {
+  const RoadNetwork network = read_plain_net(crossroads("priority"));
+  const std::vector<EdgeId> route = route_of(network, {"WC", "CE"});
+  PathRequest request = request_of(route);
+  request.start_along = 120.0;
+  request.stops = {{0, -1, 90.0, 0.0, 0}, {1, -1, 50.0, 0.0, 1}};
+  std::string why;
+  const std::optional<Path> path = build_driving_path(network, request, why);
+  ASSERT_TRUE(path) << why;
+  ASSERT_EQ(path->stops.size(), 1u);
+  EXPECT_EQ(path->stops.front().plan, 1);
+}
+
+TEST(SpeedLimits, ThatHoldNowTakeThePlaceOfTheNetworks) {
+  const RoadNetwork network = read_plain_net(crossroads("priority"));
+  const Path path = path_along(network, {"WC", "CE"});
+  std::vector<double> limits;
+  for (const Lane& lane : network.lanes) limits.push_back(lane.speed_limit);
+  limits[index_of(path.stretches.front().lane)] = 5.0;
+  const Path slower = with_speed_limits(path, limits);
+  EXPECT_EQ(slower.line.length(), path.line.length());
+  EXPECT_NEAR(slower.profile_at(50.0), 5.0, 0.1);
+  EXPECT_NEAR(slower.profile_at(slower.arrival - 50.0), path.profile_at(path.arrival - 50.0), 0.1);
+}
+
 }  // namespace
 }  // namespace sumogamma

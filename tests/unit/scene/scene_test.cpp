@@ -193,7 +193,7 @@ TEST(Footprint, ABoxIsCounterClockwiseAboutItsCentre) {
   EXPECT_NEAR(box.radius, std::sqrt(5.0), 1e-12);
 }
 
-TEST(AgentTypes, TheNineBuiltInOnesAreSane) {
+TEST(AgentTypes, TheBuiltInOnesAreSane) {
   const AgentTypeTable types = default_agent_types();
   std::set<std::string> names;
   for (const AgentType& type : types) {
@@ -209,14 +209,15 @@ TEST(AgentTypes, TheNineBuiltInOnesAreSane) {
       EXPECT_GT(positive, 0.0);
     EXPECT_LE(type.preferred_speed, type.max_speed);
     EXPECT_LE(type.comfortable_deceleration, type.max_deceleration);
-    EXPECT_LE(type.width, 2.55);
+    EXPECT_LE(type.width, type.guided ? 4.0 : 2.55);
     EXPECT_LE(type.wheelbase, type.length);
     // the rear axle lies under the body
     EXPECT_LE(type.rear_axle_to_center, 0.5 * type.length);
     EXPECT_LE(type.attention_rear, type.attention_front);
   }
   EXPECT_EQ(names, (std::set<std::string>{"pedestrian", "bicycle", "motorcycle", "car", "van",
-                                          "bus", "truck", "electric_tricycle", "gyro_scooter"}));
+                                          "bus", "truck", "electric_tricycle", "gyro_scooter",
+                                          "tram", "train", "ship"}));
 }
 
 TEST(AgentTypes, AreFoundByNameOrRefusedWithTheKnownOnes) {

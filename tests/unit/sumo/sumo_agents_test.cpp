@@ -71,9 +71,13 @@ TEST(AgentTypeOf, TheBodyDecidesWhereTheClassDoesNot) {
     }
 }
 
-TEST(AgentTypeOf, WhatRunsOnRailsOrWaterIsNotDriven) {
-  for (const char* other : {"tram", "rail", "rail_urban", "rail_electric", "rail_fast", "ship"})
-    EXPECT_EQ(type_for("x", other), "") << other;
+TEST(AgentTypeOf, WhatRunsOnRailsOrWaterHasABodyThatSumoMoves) {
+  const AgentTypeTable types = default_agent_types();
+  for (const char* train : {"rail", "rail_urban", "rail_electric", "rail_fast"})
+    EXPECT_EQ(type_for("x", train), "train") << train;
+  for (const char* other : {"tram", "ship"}) EXPECT_EQ(type_for("x", other), other);
+  for (const char* name : {"tram", "train", "ship"})
+    EXPECT_TRUE(type_of(types, find_agent_type(types, name)).guided) << name;
 }
 
 TEST(PathOf, StartsAtTheCentreOfTheBody) {
@@ -102,13 +106,23 @@ TEST(PathOf, CarriesPlannedHaltsInOrder) {
   details.length = 12;
   details.lane = "in_1";
   details.lane_position = 12;
-  details.stops = {{"out_0", 20, 40, 15}, {"in_1", 50, 60, 5}, {"nowhere_0", 1, 2, 3}};
+  const auto stop = [](const char* lane, double start, double end) {
+    SumoAgentDetails::Stop one;
+    one.lane = lane;
+    one.start = start;
+    one.end = end;
+    return one;
+  };
+  details.stops = {stop("in_1", 50, 60), stop("nowhere_0", 1, 2), stop("out_0", 20, 40)};
   std::string why;
   const auto path = path_of(model, details, find_agent_type(model.types, "bus"), why);
   ASSERT_NE(path, nullptr) << why;
   ASSERT_EQ(path->stops.size(), 2u);
   EXPECT_NEAR(path->stops[0].along, 60 - 6, 0.6);
-  EXPECT_EQ(path->stops[0].duration, 5);
+  // the world says when it is over
+  EXPECT_TRUE(std::isinf(path->stops[0].duration));
+  EXPECT_EQ(path->stops[0].plan, 0);
+  EXPECT_EQ(path->stops[1].plan, 2);
   EXPECT_NEAR(path->stops[1].along, 105 + 40 - 6, 0.6);
 }
 
