@@ -577,6 +577,8 @@ void LibsumoBackend::override_detectors(std::span<const std::pair<std::string, d
   guarded([&] {
     for (const auto& [id, age] : detectors) {
       try {
+        // as over the socket: else SUMO holds the loop for jammed after a while
+        if (age > 0.0) libsumo::InductionLoop::overrideTimeSinceDetection(id, -1.0);
         libsumo::InductionLoop::overrideTimeSinceDetection(id, age);
       } catch (const libsumo::TraCIException&) {
         // no such detector: the traci back end ignores it too

@@ -265,8 +265,12 @@ class TraciBackend final : public SumoBackend {
     queued_.set_double(traci::kVehicle, traci::kSpeed, vehicle, speed);
   }
   void override_detectors(std::span<const std::pair<std::string, double>> detectors) override {
-    for (const auto& [id, age] : detectors)
+    for (const auto& [id, age] : detectors) {
+      // SUMO takes one override after another for a vehicle that stands there, and holds the loop
+      // for jammed after a while (jam-threshold): it begins anew once nobody is on it
+      if (age > 0.0) queued_.set_double(traci::kInductionLoop, traci::kVirtualDetection, id, -1.0);
       queued_.set_double(traci::kInductionLoop, traci::kVirtualDetection, id, age);
+    }
   }
   const std::vector<Detector>& detectors() const override { return detectors_; }
   std::vector<std::string> take_warnings() override;
