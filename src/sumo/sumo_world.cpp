@@ -536,6 +536,7 @@ void SumoWorld::follow(const SumoAgent& seen, AgentId id, std::size_t row, Scene
     return;
   }
   if (known.keeps_place) {
+    scene.stop_left[row] = options_.dt;  // by its plan
     take_back(seen, id, row, scene, road);
     return;
   }
