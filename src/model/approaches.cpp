@@ -32,6 +32,21 @@ bool comes_with_right_of_way(const Model& model, const RoadState& road, const Sc
 
 }  // namespace
 
+ConnectionId halt_counts_for(const RoadNetwork& road, const Path& path, const PathLink& link,
+                             double length) {
+  ConnectionId counts = link.connection;
+  if (road.connection(link.connection).signal != kNoSignal) return counts;
+  double clear = link.end;
+  for (auto next = path.link_after(link.stop_line); next != path.links.end(); ++next) {
+    if (next->halt - length > clear) break;
+    clear = next->end;
+    const Connection& connection = road.connection(next->connection);
+    if (connection.signal != kNoSignal) break;
+    if (connection.state == 's' || connection.state == 'w') counts = next->connection;
+  }
+  return counts;
+}
+
 void ApproachTable::rebuild(const Model& model, const RoadState& road, const Scene& scene) {
   for (const Approach& approach : approaches_) ranges_[index_of(approach.connection)] = {};
   ranges_.resize(model.road.connections.size());
@@ -71,11 +86,15 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
     const bool wide = is_wide(scene, row);
     // far enough for the slowest foe to find its gap: ten seconds at the present speed
     const double reach = std::max(path->walking ? 8.0 : 30.0, 10.0 * speed);
+    const ConnectionId halted_for = scene.halted_for[row];
     auto link = path->link_from(along - half_length);
     for (; link != path->links.end() && link->stop_line < along + half_length + reach; ++link) {
+      const bool has_halted =
+          halted_for != kNoConnection &&
+          halt_counts_for(model.road, *path, *link, 2.0 * half_length) == halted_for;
       approaches_.push_back({link->connection, static_cast<std::uint32_t>(row),
                              along + half_length - link->stop_line, 2.0 * half_length, speed,
-                             speed < kStandsBelow, wide});
+                             speed < kStandsBelow, wide, has_halted});
     }
   }
   std::sort(approaches_.begin(), approaches_.end(), [](const Approach& a, const Approach& b) {

@@ -19,7 +19,8 @@ struct Approach {
   double length = 0;  ///< of the agent along its path [m]
   double speed = 0;   ///< along its path, >= 0 [m/s]
   bool stands = false;
-  bool wide = false;  ///< see is_wide
+  bool wide = false;        ///< see is_wide
+  bool has_halted = false;  ///< before this link, or one whose halt counts for it
 };
 
 /// What held an agent at the last tick.
@@ -55,6 +56,12 @@ class ApproachTable {
   std::vector<Range> ranges_;         ///< by connection
   std::vector<Waiting> waiting_;      ///< by row
 };
+
+/// The last link that a halt of a body `length` [m] long before `link` counts for: at a stop sign
+/// so close behind that a body which waits there would stand on `link` one halts before both, and
+/// once.
+ConnectionId halt_counts_for(const RoadNetwork& road, const Path& path, const PathLink& link,
+                             double length);
 
 /// Half the extent of a row's footprint along a unit direction [m].
 double half_extent(const Scene& scene, std::size_t row, const Vec2& direction);

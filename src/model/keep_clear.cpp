@@ -67,8 +67,7 @@ void visit_joining(const RoadView& view, const Course& course, const PathLink& l
     if (zone.yields || view.model.road.connection(zone.foe).to != to) continue;
     for (const Approach& foe : view.approaches.of(zone.foe)) {
       const Waiting& waiting = view.approaches.waiting(foe.row);
-      if (foe.row != course.row && waiting.halted_for == zone.foe && foe.front < kPast)
-        visit(foe, waiting);
+      if (foe.row != course.row && foe.has_halted && foe.front < kPast) visit(foe, waiting);
     }
   }
 }
@@ -204,7 +203,9 @@ LinkDecision let_one_in(const RoadView& view, const Course& course, const Travel
       next_queue_head(view, course, link) < link.end + kShort)
     return {};
   const Waiting& own = view.approaches.waiting(course.row);
-  const double came = own.halted_for == link.connection ? own.halted_at : view.scene.time;
+  const bool has_halted = own.halted_for == halt_counts_for(view.model.road, course.path, link,
+                                                            2.0 * course.half_length);
+  const double came = has_halted ? own.halted_at : view.scene.time;
   const auto id = static_cast<std::int64_t>(view.scene.id[course.row].value);
   LinkDecision decision;
   visit_joining(view, course, link, [&](const Approach& foe, const Waiting& waiting) {

@@ -193,7 +193,7 @@ struct Judge : RoadView {
     if (!foe_inside && model.road.connection(link.connection).state == 'w') {
       if (past_line(zone)) return Verdict::Free;
       const Waiting& theirs_then = approaches.waiting(foe.row);
-      if (theirs_then.halted_for != zone.foe) return Verdict::Free;  // it has to halt first
+      if (!foe.has_halted) return Verdict::Free;  // it has to halt first
       const double own_time = approaches.waiting(traveller.row).halted_at;
       return blocks_if(
           theirs_then.halted_at < own_time ||
@@ -685,7 +685,9 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
   const bool at_red = duty == SignalDuty::GoAtRed;
   const bool stop_sign = (connection.state == 's' || connection.state == 'w') && signal == 'O';
   const bool halts_first = stop_sign || (at_red && !own_path.walking && connection.storage == 0.0);
-  if (halts_first && to_line > -0.2 && scene.halted_for[traveller.row] != link.connection)
+  if (halts_first && to_line > -0.2 &&
+      scene.halted_for[traveller.row] !=
+          halt_counts_for(model.road, own_path, link, traveller.length))
     decision = {true, stop_at, at_red ? LimitReason::Signal : LimitReason::Yield, -1};
 
   const bool free_green = signal == 'G';

@@ -40,22 +40,6 @@ double stop_acceleration(const Scene& scene, const Course& course, double free_s
   return following_acceleration(course.type, course.speed, free_speed, gap, 0.0);
 }
 
-/// The link at which a halt before `link` counts: at a stop sign so close behind it that a body
-/// which waits there would stand on it one halts before both, and once.
-ConnectionId halted_before(const RoadNetwork& road, const Course& course, const PathLink& link) {
-  ConnectionId counts = link.connection;
-  double clear = link.end;
-  for (const PathLink& next : course.path.links) {
-    if (next.stop_line <= link.stop_line) continue;
-    if (next.halt - 2.0 * course.half_length > clear) break;
-    clear = next.end;
-    const Connection& connection = road.connection(next.connection);
-    if (connection.signal != kNoSignal) break;
-    if (connection.state == 's' || connection.state == 'w') counts = next.connection;
-  }
-  return road.connection(link.connection).signal == kNoSignal ? counts : link.connection;
-}
-
 /// Remembers that the agent came to a halt before its next link, on the junction where it may wait
 /// there, or before the link right behind it where it has priority at the next.
 void note_halt(const RoadNetwork& road, const Course& course, Scene& scene) {
@@ -66,7 +50,8 @@ void note_halt(const RoadNetwork& road, const Course& course, Scene& scene) {
     if (link.stop_line < front - 0.3 && front > link.inside + 0.3) continue;
     if (link.halt >= front + kAtLine) return;
     const Connection& connection = road.connection(link.connection);
-    const ConnectionId halted_for = halted_before(road, course, link);
+    const ConnectionId halted_for =
+        halt_counts_for(road, course.path, link, 2.0 * course.half_length);
     const bool has_priority = connection.state == 'M' && connection.signal == kNoSignal;
     if (has_priority && halted_for == link.connection) continue;
     if (scene.halted_for[course.row] != halted_for) {

@@ -915,7 +915,7 @@ TEST(JunctionsThatFollowClosely, AHaltBeforeTheFirstCountsForTheStopSignOfTheSec
 // In Santa Maria everybody waited for a minute before an empty zebra: there was no room between it
 // and the stop sign behind it, at which the halt before the zebra didn't count.
 TEST(JunctionsThatFollowClosely, AHaltBeforeAZebraCountsForTheStopSignThatLeavesNoRoomBehindIt) {
-  for (const char state : {'M', 'm'}) {
+  for (const char state : {'M', 'm', 's'}) {
     SCOPED_TRACE(state);
     RoadScene here(two_junctions(8, "priority"));
     const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
