@@ -25,14 +25,21 @@ CommandRunner add_run_command(CLI::App& parent) {
       ->check(whole_number(1, 1000000));
   command
       ->add_option("--control", options->control,
-                   "who is driven by GAMMA: all, none, or agent types and SUMO ids")
+                   "who is driven by GAMMA: all, none, called (whom another client asks for), or "
+                   "agent types, vTypes, ids, patterns (bus*), a share (30%)")
       ->delimiter(',');
   command
       ->add_option("--region", options->region,
-                   "drive only who enters this box of the network: X0,Y0,X1,Y1 [m]")
+                   "of these only who is in this box, or ring, of the network: X0,Y0,X1,Y1[,...] "
+                   "[m]; who leaves it is SUMO's again")
       ->delimiter(',')
-      ->expected(4)
+      ->expected(4, 1000)
       ->check(finite_number());
+  command
+      ->add_option("--take", options->take,
+                   "a rule as under [[control]] in scenario.toml, such as 'who = [\"car\"], "
+                   "around = \"bus.1\", radius = 50, from = 60'; may be given several times")
+      ->take_all();
   command
       ->add_option("--backend", options->backend,
                    "traci (SUMO as a child process) or libsumo (in process)")

@@ -1,13 +1,16 @@
 #include "app/run_plan.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
 #include "base/edit_distance.h"
 #include "base/error.h"
 #include "base/number_text.h"
+#include "road/sumo_net_reader.h"
 #include "sumo/sumo_arguments.h"
 
 namespace sumogamma {
@@ -30,27 +33,84 @@ std::size_t most_vehicles(long agents, double on_foot) {
   return static_cast<std::size_t>(std::max(vehicles, 1L));
 }
 
-ControlChoice control_choice(const RunOptions& options, const std::string& from_config,
-                             std::string& text) {
-  std::vector<std::string> words =
-      options.control.empty() ? std::vector<std::string>{from_config} : options.control;
+constexpr std::size_t kMostRules = 32;
+
+/// Types, ids and patterns, and a share of them such as "30%".
+ControlRule rule_of_words(const std::vector<std::string>& words) {
+  ControlRule rule;
+  for (const std::string& word : words) {
+    if (word == "all" || word == "none" || word == "called")
+      throw Error("--control",
+                  "'" + word + "' stands alone, expected all, none, called, or types and ids");
+    if (word.empty() || word.back() != '%') {
+      rule.who.push_back(word);
+      continue;
+    }
+    double percent = -1.0;
+    const char* const end = word.data() + word.size() - 1;
+    const auto [stop, error] = std::from_chars(word.data(), end, percent);
+    if (error != std::errc() || stop != end || !(percent >= 0.0 && percent <= 100.0))
+      throw Error("--control " + word.substr(0, 60), "must be a share from 0% to 100%");
+    rule.share = percent / 100.0;
+  }
+  return rule;
+}
+
+/// Reads the polygons that a rule names: "FILE", "FILE#ID", or "#ID" of the scenario's own files.
+void read_areas(const ScenarioInput& input, ControlRule& rule) {
+  if (rule.area_file.empty()) return;
+  const std::size_t hash = rule.area_file.find('#');
+  const std::string file = rule.area_file.substr(0, hash);
+  const std::string id = hash == std::string::npos ? "" : rule.area_file.substr(hash + 1);
+  std::vector<std::filesystem::path> files = input.additional;
+  if (!file.empty()) {
+    const std::filesystem::path beside = input.config.parent_path() / file;
+    files = {std::filesystem::exists(file) ? std::filesystem::path(file) : beside};
+  }
+  std::string known;
+  for (const std::filesystem::path& one : files)
+    for (auto& [name, ring] : read_polygons(one)) {
+      if (id.empty() || name == id) rule.areas.push_back(std::move(ring));
+      if (known.size() < 80) known += (known.empty() ? "" : ", ") + name;
+    }
+  if (rule.areas.empty())
+    throw Error("area " + rule.area_file.substr(0, 200),
+                "no polygon of that name" + (known.empty() ? "" : "; there are " + known));
+}
+
+/// Rules of the options, else of scenario.toml.
+ControlChoice control_choice(const RunOptions& options, const ScenarioConfig& config,
+                             const ScenarioInput& input, std::string& text) {
   ControlChoice control;
-  control.all = words == std::vector<std::string>{"all"};
-  if (!control.all && words != std::vector<std::string>{"none"})
-    control.names.insert(words.begin(), words.end());
-  if (control.names.count("all") + control.names.count("none") > 0)
-    throw Error("--control", "'all' and 'none' stand alone, expected all, none, or types and ids");
+  std::vector<std::string> words = options.control;
+  const bool region = !options.region.empty();
+  if (words.empty() && !region && options.take.empty()) {
+    control.rules = config.rules;
+    if (config.rules.empty()) words = {config.control};
+  }
+  const std::vector<std::string> all{"all"}, none{"none"}, called{"called"};
+  if (words == called) {
+    ControlRule rule;
+    rule.from = std::numeric_limits<double>::infinity();  // never by itself
+    control.rules.push_back(std::move(rule));
+  } else if ((!words.empty() && words != none) || (words.empty() && region)) {
+    ControlRule rule = words.empty() || words == all ? ControlRule{} : rule_of_words(words);
+    if (region) {
+      rule.areas.push_back(ring_of(options.region));
+      if (rule.areas.back().empty())
+        throw Error("--region", "must be X0,Y0,X1,Y1 of a box or X,Y of three points and more");
+    }
+    control.rules.push_back(std::move(rule));
+  }
+  for (const std::string& take : options.take) control.rules.push_back(parse_control_rule(take));
+  if (control.rules.size() > kMostRules)
+    throw Error("--take", "more than " + std::to_string(kMostRules) + " rules of who is driven");
+  for (ControlRule& rule : control.rules) read_areas(input, rule);
   text.clear();
   for (const std::string& word : words) text += (text.empty() ? "" : ",") + word;
-  if (options.region.size() == 4) {
-    control.all = false;
-    control.has_region = true;
-    control.region_low = {std::min(options.region[0], options.region[2]),
-                          std::min(options.region[1], options.region[3])};
-    control.region_high = {std::max(options.region[0], options.region[2]),
-                           std::max(options.region[1], options.region[3])};
-    text = "region";
-  }
+  if (region) text += text.empty() ? "region" : " in a region";
+  for (const std::string& take : options.take) text += (text.empty() ? "" : " or ") + take;
+  if (text.empty()) text = "scenario.toml";
   return control;
 }
 
@@ -119,8 +179,13 @@ void require_time_left(const RunPlan& plan) {
 void require_known_names(const RunPlan& plan) {
   std::set<std::string> known = plan.inventory.types;
   for (const AgentType& type : plan.config.types) known.insert(type.name);
-  for (const std::string& name : plan.control.names) {
-    if (known.contains(name) || has_id(plan.inventory, name)) continue;
+  for (const std::string& name : plan.control.names()) {
+    const auto fits = [&](const std::string& other) { return matches(name, other); };
+    if (std::any_of(known.begin(), known.end(), fits) || has_id(plan.inventory, name) ||
+        std::any_of(plan.inventory.ids.begin(), plan.inventory.ids.end(), fits) ||
+        std::any_of(plan.inventory.flows.begin(), plan.inventory.flows.end(),
+                    [&](const std::string& flow) { return matches(name, flow + ".0"); }))
+      continue;
     std::string nearest;
     for (const std::set<std::string>* names : {&std::as_const(known), &plan.inventory.ids})
       for (const std::string& other : *names)
@@ -160,8 +225,8 @@ RunPlan make_plan(const RunOptions& options, const CommonOptions& common) {
   // likes
   const long cap = options.agents.value_or(plan.input.settings.empty() ? 0 : plan.config.agents);
   plan.vehicles = most_vehicles(cap, plan.config.on_foot);
-  plan.control = control_choice(options, plan.config.control, plan.control_text);
-  const bool named = !plan.control.names.empty();
+  plan.control = control_choice(options, plan.config, plan.input, plan.control_text);
+  const bool named = !plan.control.names().empty();
   plan.inventory = take_inventory(plan.input, !plan.control.any(), named);
   // others may bring agents that no file tells of
   const bool alone = options.connect.empty() && options.clients == 1;

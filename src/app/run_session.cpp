@@ -323,8 +323,36 @@ void fill_agents(const LifeCycle& life, const AgentTypeTable& types, AgentCounts
     counts.mean_travel_time += time / static_cast<double>(counts.arrived);
     agents.mean_travel_time += time / static_cast<double>(agents.arrived);
   }
-  for (const auto& [reason, count] : life.removed)
-    agents.removed[reason] = static_cast<std::uint64_t>(count);
+  const auto copy = [](const std::map<std::string, std::int64_t>& from, auto& to) {
+    for (const auto& [reason, count] : from) to[reason] = static_cast<std::uint64_t>(count);
+  };
+  copy(life.removed, agents.removed);
+  copy(life.left_to_sumo, agents.left_to_sumo);
+  agents.stops_served = static_cast<std::uint64_t>(life.stops_served);
+  agents.rides = static_cast<std::uint64_t>(life.rides);
+  agents.taken_over = static_cast<std::uint64_t>(life.taken_over);
+  agents.handed_back = static_cast<std::uint64_t>(life.handed_back);
+  agents.kept_on_foot = static_cast<std::uint64_t>(life.kept_on_foot);
+  agents.insertions_delayed = static_cast<std::uint64_t>(life.insertions_delayed);
+}
+
+Quantiles quantiles_of(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  };
+  return {at(0.5), at(0.95), values.back()};
+}
+
+HandBackResult summary_of(const std::vector<HandBack>& backs) {
+  const auto spread = [&](double HandBack::*figure) {
+    std::vector<double> values;
+    for (const HandBack& back : backs) values.push_back(back.*figure);
+    return quantiles_of(std::move(values));
+  };
+  return {backs.size(), spread(&HandBack::position), spread(&HandBack::heading),
+          spread(&HandBack::speed), spread(&HandBack::acceleration)};
 }
 
 bool failed(const RunOptions& options, const RunResults& results) {
@@ -436,6 +464,7 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   fill_agents(world.life_cycle(), sim->model.types, results.agents);
   results.agents.detours = sim->detours;
   results.coupling = coupling.result();
+  results.hand_back = summary_of(world.coupling().hand_backs);
   results.teleports = static_cast<std::uint64_t>(world.coupling().teleports);
   results.emergency_stops = static_cast<std::uint64_t>(world.coupling().emergency_stops);
   observers.close();

@@ -15,7 +15,8 @@ struct RunOptions {
   std::optional<double> step, duration;  ///< [s]
   std::optional<long> agents;            ///< to be alive, a tenth more at the most
   std::vector<std::string> control;      ///< all | none | types and ids
-  std::vector<double> region;            ///< x0,y0,x1,y1 of --region [m]
+  std::vector<double> region;            ///< of --region: a box or a ring [m]
+  std::vector<std::string> take;         ///< rules of --take
   std::optional<std::string> backend;    ///< traci | libsumo
   std::optional<std::string> preset;     ///< compliant | observed
   std::string connect;                   ///< HOST:PORT of a SUMO that the user started

@@ -18,6 +18,7 @@ enum class Draw : std::uint32_t {
   Jaywalking,
   Yielding,
   MidBlock,
+  Control,
 };
 
 /// 64 well-mixed bits: a pure function of its arguments (splitmix64 finaliser, applied a word at a

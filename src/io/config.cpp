@@ -196,11 +196,50 @@ class Document {
     }
   }
 
+  /// [[control]]: who is driven, where and when.
+  void read_rules(const toml::table& root, std::vector<ControlRule>& rules) const {
+    const toml::node* node = root.get("control");
+    if (!node) return;
+    if (!node->is_array_of_tables()) fail(*node, "'control' must be rules, each under [[control]]");
+    for (const toml::node& rule : *node->as_array()) rules.push_back(read_rule(*rule.as_table()));
+  }
+
+  ControlRule read_rule(const toml::table& table) const {
+    ControlRule rule;
+    for (const auto& [key, value] : table) {
+      const std::string name(key.str());
+      if (name == "who") {
+        rule.who = texts_of(value, name);
+      } else if (name == "share") {
+        rule.share = number_in(value, name, 0.0, 1.0);
+      } else if (name == "area") {
+        read_area(value, rule);
+      } else if (name == "around") {
+        if (!value.is_string()) fail(value, "'around' must be an agent's id in quotes");
+        rule.around = value.value<std::string>().value();
+      } else if (name == "radius") {
+        rule.radius = number_in(value, name, 0.0, 1e6);
+      } else if (name == "from") {
+        rule.from = number_in(value, name, -1e9, 1e9);
+      } else if (name == "to") {
+        rule.to = number_in(value, name, -1e9, 1e9);
+      } else {
+        fail(value, "unknown key '" + name +
+                        "' of a control rule, expected who, share, area, around, radius, from, to");
+      }
+    }
+    if (rule.around.empty() != (rule.radius <= 0.0))
+      fail(table, "a circle needs both, around = \"ID\" and a radius above 0");
+    if (rule.from >= rule.to) fail(table, "'from' must be before 'to'");
+    return rule;
+  }
+
   void apply(const toml::table& table, const std::string& prefix,
              const std::vector<Binding>& bindings,
              std::map<std::string, std::string>& given) const {
     for (const auto& [key, value] : table) {
       const std::string full = prefix + std::string(key.str());
+      if (full == "control") continue;  // read_rules
       if (value.is_table()) {
         apply(*value.as_table(), full + ".", bindings, given);
         continue;
@@ -226,6 +265,44 @@ class Document {
   }
 
  private:
+  std::vector<std::string> texts_of(const toml::node& node, const std::string& name) const {
+    std::vector<std::string> texts;
+    if (node.is_string()) {
+      texts.push_back(node.value<std::string>().value());
+    } else if (node.is_array()) {
+      for (const toml::node& one : *node.as_array()) {
+        if (!one.is_string()) fail(one, "'" + name + "' must hold texts in quotes alone");
+        texts.push_back(one.value<std::string>().value());
+      }
+    }
+    if (texts.empty()) fail(node, "'" + name + "' must be a text in quotes, or a list of such");
+    return texts;
+  }
+  double number_in(const toml::node& node, const std::string& name, double least,
+                   double most) const {
+    const double value = node.is_number() ? node.value<double>().value() : std::nan("");
+    if (value >= least && value <= most) return value;
+    char text[80];
+    std::snprintf(text, sizeof text, "' must be a number from %g to %g", least, most);
+    fail(node, "'" + name + text);
+  }
+  /// Numbers x0, y0, x1, y1 of a box or x, y, x, y, x, y, ... of a ring, or where polygons stand.
+  void read_area(const toml::node& node, ControlRule& rule) const {
+    if (node.is_string()) {
+      rule.area_file = node.value<std::string>().value();
+      return;
+    }
+    std::vector<double> numbers;
+    if (node.is_array())
+      for (const toml::node& one : *node.as_array())
+        numbers.push_back(number_in(one, "area", -1e9, 1e9));
+    rule.areas.push_back(ring_of(numbers));
+    if (rule.areas.back().empty())
+      fail(node,
+           "'area' must be [x0, y0, x1, y1] of a box, the points of a ring, or "
+           "\"FILE#POLYGON\"");
+  }
+
   void check_range(const toml::node& node, const Binding& binding, double value) const {
     const bool fits = std::isfinite(value) && value <= binding.most &&
                       (binding.open ? value > binding.least : value >= binding.least);
@@ -281,6 +358,7 @@ class Document {
 
 void apply_document(const Document& document, const toml::table& root, ScenarioConfig& config) {
   document.add_types(root, config.types);
+  document.read_rules(root, config.rules);
   document.apply(root, "", bind_all(config), config.given);
 }
 
@@ -306,6 +384,17 @@ toml::table parse_override(const std::string& text) {
 }
 
 }  // namespace
+
+ControlRule parse_control_rule(const std::string& text) {
+  const Document document("--take " + text, false);
+  try {
+    const toml::table table = toml::parse("rule = {" + text + "}");
+    return document.read_rule(*table.get("rule")->as_table());
+  } catch (const toml::parse_error& error) {
+    throw Error("--take " + text, "isn't like 'who = [\"car\"], share = 0.3, from = 60' (" +
+                                      std::string(error.description()) + ")");
+  }
+}
 
 ScenarioConfig read_config(const std::filesystem::path& file,
                            std::span<const std::string> overrides) {

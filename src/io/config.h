@@ -4,10 +4,12 @@
 #include <map>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "model/model.h"
 #include "scene/agent_type.h"
 #include "scene/behavior_preset.h"
+#include "sumo/control_choice.h"
 
 namespace sumogamma {
 
@@ -22,6 +24,7 @@ struct ScenarioConfig {
   double duration = 600;  ///< [s]
   double step = 0.05;     ///< [s]
   std::string control = "all";
+  std::vector<ControlRule> rules;  ///< [[control]]: instead of run.control where there are some
   std::string backend = "traci";
   // [behavior]
   BehaviorPreset preset = BehaviorPreset::Compliant;  ///< keys of types win over it
@@ -32,6 +35,10 @@ struct ScenarioConfig {
   /// Keys that were set, and where: scenario.toml or the command line (--set).
   std::map<std::string, std::string> given;
 };
+
+/// One rule of who is driven, as [[control]] has it: "who = [\"car\"], share = 0.3, from = 60".
+/// Throws Error naming `text`.
+ControlRule parse_control_rule(const std::string& text);
 
 /// Reads scenario.toml (an empty path: defaults alone) and applies overrides "key=value" in order,
 /// later ones winning. The preset comes before all of [types.NAME], wherever it stands. Throws

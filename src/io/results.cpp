@@ -17,8 +17,11 @@ Json agents_json(const AgentCounts& agents) {
     by_type[type] = {{"inserted", counts.inserted},
                      {"arrived", counts.arrived},
                      {"mean_travel_time_s", counts.mean_travel_time}};
-  Json removed = Json::object();
-  for (const auto& [reason, count] : agents.removed) removed[reason] = count;
+  const auto by_reason = [](const std::map<std::string, std::uint64_t>& counts) {
+    Json json = Json::object();
+    for (const auto& [reason, count] : counts) json[reason] = count;
+    return json;
+  };
   return {{"inserted", agents.inserted},
           {"arrived", agents.arrived},
           {"mean_travel_time_s", agents.mean_travel_time},
@@ -26,8 +29,27 @@ Json agents_json(const AgentCounts& agents) {
           {"controlled_peak", agents.controlled_peak},
           {"controlled_mean", agents.controlled_mean},
           {"detours", agents.detours},
-          {"removed", removed},
+          {"stops_served", agents.stops_served},
+          {"rides", agents.rides},
+          {"taken_over", agents.taken_over},
+          {"handed_back", agents.handed_back},
+          {"kept_on_foot", agents.kept_on_foot},
+          {"insertions_delayed", agents.insertions_delayed},
+          {"left_to_sumo", by_reason(agents.left_to_sumo)},
+          {"removed", by_reason(agents.removed)},
           {"by_type", by_type}};
+}
+
+Json quantiles_json(const Quantiles& spread) {
+  return {{"median", spread.median}, {"p95", spread.p95}, {"max", spread.max}};
+}
+
+Json hand_back_json(const HandBackResult& back) {
+  return {{"count", back.count},
+          {"position_m", quantiles_json(back.position)},
+          {"heading_rad", quantiles_json(back.heading)},
+          {"speed", quantiles_json(back.speed)},
+          {"acceleration", quantiles_json(back.acceleration)}};
 }
 
 Json timing_json(const RunTiming& timing) {
@@ -252,7 +274,8 @@ std::string results_json(const RunResults& results) {
                        {"teleports", results.teleports},
                        {"emergency_stops", results.emergency_stops},
                        {"sumo_warnings", results.sumo_warnings},
-                       {"poses_compared", coupling.compared}}},
+                       {"poses_compared", coupling.compared},
+                       {"hand_back", hand_back_json(results.hand_back)}}},
                      {"state_hash", hash_text(results.state_hash)}};
   return json.dump(2) + "\n";
 }

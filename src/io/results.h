@@ -31,6 +31,26 @@ struct AgentCounts {
   std::uint64_t detours = 0;                              ///< taken by drivers whose way was shut
   std::map<std::string, ByType> by_type;
   std::map<std::string, std::uint64_t> removed;  ///< taken out before their destination, by reason
+  std::map<std::string, std::uint64_t> left_to_sumo;  ///< asked for and not driven, by reason
+  std::uint64_t stops_served = 0;                 ///< planned halts of vehicles that GAMMA drives
+  std::uint64_t rides = 0;                        ///< times that somebody boarded a vehicle
+  std::uint64_t taken_over = 0, handed_back = 0;  ///< in motion, from and to SUMO
+  std::uint64_t kept_on_foot = 0;                 ///< people whom SUMO would have frozen
+  std::uint64_t insertions_delayed = 0;           ///< of SUMO's vehicles, for ghosts in their place
+};
+
+/// Median, 95th percentile and largest of some figures.
+struct Quantiles {
+  double median = 0, p95 = 0, max = 0;
+};
+
+/// How SUMO went on with vehicles in the steps after they had been handed back.
+struct HandBackResult {
+  std::uint64_t count = 0;
+  Quantiles position;      ///< off where speed and heading led [m]
+  Quantiles heading;       ///< change in a step [rad]
+  Quantiles speed;         ///< likewise [m/s]
+  Quantiles acceleration;  ///< [m/s^2]
 };
 
 /// What a run cost.
@@ -76,6 +96,7 @@ struct RunResults {
   RuleResult rules;
   SmoothnessResult smoothness;
   CouplingResult coupling;
+  HandBackResult hand_back;
   PredictionResult prediction;
   std::uint64_t teleports = 0, emergency_stops = 0, sumo_warnings = 0;
   std::uint64_t state_hash = 0;

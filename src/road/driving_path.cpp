@@ -553,6 +553,58 @@ std::optional<Path> enter_beside(const RoadNetwork& network, const Path& path, d
   return remade;
 }
 
+std::optional<Path> go_on_from(const RoadNetwork& network, const Path& path, double& along,
+                               LaneId lane, ConnectionId link, double on_lane, double back) {
+  constexpr double kStays = 60.0, kShortest = 5.0;  // [m]
+  if (!path.trip) return std::nullopt;
+  const Trip& trip = *path.trip;
+  const Lane& there = network.lane(lane);
+  const auto here = static_cast<std::size_t>(std::max(path.stretch_at(along).route_index - 1, 0));
+  const auto edge = std::find(trip.route.begin() + static_cast<std::ptrdiff_t>(here),
+                              trip.route.end(), there.edge);
+  if (edge == trip.route.end()) return std::nullopt;
+  const auto index = static_cast<std::size_t>(edge - trip.route.begin());
+  const auto option_of = [&](std::size_t of, const Lane& on) -> const LaneOption& {
+    return trip.options[of][static_cast<std::size_t>(on.index)];
+  };
+  const double end = there.centerline.length();
+  const double start = std::clamp(on_lane - back, 0.0, end);
+  double stays = link == kNoConnection ? kStays : 0.0;
+  while (stays > kShortest && (option_of(index, there).cost == kUnreachable ||
+                               !has_room_to_change(trip, index, there, on_lane + stays)))
+    stays *= 0.5;
+  const bool changes = stays > kShortest;
+  if (link == kNoConnection && !changes) link = option_of(index, there).leave;
+  const Lane* next = link == kNoConnection ? nullptr : &network.lane(network.connection(link).to);
+  if (next != nullptr && (index + 1 >= trip.route.size() || next->edge != trip.route[index + 1]))
+    return std::nullopt;
+  std::string why;
+  // as far as the trip's lanes lead on from there, else to the end of the lane
+  for (const bool to_the_end : {true, false}) {
+    Builder builder(network, trip.request);
+    builder.enter_edge(index);
+    builder.follow(lane, start, changes ? std::min(on_lane + stays, end) : end);
+    if (next != nullptr && !builder.cross(link)) return std::nullopt;
+    if (to_the_end) {
+      const bool leads_on =
+          changes ? drive_on(network, trip, index, there.index, std::min(on_lane + stays, end),
+                             builder, why)
+                  : next != nullptr && option_of(index + 1, *next).cost < kUnreachable &&
+                        drive_on(network, trip, index + 1, next->index, 0.0, builder, why);
+      if (!leads_on) continue;
+    } else if (next != nullptr) {
+      builder.enter_edge(index + 1);
+      builder.follow(network.connection(link).to, 0.0, next->centerline.length());
+    }
+    Path made = builder.finish();
+    place_stops(network, trip, made);
+    made.trip = path.trip;
+    along = on_lane - start;
+    return made;
+  }
+  return std::nullopt;
+}
+
 std::optional<Path> take_route(const RoadNetwork& network, const Path& path, double& along,
                                std::vector<EdgeId> route, double back) {
   const Remade old{network, path, along, back, path.stretch_at(along).lane};

@@ -201,6 +201,15 @@ inline constexpr double kEntryReach = 12.0;
 std::optional<Path> enter_beside(const RoadNetwork& network, const Path& path, double& along,
                                  LaneId target, double back);
 
+/// The path of the same trip for who has come onto `lane`, at `on_lane` of its centerline [m], by
+/// no way that `path` knows: in that lane for some way, as far as that leaves room for the lane
+/// changes that the trip takes, else out of it by its own link, and no further than the trip's
+/// lanes lead. With `link` it is on that link of the lane, `on_lane` counted from the lane's begin
+/// still. `along` is then the place on the new path. nullopt where the lane isn't on the rest of
+/// the route.
+std::optional<Path> go_on_from(const RoadNetwork& network, const Path& path, double& along,
+                               LaneId lane, ConnectionId link, double on_lane, double back);
+
 /// The path of somebody who goes on from `along` by another route to the same destination. `route`
 /// begins with the edge at `along`. Otherwise like change_lane, except that nobody who has halts
 /// ahead gets another route: nullopt then, too.

@@ -579,4 +579,19 @@ void read_obstacles(const std::filesystem::path& file, RoadNetwork& network) {
   }
 }
 
+std::map<std::string, std::vector<Vec2>> read_polygons(const std::filesystem::path& file) {
+  pugi::xml_document document;
+  const pugi::xml_node root = load_document(file, document);
+  std::map<std::string, std::vector<Vec2>> rings;
+  for (const pugi::xml_node node : root.children("poly")) {
+    const std::string id = node.attribute("id").value();
+    if (node.attribute("geo").as_bool()) continue;
+    Shape shape;
+    if (!parse_shape(node.attribute("shape").value(), shape))
+      throw Error(file.string(), "the shape of polygon '" + id + "' is not a list of points x,y");
+    if (shape.points.size() >= 3) rings.emplace(id, std::move(shape.points));
+  }
+  return rings;
+}
+
 }  // namespace sumogamma

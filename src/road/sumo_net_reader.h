@@ -1,7 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "road/road_network.h"
 
@@ -14,6 +16,10 @@ RoadNetwork read_sumo_net(const std::filesystem::path& file);
 /// Appends the polygons of a SUMO additional file (<poly>) as obstacles: type "building*" and
 /// "furniture*" closed, "barrier*" open chains, anything else ignored. Throws Error as above.
 void read_obstacles(const std::filesystem::path& file, RoadNetwork& network);
+
+/// Rings of the polygons of a SUMO additional file by id, of any type, in the network's metres
+/// (those in longitude and latitude are left out). Throws Error as above.
+std::map<std::string, std::vector<Vec2>> read_polygons(const std::filesystem::path& file);
 
 /// The whole file, inflated where it is gzip. Throws Error where it can't be read to its end.
 std::string read_maybe_gzip(const std::filesystem::path& file);

@@ -38,7 +38,9 @@ struct SumoAgent {
 /// Bits of a vehicle's stop state (TraCI, "stop state", 0xb5).
 namespace stop_state {
 inline constexpr int kStopped = 1, kParking = 2;
-}
+inline bool stopped(int bits) { return (bits & kStopped) != 0; }
+inline bool parked(int bits) { return stopped(bits) && (bits & kParking) != 0; }
+}  // namespace stop_state
 
 /// What a person is doing, by its present stage (TraCI, "get stage").
 enum class StageKind {
@@ -164,13 +166,18 @@ class SumoBackend {
   virtual void set_travel_time(const std::string& edge, double seconds) = 0;
   /// Present speed limits of lanes [m/s], negative where SUMO doesn't know the lane.
   virtual std::vector<double> lane_speeds(std::span<const std::string> lanes) = 0;
+  /// A parameter (TraCI, "generic parameters") of vehicles; "" where there is none.
+  virtual std::vector<std::string> parameters(std::span<const std::string> vehicles,
+                                              const std::string& key) = 0;
   /// A vehicle that step() moves from now on, at `speed` [m/s] so far: SUMO's limits no longer
   /// apply to the speeds that step() has it tell.
   virtual void take_over(const std::string& vehicle, double speed) = 0;
   /// The other way round: SUMO drives it by its own limits.
   virtual void release(const std::string& vehicle) = 0;
-  /// SUMO-driven vehicle: hold this speed [m/s]; negative gives it back to SUMO.
-  virtual void set_speed(const std::string& vehicle, double speed) = 0;
+  /// Somebody whom SUMO moves: hold this speed [m/s]; negative gives it back to SUMO.
+  virtual void set_speed(const std::string& id, bool is_person, double speed) = 0;
+  /// SUMO-driven vehicle: may it change lanes by itself? As SUMO has it by default, or not at all.
+  virtual void allow_lane_changes(const std::string& vehicle, bool allowed) = 0;
   /// Tells actuated signals that a vehicle passed `age` seconds ago, for each listed detector.
   virtual void override_detectors(std::span<const std::pair<std::string, double>> detectors) = 0;
   /// Ids, lanes and positions of the induction loops (those of actuated signals included).

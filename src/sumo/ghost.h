@@ -21,6 +21,8 @@ enum class GhostMode {
 constexpr int kSpeedModeFree = 0;
 /// SUMO's default one.
 constexpr int kSpeedModeSafe = 31;
+/// Lane change modes: SUMO's default; none but those that TraCI asks for.
+constexpr int kLaneChangesOwn = 1621, kLaneChangesNone = 512;
 
 /// The two arguments of moveToXY that make a ghost.
 struct GhostArguments {

@@ -174,10 +174,13 @@ class LibsumoBackend final : public SumoBackend {
                                       const std::string& type) override;
   void set_travel_time(const std::string& edge, double seconds) override;
   std::vector<double> lane_speeds(std::span<const std::string> lanes) override;
+  std::vector<std::string> parameters(std::span<const std::string> vehicles,
+                                      const std::string& key) override;
   void add_stop(const std::string& vehicle, const SumoAgentDetails::Stop& stop) override;
   void take_over(const std::string& vehicle, double speed) override;
   void release(const std::string& vehicle) override;
-  void set_speed(const std::string& vehicle, double speed) override;
+  void set_speed(const std::string& id, bool is_person, double speed) override;
+  void allow_lane_changes(const std::string& vehicle, bool allowed) override;
   void override_detectors(std::span<const std::pair<std::string, double>> detectors) override;
   const std::vector<Detector>& detectors() const override { return detectors_; }
   std::vector<std::string> take_warnings() override {
@@ -524,6 +527,17 @@ std::vector<double> LibsumoBackend::lane_speeds(std::span<const std::string> lan
   });
 }
 
+std::vector<std::string> LibsumoBackend::parameters(std::span<const std::string> vehicles,
+                                                    const std::string& key) {
+  return guarded([&] {
+    std::vector<std::string> values;
+    for (const std::string& id : vehicles)
+      values.push_back(
+          value_or(std::string(), [&] { return libsumo::Vehicle::getParameter(id, key); }));
+    return values;
+  });
+}
+
 void LibsumoBackend::add_stop(const std::string& vehicle, const SumoAgentDetails::Stop& stop) {
   guarded([&] {
     const bool at_place = (stop.flags & stop_flags::kStoppingPlace) != 0;
@@ -562,11 +576,24 @@ void LibsumoBackend::release(const std::string& vehicle) {
   });
 }
 
-void LibsumoBackend::set_speed(const std::string& vehicle, double speed) {
-  require_finite_pose(vehicle, Vec2::Zero(), 0, speed);
+void LibsumoBackend::set_speed(const std::string& id, bool is_person, double speed) {
+  require_finite_pose(id, Vec2::Zero(), 0, speed);
   guarded([&] {
     try {
-      libsumo::Vehicle::setSpeed(vehicle, speed);
+      if (is_person)
+        libsumo::Person::setSpeed(id, speed);
+      else
+        libsumo::Vehicle::setSpeed(id, speed);
+    } catch (const libsumo::TraCIException&) {
+      // it left meanwhile
+    }
+  });
+}
+
+void LibsumoBackend::allow_lane_changes(const std::string& vehicle, bool allowed) {
+  guarded([&] {
+    try {
+      libsumo::Vehicle::setLaneChangeMode(vehicle, allowed ? kLaneChangesOwn : kLaneChangesNone);
     } catch (const libsumo::TraCIException&) {
       // it left meanwhile
     }

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "base/units.h"
+#include "geometry/oriented_box.h"
+#include "model/approaches.h"
 #include "road/lane_locator.h"
 #include "sumo/sumo_agents.h"
 #include "sumo/sumo_world.h"
@@ -19,11 +21,6 @@ namespace sumogamma {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
-
-bool is_stopped(const SumoAgent& seen) { return (seen.stop_state & stop_state::kStopped) != 0; }
-bool is_parked(const SumoAgent& seen) {
-  return is_stopped(seen) && (seen.stop_state & stop_state::kParking) != 0;
-}
 
 bool same_stop(const SumoAgentDetails::Stop& a, const SumoAgentDetails::Stop& b) {
   constexpr double kSame = 0.01;  // [m]
@@ -39,9 +36,58 @@ bool same_plan(const std::vector<SumoAgentDetails::Stop>& before,
 
 }  // namespace
 
-bool SumoWorld::is_out_of_sight(const SumoAgent& seen, double length) const {
+/// What SUMO knows of one agent; nothing where it is gone.
+std::optional<SumoAgentDetails> SumoWorld::details_of(const std::string& id, bool is_person) {
+  const std::string ids[] = {id};
+  auto all = is_person ? backend_.details({}, ids) : backend_.details(ids, {});
+  if (all.empty() || all.front().type_id.empty()) return std::nullopt;
+  return std::move(all.front());
+}
+
+/// The way of somebody whom we are going to drive, at a pace and with habits of its own, which are
+/// put into `details`. Null, with a word, where it stays SUMO's.
+std::shared_ptr<const Path> SumoWorld::way_of(SumoAgentDetails& details, AgentTypeId type) {
+  choose_pace(model_.road, details);
+  choose_speed_factor(type_of(model_.types, type), options_.seed, details);
+  choose_mid_block(type_of(model_.types, type), options_.seed, details);
+  std::string why;
+  auto path = path_of(model_, details, type, why, limits_);
+  if (path) return path;
+  ++life_cycle_.left_to_sumo[why];
+  spdlog::warn("{}: left to SUMO: {}", details.id, why);
+  return nullptr;
+}
+
+/// Does a row's body touch another? SUMO inserts and parks vehicles over one another, and drives
+/// them apart; we couldn't.
+bool SumoWorld::touches(const Scene& scene, std::size_t row) const {
+  constexpr double kApart = 0.05, kReach = 20.0;  // [m]
+  const auto box_of = [&](std::size_t of) {
+    const Vec2 forward = direction_of(scene.heading[of]);
+    return OrientedBox{
+        scene.position[of], forward,
+        Vec2(half_extent(scene, of, forward), half_extent(scene, of, left_of(forward)))};
+  };
+  const OrientedBox own = box_of(row);
+  for (std::size_t other = 0; other < scene.size(); ++other)
+    if (other != row && (scene.position[other] - own.center).norm() < kReach &&
+        separation(own, box_of(other)) < kApart)
+      return true;
+  return false;
+}
+
+bool SumoWorld::is_out_of_sight(const SumoAgent& seen, double length, const Scene& scene) const {
   if (seen.is_person) return !seen.rides.empty();
-  if (!is_parked(seen)) return false;
+  if (!stop_state::parked(seen.stop_state)) return false;
+  const auto own = external_ids_.find({false, seen.id});
+  // beside a lane SUMO has one place for all who park at a stop: the first is seen there
+  constexpr double kSamePlace = 3.0;  // [m]
+  const Vec2 center = seen.position - 0.5 * length * direction_of(heading_from_sumo(seen.angle));
+  for (std::size_t row = 0; row < scene.size(); ++row)
+    if (scene.control[row] == Control::Parked &&
+        (own == external_ids_.end() || scene.id[row].value != own->second.value) &&
+        (scene.position[row] - center).norm() < kSamePlace)
+      return true;
   // SUMO's places beside a lane may lie on its neighbours, where nobody of SUMO's minds them
   const Vec2 forward = direction_of(heading_from_sumo(seen.angle));
   std::vector<LaneHit> hits;
@@ -67,47 +113,35 @@ void SumoWorld::leave_sight(const SumoAgent& seen, AgentId id, std::size_t row, 
   forget(id, scene, road, removed, row);
 }
 
-void SumoWorld::watch_absent(const SumoAgent& seen) {
+void SumoWorld::watch_absent(const SumoAgent& seen, const Scene& scene) {
   const auto absent = absent_.find({seen.is_person, seen.id});
-  if (is_out_of_sight(seen, absent->second.details.length)) return;
+  if (is_out_of_sight(seen, absent->second.details.length, scene)) return;
   Pending pending = std::move(absent->second);
   absent_.erase(absent);
   if (pending.resumes && rejoin(seen, !seen.is_person)) return;
   // SUMO moves it on, or it waits for its next ride
-  const std::string ids[] = {seen.id};
-  auto details = seen.is_person ? backend_.details({}, ids) : backend_.details(ids, {});
-  if (details.empty() || details.front().type_id.empty()) return;
-  pending.details = std::move(details.front());
+  auto details = details_of(seen.id, seen.is_person);
+  if (!details) return;
+  pending.details = std::move(*details);
   external_arriving_.insert_or_assign({seen.is_person, seen.id}, std::move(pending));
 }
 
 /// A person or vehicle whom SUMO has had for a while and who goes on by its own means, from where
 /// there is room: true. False where it does not.
 bool SumoWorld::rejoin(const SumoAgent& seen, bool parked) {
-  const std::string ids[] = {seen.id};
-  auto all = seen.is_person ? backend_.details({}, ids) : backend_.details(ids, {});
-  if (all.empty()) return false;
-  SumoAgentDetails& details = all.front();
-  auto type = agent_type_of(model_.types, details);
-  if (!type || (seen.is_person && details.stage != StageKind::Walking)) return false;
-  type = rows_.row_of(*type, details);
+  auto details = details_of(seen.id, seen.is_person);
+  if (!details || (seen.is_person && details->stage != StageKind::Walking)) return false;
+  const auto type = agent_type_of(model_.types, *details);
+  if (!type) return false;
   Pending pending;
-  pending.type = *type;
-  choose_pace(model_.road, details);
-  choose_speed_factor(type_of(model_.types, *type), options_.seed, details);
-  choose_mid_block(type_of(model_.types, *type), options_.seed, details);
-  std::string why;
-  pending.path = path_of(model_, details, *type, why, limits_);
-  if (!pending.path) {
-    ++life_cycle_.left_to_sumo[why];
-    spdlog::warn("{}: left to SUMO: {}", details.id, why);
-    return false;
-  }
+  pending.type = rows_.row_of(*type, *details);
+  pending.path = way_of(*details, pending.type);
+  if (!pending.path) return false;
   if (parked) {
     pending.waits_at = seen.position;
     pending.waiting_angle = seen.angle;
   }
-  pending.details = std::move(details);
+  pending.details = std::move(*details);
   backend_.unwatch(seen.id, seen.is_person);
   if (!seen.is_person) backend_.take_over(seen.id, 0.0);
   pending_.push_back(std::move(pending));
@@ -117,18 +151,10 @@ bool SumoWorld::rejoin(const SumoAgent& seen, bool parked) {
 /// The next walk of a person who has just ended one where it stands.
 bool SumoWorld::walk_on(Scene& scene, RoadState& road, std::size_t row) {
   const AgentId id = scene.id[row];
-  const std::string one[] = {known_[id.value].sumo_id};
-  auto details = backend_.details({}, one);
-  std::string why = "it is gone";
-  std::shared_ptr<const Path> path;
-  if (!details.empty()) {
-    const AgentType& type = type_of(model_.types, scene.type[row]);
-    choose_speed_factor(type, options_.seed, details.front());
-    choose_mid_block(type, options_.seed, details.front());
-    path = path_of(model_, details.front(), scene.type[row], why, limits_);
-  }
+  auto details = details_of(known_[id.value].sumo_id, true);
+  auto path = details ? way_of(*details, scene.type[row]) : nullptr;
   if (!path) {
-    ++life_cycle_.removed["next walk impossible: " + why];
+    ++life_cycle_.removed["next walk impossible"];
     return false;
   }
   scene.path[row] = static_cast<PathId>(id.value);
@@ -162,33 +188,25 @@ bool SumoWorld::take_back(const SumoAgent& seen, AgentId id, std::size_t row, Sc
     const int before = std::exchange(known.stages_left, seen.stages_left);
     if (before == 0 || before == seen.stages_left) return false;
   } else {
-    if (is_stopped(seen)) known.service = Service::Standing;
+    if (stop_state::stopped(seen.stop_state)) known.service = Service::Standing;
     const bool to_stop = known.service == Service::Asked && time_ < known.asked_at + kPatience;
-    if (is_stopped(seen) || to_stop || scene.control[row] == Control::Parked) return false;
+    if (stop_state::stopped(seen.stop_state) || to_stop || scene.control[row] == Control::Parked)
+      return false;
     const auto lane = model_.road.lane_by_name.find(seen.lane);
     if (lane == model_.road.lane_by_name.end() ||
         model_.road.lane(lane->second).kind != LaneKind::Normal)
       return false;
   }
-  const std::string ids[] = {seen.id};
-  auto details = seen.is_person ? backend_.details({}, ids) : backend_.details(ids, {});
-  if (details.empty() || details.front().type_id.empty() ||
-      (seen.is_person && details.front().stage != StageKind::Walking))
-    return false;
-  const AgentType& type = type_of(model_.types, scene.type[row]);
-  choose_pace(model_.road, details.front());
-  choose_speed_factor(type, options_.seed, details.front());
-  choose_mid_block(type, options_.seed, details.front());
-  std::string why;
-  auto path = path_of(model_, details.front(), scene.type[row], why, limits_);
+  auto details = details_of(seen.id, seen.is_person);
+  if (!details || (seen.is_person && details->stage != StageKind::Walking)) return false;
+  if (!seen.is_person && touches(scene, row)) return false;
+  auto path = way_of(*details, scene.type[row]);
   if (!path) {
-    ++life_cycle_.left_to_sumo[why];
-    spdlog::warn("{}: left to SUMO: {}", seen.id, why);
     known.resumes = false;
     return false;
   }
-  known.stops = std::move(details.front().stops);
-  known.route = std::move(details.front().route);
+  known.stops = std::move(details->stops);
+  known.route = std::move(details->route);
   scene.path[row] = static_cast<PathId>(id.value);
   scene.path_along[row] = path->line.project(scene.position[row]).along;
   scene.next_stop[row] = 0;
@@ -219,13 +237,14 @@ void SumoWorld::begin_services(Scene& scene, const RoadState& road) {
     const double last = scale * stop.end - kBefore;
     if (std::abs(place.offset) > 0.5 * lane.width || place.along > last)
       pose.position = lane.centerline.point_at(std::min(place.along, last));
-    const std::string ids[] = {known.sumo_id};
-    const auto details = backend_.details(ids, {});
+    const auto details = details_of(known.sumo_id, false);
     const bool listed =
-        !details.empty() && std::any_of(details.front().stops.begin(), details.front().stops.end(),
-                                        [&](const auto& other) { return same_stop(stop, other); });
+        details && std::any_of(details->stops.begin(), details->stops.end(),
+                               [&](const auto& other) { return same_stop(stop, other); });
     backend_.put_on_lane(pose, stop.lane, 0.0);
     backend_.release(known.sumo_id);
+    // SUMO changes lanes before it looks for stops
+    backend_.allow_lane_changes(known.sumo_id, false);
     // SUMO forgets the stops of the edge on which a vehicle is taken over
     if (!listed) backend_.add_stop(known.sumo_id, stop);
     backend_.watch(known.sumo_id, false);
@@ -244,10 +263,11 @@ void SumoWorld::follow_service(const SumoAgent& seen, AgentId id, std::size_t ro
   constexpr double kSettles = 2.0, kPatience = 10.0;  // [s]
   constexpr double kDrivesOn = 0.3;                   // [m/s]
   Known& known = known_[id.value];
-  if (is_stopped(seen)) {
+  if (stop_state::stopped(seen.stop_state)) {
     if (known.service == Service::Asked) ++life_cycle_.stops_served;
     known.service = Service::Standing;
-    if (!is_parked(seen)) return;
+    if (!stop_state::parked(seen.stop_state)) return;
+    backend_.allow_lane_changes(known.sumo_id, true);
     known.external = known.resumes = true;
     road.paths[id.value] = nullptr;
     scene.path[row] = kNoPath;
@@ -260,12 +280,11 @@ void SumoWorld::follow_service(const SumoAgent& seen, AgentId id, std::size_t ro
     // until SUMO counts it as there; who finds its parking place full may wait, or be sent on
     if (seen.speed < kDrivesOn && time_ < known.asked_at + kPatience) return;
     if (time_ < known.asked_at + kSettles) return;
-    const std::string ids[] = {known.sumo_id};
-    const auto details = backend_.details(ids, {});
+    const auto details = details_of(known.sumo_id, false);
     const std::size_t next = static_cast<std::size_t>(scene.next_stop[row]);
     const auto plan = static_cast<std::size_t>(road.path(scene.path[row])->stops[next].plan);
-    if (seen.speed < kDrivesOn && !details.empty() && !details.front().stops.empty() &&
-        same_stop(details.front().stops.front(), known.stops[plan])) {
+    if (seen.speed < kDrivesOn && details && !details->stops.empty() &&
+        same_stop(details->stops.front(), known.stops[plan])) {
       known.asked_at = time_;
       return;
     }
@@ -279,18 +298,17 @@ void SumoWorld::end_service(AgentId id, std::size_t row, Scene& scene, RoadState
                 known.service == Service::Standing ? "from its stop" : "without its stop");
   known.service = Service::None;
   backend_.unwatch(known.sumo_id, false);
+  backend_.allow_lane_changes(known.sumo_id, true);
   backend_.take_over(known.sumo_id, 0.0);
   external_ids_.erase({false, known.sumo_id});
   scene.stop_left[row] = 0.0;
   ++scene.next_stop[row];
-  const std::string ids[] = {known.sumo_id};
-  auto all = backend_.details(ids, {});
-  if (all.empty() || all.front().type_id.empty()) return;
-  SumoAgentDetails& details = all.front();
+  auto details = details_of(known.sumo_id, false);
+  if (!details) return;
   const Path& path = *road.path(scene.path[row]);
   // else SUMO has sent it elsewhere: another parking place, a new route
-  if (!same_plan(known.stops, details.stops) || !same_way(path, scene.path_along[row], details))
-    follow_sumos_route(details, id, row, scene, road);
+  if (!same_plan(known.stops, details->stops) || !same_way(path, scene.path_along[row], *details))
+    follow_sumos_route(*details, id, row, scene, road);
 }
 
 }  // namespace sumogamma

@@ -28,15 +28,8 @@ bool SumoWorld::same_way(const Path& path, double along, const SumoAgentDetails&
 /// A new path by the route, the lane and the place that SUMO has for a vehicle of ours now.
 bool SumoWorld::follow_sumos_route(SumoAgentDetails& details, AgentId id, std::size_t row,
                                    Scene& scene, RoadState& road) {
-  const AgentType& type = type_of(model_.types, scene.type[row]);
-  choose_pace(model_.road, details);
-  choose_speed_factor(type, options_.seed, details);
-  std::string why;
-  auto path = path_of(model_, details, scene.type[row], why, limits_);
-  if (!path) {
-    spdlog::warn("{}: SUMO's new route can't be driven: {}", details.id, why);
-    return false;
-  }
+  auto path = way_of(details, scene.type[row]);
+  if (!path) return false;
   Known& known = known_[id.value];
   known.stops = std::move(details.stops);
   known.route = std::move(details.route);

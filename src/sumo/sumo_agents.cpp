@@ -12,13 +12,6 @@ namespace sumogamma {
 
 namespace {
 
-/// FNV-1a of SUMO's id: ours is given at insertion alone, after the path was made.
-std::uint64_t number_of(const std::string& sumo_id) {
-  std::uint64_t number = kFnvBasis;
-  for (const char letter : sumo_id) number = fnv1a(number, static_cast<unsigned char>(letter));
-  return number;
-}
-
 /// The built-in type on the road whose length and width are nearest, in proportion.
 AgentTypeId nearest_body(const AgentTypeTable& types, double length, double width) {
   AgentTypeId best = find_agent_type(types, "car");
@@ -186,7 +179,7 @@ void choose_pace(const RoadNetwork& network, SumoAgentDetails& details) {
 
 void choose_speed_factor(const AgentType& type, std::uint64_t seed, SumoAgentDetails& details) {
   if (type.compliance.speed_factor <= 0.0) return;
-  const double factor = draw_speed_factor(type.compliance, seed, number_of(details.id));
+  const double factor = draw_speed_factor(type.compliance, seed, fnv1a(details.id));
   // the pace of a bicycle holds its factor already
   if (details.vehicle_class == "bicycle" && details.speed_factor > 0.0)
     details.max_speed *= factor / details.speed_factor;
@@ -195,7 +188,7 @@ void choose_speed_factor(const AgentType& type, std::uint64_t seed, SumoAgentDet
 
 void choose_mid_block(const AgentType& type, std::uint64_t seed, SumoAgentDetails& details) {
   if (details.is_person)
-    details.mid_block = draw_mid_block(type.compliance, seed, number_of(details.id));
+    details.mid_block = draw_mid_block(type.compliance, seed, fnv1a(details.id));
 }
 
 BehaviorState draw_behavior(const AgentType& type, std::uint64_t seed, AgentId id) {

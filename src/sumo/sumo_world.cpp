@@ -37,6 +37,7 @@ SumoWorld::SumoWorld(Model& model, SumoBackend& backend, SumoWorldOptions option
                                                                        : signal->second);
   }
   read_detectors();
+  read_links();
   edge_speeds_ = EdgeSpeeds(model_.road);
   for (const std::string& name : options_.rerouter_edges) {
     const auto edge = model_.road.edge_by_name.find(name);
@@ -85,14 +86,9 @@ void SumoWorld::feed_detectors(const Scene& scene) {
   backend_.override_detectors(detector_ages_);
 }
 
-bool SumoWorld::wants_control(const SumoAgentDetails& details, AgentTypeId type) const {
-  const ControlChoice& control = options_.control;
-  return control.all || control.names.contains(type_of(model_.types, type).name) ||
-         control.names.contains(details.type_id) || control.names.contains(details.id);
-}
-
 void SumoWorld::observe(Scene& scene, RoadState& road) {
   scene.time = time_;
+  road_ = &road;
   road.signal_states.resize(model_.road.signals.size());
   road.signal_since.resize(model_.road.signals.size(), time_);
   road.amber_until.resize(model_.road.signals.size(), time_);
@@ -109,12 +105,16 @@ void SumoWorld::observe(Scene& scene, RoadState& road) {
   finish_driven(scene, road);
   read_speed_limits(scene, road);
   take_departed();
+  find_centers(scene);
+  read_wishes();
   update_external(scene, road);
+  hand_back(scene);
   follow_rerouters(scene, road);
   look_for_faster_routes(scene, road);
   tell_routes(scene, road);
   begin_services(scene, road);
   insert_pending(scene, road);
+  insert_delayed(scene);
   // each event is handled once
   step_.departed_vehicles.clear();
   step_.departed_persons.clear();
@@ -151,7 +151,7 @@ std::string_view sumos_own(const AgentType& type, const SumoAgentDetails& detail
 bool departs_at_stop(const SumoAgentDetails& details) {
   constexpr double kAt = 0.1;  // [m]
   if (details.is_person || details.stops.empty()) return false;
-  if ((details.stop_state & stop_state::kStopped) != 0) return true;
+  if (stop_state::stopped(details.stop_state)) return true;
   const SumoAgentDetails::Stop& first = details.stops.front();
   return first.lane == details.lane && first.speed <= 0.0 &&
          details.lane_position > first.start - kAt && details.lane_position < first.end + kAt;
@@ -171,14 +171,15 @@ void SumoWorld::take_newcomer(SumoAgentDetails details, bool moves_already) {
   pending.details = std::move(details);
   pending.type = *type;
   choose_pace(model_.road, pending.details);
-  bool driven = options_.control.any() && wants_control(pending.details, *type);
+  pending.rules = rules_for(pending.details, *type);
+  bool driven = is_always_ours(pending.rules);
   const std::string_view sumos = sumos_own(kind, pending.details);
-  if (driven && !sumos.empty()) {
+  if (pending.rules != 0 && !sumos.empty()) {
     driven = false;
+    pending.rules = 0;
     ++life_cycle_.left_to_sumo[std::string(sumos)];
   }
-  if (driven || options_.control.has_region)
-    choose_speed_factor(kind, options_.seed, pending.details);
+  if (pending.rules != 0) choose_speed_factor(kind, options_.seed, pending.details);
   if (driven) choose_mid_block(kind, options_.seed, pending.details);
   const bool walks = pending.details.stage == StageKind::Walking;
   const bool later = pending.details.is_person ? !walks : departs_at_stop(pending.details);
@@ -213,6 +214,7 @@ AgentId SumoWorld::register_agent(const SumoAgentDetails& details, bool external
   known.stops = details.stops;
   known.stages_left = details.stages_left;
   known.type_id = details.type_id;
+  known.rules = rules_for(details, type);
   known.route = details.route;
   known.reroute_period = details.reroute_period;
   known.next_reroute = time_ + details.reroute_period;
@@ -267,6 +269,8 @@ void SumoWorld::take_arrived(Scene& scene, RoadState& road) {
   // refused by SUMO: it vanished there between read and write
   for (const std::string& lost : step_.lost) {
     std::erase_if(pending_, [&](const Pending& pending) { return pending.details.id == lost; });
+    std::erase_if(delayed_,
+                  [&](const Delayed& delayed) { return delayed.pending.details.id == lost; });
     for (std::size_t row = 0; row < scene.size(); ++row) {
       const Known& known = known_[scene.id[row].value];
       if (known.external || known.sumo_id != lost) continue;
@@ -465,15 +469,17 @@ void SumoWorld::place_external(const SumoAgent& seen, Scene& scene, std::size_t 
 
 void SumoWorld::update_external(Scene& scene, RoadState& road) {
   std::vector<bool> removed;
+  if (options_.control.any()) ghosts_.rebuild(scene.position);
   for (const SumoAgent& seen : step_.agents) {
     // SUMO's invalid numbers (-2^30): between two places, as while it is teleported
     if (!(std::abs(seen.speed) < 1e4) || !(seen.position.norm() < 1e8)) continue;
     const Traveller traveller{seen.is_person, seen.id};
-    if (absent_.contains(traveller)) watch_absent(seen);
+    if (absent_.contains(traveller)) watch_absent(seen, scene);
     const auto arriving = external_arriving_.find(traveller);
     if (arriving != external_arriving_.end()) {
       Pending pending = std::move(arriving->second);
       external_arriving_.erase(arriving);
+      if (delay_insertion(seen, pending, scene)) continue;
       appear(seen, pending, scene, road);
       continue;
     }
@@ -498,7 +504,7 @@ void SumoWorld::appear(const SumoAgent& seen, Pending& pending, Scene& scene, Ro
   known.stages_left = seen.stages_left;
   if (pending.resumes && departs_at_stop(details)) known.service = Service::Asked;
   known.asked_at = time_;
-  if (is_out_of_sight(seen, known.length)) {
+  if (is_out_of_sight(seen, known.length, scene)) {
     absent_.insert_or_assign(traveller, std::move(pending));
     return;
   }
@@ -531,7 +537,7 @@ void SumoWorld::follow(const SumoAgent& seen, AgentId id, std::size_t row, Scene
     follow_service(seen, id, row, scene, road, removed);
     return;
   }
-  if (is_out_of_sight(seen, known.length)) {
+  if (is_out_of_sight(seen, known.length, scene)) {
     leave_sight(seen, id, row, scene, road, removed);
     return;
   }
@@ -551,10 +557,11 @@ void SumoWorld::follow(const SumoAgent& seen, AgentId id, std::size_t row, Scene
   const Path* path = road.path(scene.path[row]);
   if (path != nullptr && scene.path_along[row] == 0.0)
     scene.path_along[row] = path->line.project(scene.position[row]).along;
-  const bool stopped = (seen.stop_state & stop_state::kStopped) != 0;
+  follow_lane(seen, id, row, scene, road);
+  const bool stopped = stop_state::stopped(seen.stop_state);
   if (scene.stop_left[row] > 0.0 && !stopped) ++scene.next_stop[row];
   scene.stop_left[row] = stopped ? options_.dt : 0.0;
-  const bool parks = stopped && (seen.stop_state & stop_state::kParking) != 0;
+  const bool parks = stop_state::parked(seen.stop_state);
   const bool leaves = !parks && scene.control[row] == Control::Parked;
   if (known.resumes && take_back(seen, id, row, scene, road)) return;
   if (known.resumes && leaves && rejoin(seen, true)) {
@@ -563,47 +570,10 @@ void SumoWorld::follow(const SumoAgent& seen, AgentId id, std::size_t row, Scene
     return;
   }
   scene.control[row] = parks ? Control::Parked : Control::External;
-  if (path != nullptr && in_region(scene.position[row])) take_over(id, scene, row);
-}
-
-bool SumoWorld::in_region(const Vec2& position) const {
-  const ControlChoice& control = options_.control;
-  return control.has_region && (position.array() >= control.region_low.array()).all() &&
-         (position.array() <= control.region_high.array()).all();
-}
-
-/// From SUMO to us, in motion: the pose stays, only who decides on the next one changes. It stays
-/// ours until it arrives, but for its halts.
-void SumoWorld::take_over(AgentId id, Scene& scene, std::size_t row) {
-  Known& known = known_[id.value];
-  backend_.unwatch(known.sumo_id, known.is_person);
-  if (!known.is_person) backend_.take_over(known.sumo_id, scene.speed[row]);
-  known.external = known.speed_held = known.resumes = known.keeps_place = false;
-  known.service = Service::None;
-  scene.stop_left[row] = 0.0;
-  scene.control[row] = Control::Gamma;
-  scene.manners[row] =
-      draw_manners(type_of(model_.types, scene.type[row]).compliance, options_.seed, id.value);
-  scene.steering[row] = 0.0;
-  external_ids_.erase({known.is_person, known.sumo_id});
-}
-
-/// SUMO is blind to ghosts: a vehicle that it drives is slowed by us where a ghost binds it, and
-/// given back after.
-void SumoWorld::hold_followers(const Scene& scene) {
-  for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (scene.control[row] != Control::External) continue;
-    Known& known = known_[scene.id[row].value];
-    if (known.is_person) continue;
-    const RoadContext& context = scene.context[row];
-    const std::size_t foe = foe_row(scene, row);
-    const bool bound = foe < scene.size() && scene.control[foe] == Control::Gamma &&
-                       context.allowed_speed < scene.speed[row] + 1.0;
-    if (bound)
-      backend_.set_speed(known.sumo_id, context.allowed_speed);
-    else if (known.speed_held)
-      backend_.set_speed(known.sumo_id, -1.0);
-    known.speed_held = bound;
+  if (known.watched_steps >= 0) watch_hand_back(seen, known_[id.value]);
+  if (path != nullptr && is_wanted(known, scene.position[row], false) && may_take(scene, row)) {
+    take_over(id, scene, row);
+    ++life_cycle_.taken_over;
   }
 }
 
@@ -617,7 +587,7 @@ void SumoWorld::compare_poses() {
 
 void SumoWorld::advance(const Scene& scene) {
   if (options_.control.any()) {
-    hold_followers(scene);
+    hold_drivers(scene);
     feed_detectors(scene);
   }
   vehicle_poses_.clear();
@@ -649,6 +619,9 @@ void SumoWorld::advance(const Scene& scene) {
                         parked ? pending.waiting_angle : 0.0};
     (pending.details.is_person ? person_poses_ : vehicle_poses_).push_back(pose);
   }
+  for (Delayed& delayed : delayed_)
+    if (!std::exchange(delayed.off_lane, true))
+      vehicle_poses_.push_back({&delayed.pending.details.id, waiting_place, 0.0});
   backend_.step(vehicle_poses_, person_poses_, step_);
   time_ = step_.time;
   coupling_.teleports += step_.teleports;

@@ -257,12 +257,18 @@ class TraciBackend final : public SumoBackend {
                                       const std::string& type) override;
   void set_travel_time(const std::string& edge, double seconds) override;
   std::vector<double> lane_speeds(std::span<const std::string> lanes) override;
+  std::vector<std::string> parameters(std::span<const std::string> vehicles,
+                                      const std::string& key) override;
   void add_stop(const std::string& vehicle, const SumoAgentDetails::Stop& stop) override;
   void take_over(const std::string& vehicle, double speed) override;
   void release(const std::string& vehicle) override;
-  void set_speed(const std::string& vehicle, double speed) override {
-    require_finite_pose(vehicle, Vec2::Zero(), 0, speed);
-    queued_.set_double(traci::kVehicle, traci::kSpeed, vehicle, speed);
+  void set_speed(const std::string& id, bool is_person, double speed) override {
+    require_finite_pose(id, Vec2::Zero(), 0, speed);
+    queued_.set_double(is_person ? traci::kPerson : traci::kVehicle, traci::kSpeed, id, speed);
+  }
+  void allow_lane_changes(const std::string& vehicle, bool allowed) override {
+    queued_.set_integer(traci::kVehicle, traci::kLaneChangeMode, vehicle,
+                        allowed ? kLaneChangesOwn : kLaneChangesNone);
   }
   void override_detectors(std::span<const std::pair<std::string, double>> detectors) override {
     for (const auto& [id, age] : detectors) {
@@ -882,6 +888,21 @@ std::vector<double> TraciBackend::lane_speeds(std::span<const std::string> lanes
     for (std::size_t i = 0; i < lanes.size(); ++i)
       speeds.push_back(read_number(reply, traci::kLaneDomain, traci::kMaxSpeed, -1.0));
     return speeds;
+  });
+}
+
+std::vector<std::string> TraciBackend::parameters(std::span<const std::string> vehicles,
+                                                  const std::string& key) {
+  return guarded([&] {
+    message_.clear();
+    for (const std::string& id : vehicles)
+      message_.get(traci::kVehicle, traci::kParameter, id, key);
+    std::vector<std::string> values;
+    if (vehicles.empty()) return values;
+    TraciReader reply = exchange(message_);
+    for (std::size_t i = 0; i < vehicles.size(); ++i)
+      values.push_back(read_text(reply, traci::kVehicle, traci::kParameter));
+    return values;
   });
 }
 

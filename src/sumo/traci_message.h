@@ -45,11 +45,11 @@ inline constexpr std::uint8_t kIdList = 0x00, kPosition = 0x42, kAngle = 0x43, k
                               kStagesLeft = 0xc2, kRemoveStage = 0xc5, kAcceleration = 0x46,
                               kDeceleration = 0x47, kEmergencyDeceleration = 0x7b, kHeadway = 0x48,
                               kMinGap = 0x4c, kImperfection = 0x5d, kSpeedMode = 0xb3,
-                              kPreviousSpeed = 0x3c, kVirtualDetection = 0x22, kSignalState = 0x20,
-                              kNextSwitch = 0x2d, kOption = 0x32, kTime = 0x66, kStepLength = 0x7b,
-                              kStop = 0x12, kStopState = 0xb5, kRouteIndex = 0x69,
-                              kParameter = 0x7e, kRidesIn = 0xc3, kRoute = 0x57, kTravelTime = 0x58,
-                              kFindRoute = 0x86;
+                              kLaneChangeMode = 0xb6, kPreviousSpeed = 0x3c,
+                              kVirtualDetection = 0x22, kSignalState = 0x20, kNextSwitch = 0x2d,
+                              kOption = 0x32, kTime = 0x66, kStepLength = 0x7b, kStop = 0x12,
+                              kStopState = 0xb5, kRouteIndex = 0x69, kParameter = 0x7e,
+                              kRidesIn = 0xc3, kRoute = 0x57, kTravelTime = 0x58, kFindRoute = 0x86;
 inline constexpr std::uint8_t kDepartedVehicles = 0x74, kArrivedVehicles = 0x7a,
                               kDepartedPersons = 0x25, kArrivedPersons = 0x27,
                               kTeleportCount = 0x75, kEmergencyStopCount = 0x89,

@@ -243,7 +243,7 @@ TEST_P(Backends, AnAgentThatVanishedDoesNotEndTheRun) {
   const std::string ghost = "nobody", car = "v0";
   const std::vector<SumoPose> poses = {{&ghost, Vec2(1, 2), 3}, {&car, Vec2(10, 20), 30}};
   const SumoPose person{&ghost, Vec2(1, 2), 3};
-  sumo->set_speed(ghost, 1);
+  sumo->set_speed(ghost, false, 1);
   sumo->remove_vehicle("nobody else");
   sumo->override_detectors(std::vector<std::pair<std::string, double>>{{"no loop", 1.0}});
   sumo->watch("nobody", false);
@@ -411,11 +411,11 @@ TEST_P(Backends, HoldsTheSpeedOfASumoDrivenVehicle) {
   ASSERT_TRUE(run_until(*sumo, step, 5, [&] { return has(step.departed_vehicles, "v0"); }));
   sumo->watch("v0", false);
   for (int i = 0; i < 30; ++i) {
-    sumo->set_speed("v0", 2);
+    sumo->set_speed("v0", false, 2);
     sumo->step({}, {}, step);
   }
   EXPECT_NEAR(step.agents.at(0).speed, 2, 1e-6);
-  sumo->set_speed("v0", -1);
+  sumo->set_speed("v0", false, -1);
   for (int i = 0; i < 20; ++i) sumo->step({}, {}, step);
   EXPECT_GT(step.agents.at(0).speed, 3);
 }

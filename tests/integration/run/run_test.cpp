@@ -141,8 +141,9 @@ TEST_F(RunTest, EveryKeyOfTheResultsIsThere) {
               {"sumo_version", "sumo_gamma_version", "scenario", "seed", "step", "duration",
                "clock", "not_followed", "backend", "threads", "agents", "timing", "collisions",
                "flow", "rules", "smoothness", "coupling", "prediction", "state_hash"});
-  expect_keys(results["agents"], {"inserted", "arrived", "removed", "controlled_now",
-                                  "controlled_peak", "controlled_mean", "by_type"});
+  expect_keys(results["agents"],
+              {"inserted", "arrived", "removed", "controlled_now", "controlled_peak",
+               "controlled_mean", "by_type", "stops_served", "rides", "left_to_sumo"});
   expect_keys(results["timing"],
               {"wall_s", "real_time_factor", "cpu_s", "share", "model_cpu_us_per_agent_step"});
   expect_keys(results["timing"]["share"],

@@ -35,7 +35,7 @@ TEST_F(Results, EveryKeyIsThereInAnEmptyRun) {
   const std::map<std::string, std::vector<std::string>> inner{
       {"agents",
        {"inserted", "arrived", "controlled_now", "controlled_peak", "controlled_mean", "by_type",
-        "removed"}},
+        "removed", "left_to_sumo", "stops_served", "rides"}},
       {"behavior", {"preset", "by_type"}},
       {"timing", {"wall_s", "real_time_factor", "cpu_s", "share", "model_cpu_us_per_agent_step"}},
       {"collisions",

@@ -88,7 +88,7 @@ TEST(TraciFaults, AStepIsOneMessage) {
   sumo->step(poses, {}, step);  // and the self-test around it
   const int before = server.messages();
   for (int i = 0; i < 10; ++i) {
-    sumo->set_speed("v", 1);
+    sumo->set_speed("v", false, 1);
     sumo->step(poses, {}, step);
   }
   EXPECT_EQ(server.messages() - before, 10);
@@ -266,7 +266,7 @@ TEST(TraciFaults, ARefusalForOneAgentConcernsThatAgentAlone) {
   const std::vector<SumoPose> poses = {{&gone, Vec2(0, 0), 0}, {&here, Vec2(1, 1), 1}};
   sumo->watch(gone, false);
   sumo->watch(here, false);
-  sumo->set_speed(gone, 3);
+  sumo->set_speed(gone, false, 3);
   for (int i = 0; i < 3; ++i) {
     sumo->step(poses, {}, step);
     EXPECT_EQ(step.lost, std::vector<std::string>{"gone"});
