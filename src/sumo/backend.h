@@ -169,6 +169,8 @@ class SumoBackend {
   /// A parameter (TraCI, "generic parameters") of vehicles; "" where there is none.
   virtual std::vector<std::string> parameters(std::span<const std::string> vehicles,
                                               const std::string& key) = 0;
+  virtual void set_parameter(const std::string& vehicle, const std::string& key,
+                             const std::string& value) = 0;
   /// A vehicle that step() moves from now on, at `speed` [m/s] so far: SUMO's limits no longer
   /// apply to the speeds that step() has it tell.
   virtual void take_over(const std::string& vehicle, double speed) = 0;

@@ -181,6 +181,8 @@ class LibsumoBackend final : public SumoBackend {
   void release(const std::string& vehicle) override;
   void set_speed(const std::string& id, bool is_person, double speed) override;
   void allow_lane_changes(const std::string& vehicle, bool allowed) override;
+  void set_parameter(const std::string& vehicle, const std::string& key,
+                     const std::string& value) override;
   void override_detectors(std::span<const std::pair<std::string, double>> detectors) override;
   const std::vector<Detector>& detectors() const override { return detectors_; }
   std::vector<std::string> take_warnings() override {
@@ -594,6 +596,17 @@ void LibsumoBackend::allow_lane_changes(const std::string& vehicle, bool allowed
   guarded([&] {
     try {
       libsumo::Vehicle::setLaneChangeMode(vehicle, allowed ? kLaneChangesOwn : kLaneChangesNone);
+    } catch (const libsumo::TraCIException&) {
+      // it left meanwhile
+    }
+  });
+}
+
+void LibsumoBackend::set_parameter(const std::string& vehicle, const std::string& key,
+                                   const std::string& value) {
+  guarded([&] {
+    try {
+      libsumo::Vehicle::setParameter(vehicle, key, value);
     } catch (const libsumo::TraCIException&) {
       // it left meanwhile
     }

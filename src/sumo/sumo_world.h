@@ -135,16 +135,18 @@ class SumoWorld : public World {
     HandBack hand_back{};            ///< as seen so far
     Vec2 last_front = Vec2::Zero();  ///< where SUMO had its front in the step before [m]
     double last_angle = 0, last_speed = 0;
-    std::string wish{};           ///< of another client: "take", "release", or ""
-    double keeps_lane_until = 0;  ///< SUMO-driven: no lane change so soon after it was ours [s]
-    bool lane_held = false;       ///< SUMO-driven: we keep it from changing lanes beside a ghost
-    bool resumes = false;         ///< as Pending::resumes
-    bool keeps_place = false;     ///< it waits where it walked to, not where SUMO shows it
-    double length = 0;            ///< 0 for persons, whose reference point is their centre [m]
-    std::string lane_name{};      ///< SUMO-driven: on which SUMO had it last
-    LaneId lane = kNoLane;        ///< the same
-    double looked_at = 0;         ///< when its path was last held against that lane [s]
-    int stages_left = 0;          ///< persons that SUMO moves
+    std::string wish{};            ///< of another client: "take", "release", or ""
+    bool overtaking_held = false;  ///< SUMO-driven: we keep it off the opposite lane
+    std::string eagerness{};       ///< its own for that, once asked for
+    double keeps_lane_until = 0;   ///< SUMO-driven: no lane change so soon after it was ours [s]
+    bool lane_held = false;        ///< SUMO-driven: we keep it from changing lanes beside a ghost
+    bool resumes = false;          ///< as Pending::resumes
+    bool keeps_place = false;      ///< it waits where it walked to, not where SUMO shows it
+    double length = 0;             ///< 0 for persons, whose reference point is their centre [m]
+    std::string lane_name{};       ///< SUMO-driven: on which SUMO had it last
+    LaneId lane = kNoLane;         ///< the same
+    double looked_at = 0;          ///< when its path was last held against that lane [s]
+    int stages_left = 0;           ///< persons that SUMO moves
     Service service = Service::None;
     double asked_at = 0;                           ///< when its service began [s]
     std::vector<SumoAgentDetails::Stop> stops{};   ///< of its plan, as PathStop::plan counts
@@ -213,6 +215,7 @@ class SumoWorld : public World {
   double free_speed(const Scene& scene, std::size_t row, std::span<const std::uint32_t> near,
                     bool straight_on) const;
   bool is_barred(const Scene& scene, std::size_t row, std::span<const std::uint32_t> near) const;
+  void hold_overtaking(const Scene& scene, std::size_t row);
   bool meets_ghosts(const Scene& scene, std::size_t row) const;
   bool overtakes(const Scene& scene, std::size_t row) const;
   double inner_side(const Lane& lane) const;

@@ -234,6 +234,7 @@ void SumoWorld::hold_drivers(const Scene& scene) {
       backend_.set_speed(known.sumo_id, known.is_person, -1.0);
     known.speed_held = most < kForever;
     if (known.is_person) continue;
+    if (!aside) hold_overtaking(scene, row);
     // who overtakes has to get back
     const bool barred = time_ < known.keeps_lane_until || (!aside && is_barred(scene, row, near));
     if (barred != known.lane_held) backend_.allow_lane_changes(known.sumo_id, !barred);
@@ -310,7 +311,6 @@ bool SumoWorld::is_barred(const Scene& scene, std::size_t row,
   const LaneId on = known_[scene.id[row].value].lane;
   if (on == kNoLane) return false;
   const Lane& lane = model_.road.lane(on);
-  if (lane.opposite != kNoLane && meets_ghosts(scene, row)) return true;
   const auto aside = [&](LaneId other) {
     return other == kNoLane ? 0.0 : 0.5 * (lane.width + model_.road.lane(other).width);
   };
@@ -321,6 +321,24 @@ bool SumoWorld::is_barred(const Scene& scene, std::size_t row,
     return std::any_of(std::begin(to), std::end(to),
                        [&](double by) { return by != 0.0 && bars_change(scene, row, ghost, by); });
   });
+}
+
+/// SUMO's lane change mode doesn't stop overtaking on the opposite lane; the driver's eagerness for
+/// it does (vType attribute lcOpposite).
+void SumoWorld::hold_overtaking(const Scene& scene, std::size_t row) {
+  constexpr const char* kEagerness = "laneChangeModel.lcOpposite";
+  Known& known = known_[scene.id[row].value];
+  const bool may_overtake =
+      known.lane != kNoLane && model_.road.lane(known.lane).opposite != kNoLane;
+  const bool held = may_overtake && meets_ghosts(scene, row);
+  if (held == known.overtaking_held) return;
+  if (held && known.eagerness.empty()) {
+    const std::string ids[] = {known.sumo_id};
+    const std::vector<std::string> own = backend_.parameters(ids, kEagerness);
+    known.eagerness = own.empty() || own.front().empty() ? "1" : own.front();
+  }
+  backend_.set_parameter(known.sumo_id, kEagerness, held ? "0" : known.eagerness);
+  known.overtaking_held = held;
 }
 
 /// Is a ghost, which SUMO leaves out of its reckoning, on the stretch of road that overtaking on

@@ -270,6 +270,16 @@ class TraciBackend final : public SumoBackend {
     queued_.set_integer(traci::kVehicle, traci::kLaneChangeMode, vehicle,
                         allowed ? kLaneChangesOwn : kLaneChangesNone);
   }
+  void set_parameter(const std::string& vehicle, const std::string& key,
+                     const std::string& value) override {
+    queued_.begin_command(traci::set_command(traci::kVehicle),
+                          5 + vehicle.size() + 5 + 5 + key.size() + 5 + value.size());
+    queued_.raw_byte(traci::kParameter);
+    queued_.raw_string(vehicle);
+    queued_.compound(2);
+    queued_.typed_string(key);
+    queued_.typed_string(value);
+  }
   void override_detectors(std::span<const std::pair<std::string, double>> detectors) override {
     for (const auto& [id, age] : detectors) {
       // SUMO takes one override after another for a vehicle that stands there, and holds the loop
