@@ -6,12 +6,15 @@
 //   W ====wc==== C ====ce==== E     wc: 3 lanes, the leftmost leads to N alone
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "base/subprocess.h"
+#include "sumo/sumo_process.h"
 #include "support/coupling_scenario.h"
 #include "support/plain_net.h"
 
@@ -198,6 +201,71 @@ TEST_P(PartialControl, RulesThatCantBeMeantAreRefused) {
   expect_refused({"--take", "around = \"nobody\", radius = 5"}, "nobody");
   expect_refused({"--take", "from = 9, to = 3"}, "before");
   expect_refused({"--take", "area = \"#edge\""}, "middle");
+}
+
+// SUMO's own Python client asks for a vehicle at 5 s and gives it back at 15 s
+TEST(PartialControlCalled, AnotherClientTakesAndReleases) {
+  const char* home = std::getenv("SUMO_HOME");
+  const std::string tools = std::string(home != nullptr ? home : "/usr/share/sumo") + "/tools";
+  if (!std::filesystem::exists(tools + "/traci")) GTEST_SKIP() << "no TraCI client in " << tools;
+  TemporaryFolder folder;
+  testing::PlainNet net;
+  net.nodes = "<node id='A' x='0' y='0'/><node id='B' x='900' y='0'/>";
+  net.edges = "<edge id='ab' from='A' to='B' numLanes='1' speed='13.9'/>";
+  testing::write_plain_net(net, folder.file("net.net.xml"));
+  folder.write("d.rou.xml",
+               "<routes>" + kTypes +
+                   "<vehicle id='x' type='car' depart='0' departSpeed='max'><route edges='ab'/>"
+                   "</vehicle></routes>");
+  folder.write("s.sumocfg",
+               "<configuration><input><net-file value='net.net.xml'/><route-files "
+               "value='d.rou.xml'/></input></configuration>");
+  const int port = free_port();
+  const std::string script =
+      "import sys, time; sys.path.insert(0, '" + tools +
+      "')\nimport traci\nfor _ in range(100):\n"
+      "  try:\n    traci.init(" +
+      std::to_string(port) +
+      ", numRetries=0); break\n"
+      "  except Exception: time.sleep(0.1)\ntraci.setOrder(2)\nlanes = []\n"
+      "while traci.simulation.getTime() < 30:\n  traci.simulationStep()\n"
+      "  now = round(traci.simulation.getTime(), 1)\n"
+      "  if now in (5.0, 15.0):\n    traci.vehicle.setParameter('x', 'sumo-gamma.control', "
+      "'take' if now == 5.0 else 'release')\n"
+      "  if now in (4.0, 10.0, 20.0): lanes.append(traci.vehicle.getLaneID('x'))\n"
+      "print(lanes)\ntraci.close()\n";
+  auto other = std::async(std::launch::async, [&script] {
+    ProcessRequest request;
+    request.arguments = {"python3", "-c", script};
+    return run_process(request);
+  });
+  ProcessRequest request;
+  request.arguments = {SUMOGAMMA_PROGRAM,
+                       "run",
+                       folder.file("s.sumocfg"),
+                       "-o",
+                       folder.file("out"),
+                       "--step",
+                       "0.1",
+                       "--duration",
+                       "30",
+                       "--quiet",
+                       "--control",
+                       "called",
+                       "--num-clients",
+                       "2",
+                       "--client-order",
+                       "1",
+                       "--remote-port",
+                       std::to_string(port)};
+  const ProcessResult ours = run_process(request);
+  const ProcessResult theirs = other.get();
+  EXPECT_EQ(ours.exit_code, 0) << ours.errors;
+  EXPECT_EQ(theirs.exit_code, 0) << theirs.errors;
+  EXPECT_EQ(theirs.output, "['ab_0', '', 'ab_0']\n") << "a ghost is on no lane";
+  const json results = json::parse(folder.read("out/results.json"));
+  EXPECT_EQ(results["agents"]["taken_over"], 1);
+  EXPECT_EQ(results["agents"]["handed_back"], 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(BackEnd, PartialControl, ::testing::Values("traci", "libsumo"),
