@@ -95,6 +95,20 @@ const std::string kBusStops =
     "<busStop id='s2' lane='bc_1' startPos='150' endPos='170'/>"
     "<busStop id='s3' lane='cd_1' startPos='150' endPos='170'/>";
 
+// SUMO's lane changer would take a bus off the lane of its stop before the stop is noticed
+TEST_F(Plans, ABusIsServedOnEitherLaneShortlyBeforeTheRoadNarrows) {
+  for (const std::string lane : {"ab_1", "ab_2"}) {
+    SCOPED_TRACE(lane);
+    const json results = run(kTypes +
+                                 "<vehicle id='b' type='bus' depart='0'><route edges='ab bc cd'/>"
+                                 "<stop busStop='s' duration='10'/></vehicle>",
+                             "<busStop id='s' lane='" + lane + "' startPos='275' endPos='295'/>");
+    expect_all_arrive(results);
+    EXPECT_EQ(results["agents"]["stops_served"], 1);
+    EXPECT_EQ(sumos("so.xml", "stopinfo", "lane"), std::vector<std::string>{lane});
+  }
+}
+
 TEST_F(Plans, PeopleBoardRideAlightAndWalkOn) {
   std::string demand = kTypes;
   for (int i = 0; i < 3; ++i)

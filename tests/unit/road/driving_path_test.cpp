@@ -121,6 +121,45 @@ TEST_F(Crossroads, ATurnThatNeedsTheOtherLaneChangesBeforeTheStopLine) {
   EXPECT_LT(sharpest_turn(path), radians(30));
 }
 
+// SUMO's lane changes are jumps: the path follows the lane on which SUMO has a vehicle
+TEST_F(Crossroads, GoesOnFromTheLaneThatItHasBeenPutOnto) {
+  const Path path = path_along(right(), {"WC", "CE"}, "WC_1");
+  const auto lane = [&](const char* name) { return right().lane_by_name.at(name); };
+  double along = 30.0;
+  const auto beside = go_on_from(right(), path, along, lane("WC_2"), kNoConnection, 30.0, 20.0);
+  ASSERT_TRUE(beside);
+  expect_sound(*beside);
+  EXPECT_EQ(lanes_of(right(), *beside).front(), "WC_2");
+  EXPECT_NEAR(along, 20.0, 1e-9);
+  EXPECT_NEAR(
+      (beside->line.point_at(along) - right().lane(lane("WC_2")).centerline.point_at(30.0)).norm(),
+      0.0, 1e-6);
+  EXPECT_EQ(beside->trip, path.trip);
+  // on the link that leads elsewhere than the path's
+  const Connection& straight = right().connection(path.links.front().connection);
+  const double end = right().lane(lane("WC_1")).centerline.length();
+  along = path.links.front().stop_line + 3.0;
+  const auto inside = go_on_from(right(), path, along, straight.from, path.links.front().connection,
+                                 end + 3.0, 20.0);
+  ASSERT_TRUE(inside);
+  expect_sound(*inside);
+  EXPECT_EQ(inside->links.front().connection, path.links.front().connection);
+  EXPECT_NEAR(along, inside->links.front().stop_line + 3.0, 0.5);
+  // not on its route
+  along = 30.0;
+  EXPECT_FALSE(go_on_from(right(), path, along, lane("NC_1"), kNoConnection, 30.0, 20.0));
+}
+
+TEST_F(Crossroads, WhoIsTooLateForItsTurnGoesOnToTheEndOfItsLane) {
+  const Path path = path_along(right(), {"WC", "CN"}, "WC_2");
+  const LaneId outer = right().lane_by_name.at("WC_1");
+  const double end = right().lane(outer).centerline.length();
+  double along = end - 3.0;
+  const auto late = go_on_from(right(), path, along, outer, kNoConnection, end - 3.0, 20.0);
+  ASSERT_TRUE(late);
+  EXPECT_EQ(lanes_of(right(), *late), std::vector<std::string>{"WC_1"});
+}
+
 TEST_F(Crossroads, TakesTheBestLaneWhereNoneIsGiven) {
   EXPECT_EQ(lanes_of(right(), path_along(right(), {"WC", "CN"})),
             (std::vector<std::string>{"WC_2", "CN_1"}));
