@@ -95,7 +95,7 @@ const std::string kBusStops =
     "<busStop id='s2' lane='bc_1' startPos='150' endPos='170'/>"
     "<busStop id='s3' lane='cd_1' startPos='150' endPos='170'/>";
 
-// SUMO's lane changer would take a bus off the lane of its stop before the stop is noticed
+// also where the lane of the stop leads no further
 TEST_F(Plans, ABusIsServedOnEitherLaneShortlyBeforeTheRoadNarrows) {
   for (const std::string lane : {"ab_1", "ab_2"}) {
     SCOPED_TRACE(lane);
