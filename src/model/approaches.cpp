@@ -12,6 +12,12 @@ double half_extent(const Scene& scene, std::size_t row, const Vec2& direction) {
   return extent;
 }
 
+OrientedBox box_of(const Scene& scene, std::size_t row) {
+  const Vec2 forward = direction_of(scene.heading[row]);
+  return {scene.position[row], forward,
+          Vec2(half_extent(scene, row, forward), half_extent(scene, row, left_of(forward)))};
+}
+
 bool is_wide(const Scene& scene, std::size_t row) {
   const Vec2 across = left_of(direction_of(scene.heading[row]));
   return 2.0 * half_extent(scene, row, across) > kWideBody;

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/oriented_box.h"
 #include "model/model.h"
 #include "model/road_state.h"
 
@@ -65,6 +66,9 @@ ConnectionId halt_counts_for(const RoadNetwork& road, const Path& path, const Pa
 
 /// Half the extent of a row's footprint along a unit direction [m].
 double half_extent(const Scene& scene, std::size_t row, const Vec2& direction);
+
+/// The box about a row's footprint, along its heading.
+OrientedBox box_of(const Scene& scene, std::size_t row);
 
 /// Is a row's footprint wider than kWideBody?
 bool is_wide(const Scene& scene, std::size_t row);

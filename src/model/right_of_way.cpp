@@ -755,12 +755,8 @@ bool stands_beside(const RoadView& view, const Traveller& traveller, const PathL
   const Scene& scene = view.scene;
   const std::size_t row = traveller.row;
   const Polyline& way = view.road.path(scene.path[row])->line;
-  const auto half_of = [&](std::size_t of, const Vec2& forward) {
-    return Vec2(half_extent(scene, of, forward), half_extent(scene, of, left_of(forward)));
-  };
-  const Vec2 theirs = direction_of(scene.heading[foe.row]);
-  const OrientedBox body{scene.position[foe.row], theirs, half_of(foe.row, theirs)};
-  Vec2 half = half_of(row, direction_of(scene.heading[row]));
+  const OrientedBox body = box_of(scene, foe.row);
+  Vec2 half = box_of(scene, row).half;
   // on foot one steps back from a body that swings
   if (type_of(view.model.types, scene.type[foe.row]).kinematics == Kinematics::Holonomic)
     half.x() = 0.0;

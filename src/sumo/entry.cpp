@@ -16,12 +16,6 @@ namespace {
 
 bool overlap(const OrientedBox& a, const OrientedBox& b) { return separation(a, b) <= 0.0; }
 
-OrientedBox box_of(const Scene& scene, std::size_t row) {
-  const Vec2 forward = direction_of(scene.heading[row]);
-  return {scene.position[row], forward,
-          Vec2(half_extent(scene, row, forward), half_extent(scene, row, left_of(forward)))};
-}
-
 /// Does somebody drive over `place` until it stands, if it brakes at ease after half a second? On
 /// its path, straight on where it has none or points elsewhere. `body`: its own, now.
 bool comes_over(const Model& model, const RoadState& road, const Scene& scene, std::size_t row,

@@ -1,21 +1,14 @@
-// Whose an agent is, and how that changes (docs/coupling.md, "Whose an agent is"):
-//
-//   departed -> pending -> ghost -> gone           whom a rule wants always
-//   departed -> SUMO's -> gone                     whom none wants
-//   SUMO's -> ghost                                may_take: a rule wants it, and it is in no
-//   conflict ghost -> makes for its lane's middle           wanted no more makes for its lane's
-//   middle -> ghost           wanted again makes for its lane's middle -> SUMO's          may_give:
-//   on its lane, with room about it ghost <-> at a stop, in a vehicle, parked      plans.cpp
+// Whose an agent is, and how that changes. docs/coupling.md, "Whose an agent is", draws it. Whom a
+// rule wants always is ours from departure on, but for what plans.cpp hands to SUMO for a while;
+// here are those who change hands in motion.
 
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
 #include "base/units.h"
 #include "model/approaches.h"
-#include "road/lane_locator.h"
 #include "sumo/sumo_agents.h"
 #include "sumo/sumo_world.h"
 
@@ -42,13 +35,22 @@ bool SumoWorld::is_always_ours(std::uint32_t rules) const {
   return false;
 }
 
-/// Does a rule, or another client, want an agent at a place now? `ours`: it is already.
+/// Can somebody change hands in motion at all?
+bool SumoWorld::changes_hands() const {
+  return options_.control.changes() || options_.others_steer;
+}
+
+/// Does a rule, or another client, want an agent at a place now? `ours`: it is already; else only
+/// rules count that depend on place or time.
 bool SumoWorld::is_wanted(const Known& known, const Vec2& position, bool ours) const {
+  if (known.sumos_own) return false;
   if (!known.wish.empty()) return known.wish == "take";
-  for (std::size_t i = 0; i < options_.control.rules.size(); ++i)
-    if ((known.rules >> i & 1u) != 0 &&
-        holds(options_.control.rules[i], position, centers_[i], time_, ours ? kSlack : 0.0))
+  for (std::size_t i = 0; i < options_.control.rules.size(); ++i) {
+    const ControlRule& rule = options_.control.rules[i];
+    if ((known.rules >> i & 1u) != 0 && (ours || rule.changes()) &&
+        holds(rule, position, centers_[i], time_, ours ? kSlack : 0.0))
       return true;
+  }
   return false;
 }
 
@@ -116,7 +118,7 @@ bool SumoWorld::may_give(const Scene& scene, std::size_t row) const {
 
 /// Gives back those whom no rule wants any more, once they may be.
 void SumoWorld::hand_back(Scene& scene) {
-  if (!options_.control.changes() && !options_.others_steer) return;
+  if (!changes_hands()) return;
   ghosts_.rebuild(scene.position);
   for (std::size_t row = 0; row < scene.size(); ++row) {
     if (scene.control[row] != Control::Gamma) continue;

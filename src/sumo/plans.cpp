@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "base/units.h"
-#include "geometry/oriented_box.h"
 #include "model/approaches.h"
 #include "road/lane_locator.h"
 #include "sumo/sumo_agents.h"
@@ -62,16 +61,10 @@ std::shared_ptr<const Path> SumoWorld::way_of(SumoAgentDetails& details, AgentTy
 /// them apart; we couldn't.
 bool SumoWorld::touches(const Scene& scene, std::size_t row) const {
   constexpr double kApart = 0.05, kReach = 20.0;  // [m]
-  const auto box_of = [&](std::size_t of) {
-    const Vec2 forward = direction_of(scene.heading[of]);
-    return OrientedBox{
-        scene.position[of], forward,
-        Vec2(half_extent(scene, of, forward), half_extent(scene, of, left_of(forward)))};
-  };
-  const OrientedBox own = box_of(row);
+  const OrientedBox own = box_of(scene, row);
   for (std::size_t other = 0; other < scene.size(); ++other)
     if (other != row && (scene.position[other] - own.center).norm() < kReach &&
-        separation(own, box_of(other)) < kApart)
+        separation(own, box_of(scene, other)) < kApart)
       return true;
   return false;
 }

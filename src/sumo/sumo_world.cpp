@@ -171,15 +171,14 @@ void SumoWorld::take_newcomer(SumoAgentDetails details, bool moves_already) {
   pending.details = std::move(details);
   pending.type = *type;
   choose_pace(model_.road, pending.details);
-  pending.rules = rules_for(pending.details, *type);
-  bool driven = is_always_ours(pending.rules);
+  const std::uint32_t rules = rules_for(pending.details, *type);
+  bool driven = is_always_ours(rules);
   const std::string_view sumos = sumos_own(kind, pending.details);
-  if (pending.rules != 0 && !sumos.empty()) {
+  if (rules != 0 && !sumos.empty()) {
     driven = false;
-    pending.rules = 0;
     ++life_cycle_.left_to_sumo[std::string(sumos)];
   }
-  if (pending.rules != 0) choose_speed_factor(kind, options_.seed, pending.details);
+  if (rules != 0 && sumos.empty()) choose_speed_factor(kind, options_.seed, pending.details);
   if (driven) choose_mid_block(kind, options_.seed, pending.details);
   const bool walks = pending.details.stage == StageKind::Walking;
   const bool later = pending.details.is_person ? !walks : departs_at_stop(pending.details);
@@ -215,6 +214,7 @@ AgentId SumoWorld::register_agent(const SumoAgentDetails& details, bool external
   known.stages_left = details.stages_left;
   known.type_id = details.type_id;
   known.rules = rules_for(details, type);
+  known.sumos_own = !sumos_own(type_of(model_.types, type), details).empty();
   known.route = details.route;
   known.reroute_period = details.reroute_period;
   known.next_reroute = time_ + details.reroute_period;
@@ -469,7 +469,7 @@ void SumoWorld::place_external(const SumoAgent& seen, Scene& scene, std::size_t 
 
 void SumoWorld::update_external(Scene& scene, RoadState& road) {
   std::vector<bool> removed;
-  if (options_.control.any()) ghosts_.rebuild(scene.position);
+  if (!external_arriving_.empty() || changes_hands()) ghosts_.rebuild(scene.position);
   for (const SumoAgent& seen : step_.agents) {
     // SUMO's invalid numbers (-2^30): between two places, as while it is teleported
     if (!(std::abs(seen.speed) < 1e4) || !(seen.position.norm() < 1e8)) continue;
@@ -571,7 +571,8 @@ void SumoWorld::follow(const SumoAgent& seen, AgentId id, std::size_t row, Scene
   }
   scene.control[row] = parks ? Control::Parked : Control::External;
   if (known.watched_steps >= 0) watch_hand_back(seen, known_[id.value]);
-  if (path != nullptr && is_wanted(known, scene.position[row], false) && may_take(scene, row)) {
+  if (path != nullptr && !known.resumes && !stopped &&
+      is_wanted(known, scene.position[row], false) && may_take(scene, row)) {
     take_over(id, scene, row);
     ++life_cycle_.taken_over;
   }

@@ -97,7 +97,6 @@ class SumoWorld : public World {
   struct Pending {
     SumoAgentDetails details;
     AgentTypeId type{};
-    std::uint32_t rules = 0;                           ///< as Known::rules
     std::shared_ptr<const Path> path;                  ///< from the lane that SUMO chose
     std::vector<std::shared_ptr<const Path>> besides;  ///< from the lanes beside it, once needed
     bool looked_besides = false;
@@ -128,6 +127,7 @@ class SumoWorld : public World {
     bool external = false;
     bool speed_held = false;         ///< SUMO-driven: we hold its speed behind a ghost
     std::uint32_t rules = 0;         ///< that may concern it, as bits
+    bool sumos_own = false;          ///< nobody but SUMO can move it
     bool leaves = false;             ///< ours, and wanted by no rule any more
     bool was_kept = false;           ///< counted in LifeCycle::kept_on_foot
     double liked_offset = 0;         ///< beside its path, before it made for its lane's middle [m]
@@ -236,6 +236,7 @@ class SumoWorld : public World {
   // ownership.cpp
   std::uint32_t rules_for(const SumoAgentDetails& details, AgentTypeId type) const;
   bool is_always_ours(std::uint32_t rules) const;
+  bool changes_hands() const;
   bool is_wanted(const Known& known, const Vec2& position, bool ours) const;
   bool may_take(const Scene& scene, std::size_t row) const;
   bool may_give(const Scene& scene, std::size_t row) const;

@@ -1,15 +1,12 @@
 // SUMO's drivers don't see ghosts: what would have them drive into one is kept from them by us, by
 // speed, by lane changes and at their insertion (docs/coupling.md).
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
 #include "base/units.h"
-#include "geometry/oriented_box.h"
 #include "model/approaches.h"
 #include "model/locate.h"
 #include "sumo/sumo_world.h"
@@ -21,29 +18,36 @@ namespace {
 constexpr double kStorey = 2.5;  ///< bodies further apart in height don't meet [m]
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-/// Which neighbouring lanes of a vehicle's own are not free of ghosts.
-struct Sides {
-  bool left = false, right = false;
+/// What a body needs about it.
+struct Margins {
+  double beside, apart;  ///< to its sides, and to whoever is ahead or behind [m]
+  double time,
+      braking;  ///< of whoever closes in on the other, before and when it brakes [s, m/s^2]
 };
+
+/// Does a row leave a body at `speed` [m/s] room: is it beside its lane, or far enough ahead or
+/// behind for the one who closes in on the other?
+bool leaves_room(const Scene& scene, std::size_t row, const OrientedBox& body, double speed,
+                 const Margins& margins) {
+  const Vec2 left = left_of(body.forward);
+  const Vec2 way = scene.position[row] - body.center;
+  const double across = std::abs(way.dot(left)) - half_extent(scene, row, left) - body.half.y();
+  if (across > margins.beside) return true;
+  const double ahead = way.dot(body.forward);
+  const double gap = std::abs(ahead) - half_extent(scene, row, body.forward) - body.half.x();
+  const double theirs = scene.velocity[row].dot(body.forward);
+  const double closing = std::max(ahead > 0.0 ? speed - theirs : theirs - speed, 0.0);
+  return gap >=
+         margins.apart + margins.time * closing + closing * closing / (2.0 * margins.braking);
+}
 
 /// Is a ghost in the way of a body that jumps sideways by `aside` [m, left positive], as SUMO's
 /// lane changes do? Beside it, or so near that whoever is behind would have to brake hard.
 bool bars_change(const Scene& scene, std::size_t row, std::size_t ghost, double aside) {
-  constexpr double kBeside = 0.3, kApart = 1.5;  // [m]
-  constexpr double kTime = 1.2;                  // that whoever closes in on the other has [s]
-  constexpr double kBraking = 3.0;               // [m/s^2]
-  const Vec2 forward = direction_of(scene.heading[row]), left = left_of(forward);
-  const Vec2 way = scene.position[ghost] - scene.position[row];
-  const double across = std::abs(way.dot(left) - aside);
-  if (across > half_extent(scene, row, left) + half_extent(scene, ghost, left) + kBeside)
-    return false;
-  const double ahead = way.dot(forward);
-  const double closing = scene.speed[row] - scene.velocity[ghost].dot(forward);  // ahead of it
-  const double faster = ahead >= 0.0 ? closing : -closing;
-  const double gap =
-      std::abs(ahead) - half_extent(scene, row, forward) - half_extent(scene, ghost, forward);
-  const double needed = faster > 0.0 ? kTime * faster + faster * faster / (2.0 * kBraking) : 0.0;
-  return gap < kApart + needed;
+  constexpr Margins kMargins{0.3, 1.5, 1.2, 3.0};
+  OrientedBox body = box_of(scene, row);
+  body.center += aside * left_of(body.forward);
+  return !leaves_room(scene, ghost, body, scene.speed[row], kMargins);
 }
 
 /// Would a body at `speed` [m/s] be in nobody's way there, and nobody in its? Whom `counts` names
@@ -51,22 +55,12 @@ bool bars_change(const Scene& scene, std::size_t row, std::size_t ghost, double 
 template <typename Counts>
 bool has_room(const Scene& scene, const SpatialGrid& grid, const OrientedBox& body, double height,
               double speed, Counts counts) {
-  constexpr double kAround = 60.0, kBeside = 0.2, kApart = 1.0;  // [m]
-  constexpr double kTime = 0.4, kBraking = 3.5;                  // [s], [m/s^2]
-  const Vec2 left = left_of(body.forward);
+  constexpr double kAround = 60.0;  // [m]
+  constexpr Margins kMargins{0.2, 1.0, 0.4, 3.5};
   bool room = true;
   grid.visit_within(body.center, kAround, [&](std::uint32_t row, double) {
-    if (!room || !counts(row) || std::abs(scene.height[row] - height) > kStorey) return;
-    const Vec2 way = scene.position[row] - body.center;
-    const double across = std::abs(way.dot(left)) - half_extent(scene, row, left) - body.half.y();
-    if (across > kBeside) return;
-    const double ahead = way.dot(body.forward);
-    const double gap =
-        std::abs(ahead) - half_extent(scene, row, body.forward) - body.half.x() - kApart;
-    const double theirs = scene.velocity[row].dot(body.forward);
-    const double closing = ahead > 0.0 ? speed - theirs : theirs - speed;
-    if (gap < (closing > 0.0 ? kTime * closing + closing * closing / (2.0 * kBraking) : 0.0))
-      room = false;
+    room = room && (!counts(row) || std::abs(scene.height[row] - height) > kStorey ||
+                    leaves_room(scene, row, body, speed, kMargins));
   });
   return room;
 }
@@ -75,11 +69,7 @@ bool has_room(const Scene& scene, const SpatialGrid& grid, const OrientedBox& bo
 
 /// Has a vehicle room about it, at its speed?
 bool SumoWorld::has_room_for(const Scene& scene, std::size_t row) const {
-  const Vec2 forward = direction_of(scene.heading[row]);
-  const OrientedBox body{
-      scene.position[row], forward,
-      Vec2(half_extent(scene, row, forward), half_extent(scene, row, left_of(forward)))};
-  return has_room(scene, ghosts_, body, scene.height[row], scene.speed[row],
+  return has_room(scene, ghosts_, box_of(scene, row), scene.height[row], scene.speed[row],
                   [&](std::uint32_t other) { return other != row; });
 }
 
@@ -87,7 +77,7 @@ bool SumoWorld::has_room_for(const Scene& scene, std::size_t row) const {
 /// there is room.
 bool SumoWorld::delay_insertion(const SumoAgent& seen, Pending& pending, const Scene& scene) {
   if (seen.is_person || !options_.control.any() || pending.resumes || pending.was_delayed ||
-      (seen.stop_state & stop_state::kStopped) != 0)
+      stop_state::stopped(seen.stop_state))
     return false;
   const auto lane = model_.road.lane_by_name.find(seen.lane);
   if (lane == model_.road.lane_by_name.end()) return false;
@@ -166,6 +156,7 @@ void SumoWorld::read_links() {
 void SumoWorld::follow_lane(const SumoAgent& seen, AgentId id, std::size_t row, Scene& scene,
                             RoadState& road) {
   constexpr double kBack = 20.0;  // [m]
+  constexpr double kNear = 2.0;   // [m]
   constexpr double kAgain = 1.0;  // between two looks at the same lane [s]
   Known& known = known_[id.value];
   const bool same = seen.lane == known.lane_name;
@@ -177,8 +168,13 @@ void SumoWorld::follow_lane(const SumoAgent& seen, AgentId id, std::size_t row, 
   const Path* path = road.path(scene.path[row]);
   if (path == nullptr || !path->trip || known.lane == kNoLane) return;
   double along = scene.path_along[row];
-  const PathStretch& here = path->stretch_at(along + 0.5 * known.length);
-  if (here.lane == known.lane && !here.changing) return;
+  // at a lane's end the two may disagree for a step: a path made anew there would have lost what
+  // the tail is still on
+  const auto is_there = [&](double by) {
+    const PathStretch& here = path->stretch_at(along + 0.5 * known.length + by);
+    return here.lane == known.lane && !here.changing;
+  };
+  if (is_there(0.0) || is_there(-kNear) || is_there(kNear)) return;
   if (same && time_ < known.looked_at + kAgain) return;
   known.looked_at = time_;
   const Lane& lane = model_.road.lane(known.lane);
@@ -204,8 +200,11 @@ void SumoWorld::follow_lane(const SumoAgent& seen, AgentId id, std::size_t row, 
 void SumoWorld::hold_drivers(const Scene& scene) {
   constexpr double kNear = 12.0, kSight = 3.0;  // [m], [s]
   constexpr double kPatience = 30.0;            // [s]
-  constexpr double kSlowest =
-      0.01;  // for 0 SUMO finds a person no way over the next junction [m/s]
+  // for 0 SUMO finds a person no way over the next junction
+  constexpr double kSlowest = 0.01;  // [m/s]
+  if (std::find(scene.control.begin(), scene.control.end(), Control::External) ==
+      scene.control.end())
+    return;
   ghosts_.rebuild(scene.position);
   std::vector<std::uint32_t> near;
   for (std::size_t row = 0; row < scene.size(); ++row) {
@@ -242,8 +241,10 @@ void SumoWorld::hold_drivers(const Scene& scene) {
   }
 }
 
-/// At which somebody whom SUMO moves comes to rest before it reaches a ghost that stands, or
-/// nearly, with its whole body, as that follows its path: infinite where none is in the way [m/s].
+/// At which somebody whom SUMO moves can still brake for a ghost that its body, as that follows its
+/// path, would reach, one that stands, or nearly, or goes the same way: infinite where none is in
+/// the way [m/s]. The road's rules know lanes; bodies reach over them, and SUMO may mean to pass
+/// whoever binds it by those.
 double SumoWorld::free_speed(const Scene& scene, std::size_t row,
                              std::span<const std::uint32_t> near, bool straight_on) const {
   constexpr double kStands = 1.0, kSameWay = 0.7;                   // [m/s], cosine
@@ -259,8 +260,9 @@ double SumoWorld::free_speed(const Scene& scene, std::size_t row,
                            ? kOnFoot
                            : speed * speed / (2.0 * kBraking) + kReaction * speed + 2.0 * kBefore;
   const Vec2 heading = direction_of(scene.heading[row]);
-  const Vec2 half(half_extent(scene, row, heading),
-                  half_extent(scene, row, left_of(heading)) + kAside);
+  OrientedBox now = box_of(scene, row);
+  now.half.y() += kAside;
+  const Vec2 half = now.half;
   const double along = scene.path_along[row];
   const auto body_at = [&](double way) {
     if (path == nullptr) return OrientedBox{scene.position[row] + way * heading, heading, half};
@@ -276,18 +278,16 @@ double SumoWorld::free_speed(const Scene& scene, std::size_t row,
     double speed;  // along the own way [m/s]
   };
   std::vector<Ahead> ahead;
-  const OrientedBox now{scene.position[row], heading, half};
   for (const std::uint32_t other : near) {
-    const Vec2 theirs = direction_of(scene.heading[other]);
-    const bool same_way = theirs.dot(heading) > kSameWay;
+    OrientedBox box = box_of(scene, other);
+    const bool same_way = box.forward.dot(heading) > kSameWay;
     // a person lets whoever drives by pass
     const double way = known.is_person ? kPasses * scene.speed[other] : 0.0;
     if ((scene.speed[other] > kStands && !same_way && !known.is_person) ||
         std::abs(scene.height[other] - scene.height[row]) > kStorey)
       continue;
-    const OrientedBox box{scene.position[other] + 0.5 * way * theirs, theirs,
-                          Vec2(half_extent(scene, other, theirs) + 0.5 * way,
-                               half_extent(scene, other, left_of(theirs)))};
+    box.center += 0.5 * way * box.forward;
+    box.half.x() += 0.5 * way;
     if (separation(now, box) > 0.0)
       ahead.push_back({box, std::max(scene.velocity[other].dot(heading), 0.0)});
   }
@@ -304,8 +304,7 @@ double SumoWorld::free_speed(const Scene& scene, std::size_t row,
   return most;
 }
 
-/// Would a lane change that SUMO may make now lead into a ghost? Who has to change to one side for
-/// its route is asked for that side alone.
+/// Would a lane change that SUMO may make now, to either side, lead into a ghost?
 bool SumoWorld::is_barred(const Scene& scene, std::size_t row,
                           std::span<const std::uint32_t> near) const {
   const LaneId on = known_[scene.id[row].value].lane;

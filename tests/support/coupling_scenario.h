@@ -47,6 +47,17 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+/// A user's scenario s.sumocfg on net.net.xml, with its demand and what stands in additional files.
+inline void write_user_scenario(const TemporaryFolder& folder, const std::string& demand,
+                                const std::string& additional, const std::string& more_input = "") {
+  folder.write("d.rou.xml", "<routes>" + demand + "</routes>");
+  folder.write("s.add.xml", "<additional>" + additional + "</additional>");
+  folder.write("s.sumocfg",
+               "<configuration><input><net-file value='net.net.xml'/><route-files "
+               "value='d.rou.xml'/><additional-files value='s.add.xml'/>" +
+                   more_input + "</input></configuration>");
+}
+
 /// A grid of 3 x 3 signalled junctions, 150 m apart, with sidewalks and crossings, and a little
 /// demand:
 ///

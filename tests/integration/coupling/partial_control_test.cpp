@@ -43,14 +43,8 @@ class PartialControl : public ::testing::TestWithParam<const char*> {
   }
 
   ProcessResult start(const std::string& demand, const std::vector<std::string>& options) {
-    folder_.write("d.rou.xml", "<routes>" + kTypes + demand + "</routes>");
-    folder_.write("s.add.xml",
-                  "<additional><poly id='middle' shape='150,-20 350,-20 350,20 150,20'/>"
-                  "</additional>");
-    folder_.write("s.sumocfg",
-                  "<configuration><input><net-file value='net.net.xml'/><route-files "
-                  "value='d.rou.xml'/><additional-files value='s.add.xml'/></input>"
-                  "</configuration>");
+    write_user_scenario(folder_, kTypes + demand,
+                        "<poly id='middle' shape='150,-20 350,-20 350,20 150,20'/>");
     std::filesystem::remove_all(folder_.file("out"));
     ProcessRequest request;
     request.arguments = {SUMOGAMMA_PROGRAM,
@@ -213,13 +207,11 @@ TEST(PartialControlCalled, AnotherClientTakesAndReleases) {
   net.nodes = "<node id='A' x='0' y='0'/><node id='B' x='900' y='0'/>";
   net.edges = "<edge id='ab' from='A' to='B' numLanes='1' speed='13.9'/>";
   testing::write_plain_net(net, folder.file("net.net.xml"));
-  folder.write("d.rou.xml",
-               "<routes>" + kTypes +
-                   "<vehicle id='x' type='car' depart='0' departSpeed='max'><route edges='ab'/>"
-                   "</vehicle></routes>");
-  folder.write("s.sumocfg",
-               "<configuration><input><net-file value='net.net.xml'/><route-files "
-               "value='d.rou.xml'/></input></configuration>");
+  write_user_scenario(folder,
+                      kTypes +
+                          "<vehicle id='x' type='car' depart='0' departSpeed='max'>"
+                          "<route edges='ab'/></vehicle>",
+                      "");
   const int port = free_port();
   const std::string script =
       "import sys, time; sys.path.insert(0, '" + tools +

@@ -41,12 +41,7 @@ class Plans : public ::testing::Test {
   /// Runs a scenario; its results. SUMO's trips and stops are in ti.xml and so.xml.
   json run(const std::string& demand, const std::string& additional,
            const std::string& control = "all", const std::string& more_input = "") {
-    folder_.write("d.rou.xml", "<routes>" + demand + "</routes>");
-    folder_.write("s.add.xml", "<additional>" + additional + "</additional>");
-    folder_.write("s.sumocfg",
-                  "<configuration><input><net-file value='net.net.xml'/><route-files "
-                  "value='d.rou.xml'/><additional-files value='s.add.xml'/>" +
-                      more_input + "</input></configuration>");
+    write_user_scenario(folder_, demand, additional, more_input);
     std::filesystem::remove_all(folder_.file("out"));
     ProcessRequest request;
     request.arguments = {
@@ -207,6 +202,18 @@ TEST_F(Plans, CarsQueueBehindATram) {
           kBusStops);
   expect_all_arrive(results);
   EXPECT_EQ(results["agents"]["by_type"]["tram"]["arrived"], 1);
+  EXPECT_EQ(results["agents"]["taken_over"], 0) << "whoever is on rails stays SUMO's";
+  EXPECT_EQ(results["agents"]["left_to_sumo"]["on rails or water"], 1);
+}
+
+TEST_F(Plans, WhoDepartsAtItsStopIsSumosUntilItIsOver) {
+  const json results = run(kTypes +
+                               "<vehicle id='b' type='bus' depart='0' departPos='stop'>"
+                               "<route edges='ab bc cd'/><stop busStop='s1' until='60'/></vehicle>",
+                           kBusStops);
+  expect_all_arrive(results);
+  EXPECT_EQ(results["agents"]["taken_over"], 0);
+  EXPECT_EQ(sumos("so.xml", "stopinfo", "ended"), std::vector<std::string>{"60.00"});
 }
 
 TEST_F(Plans, VehiclesOfALoadedStateAreThere) {
