@@ -111,23 +111,11 @@ constexpr BoxRegion kBoxes[] = {{"Australia", {112.5, -44, 154, -10}},
                                 {"Cook Islands", {-166, -22, -157.2, -8.9}},
                                 {"Niue", {-170, -19.2, -169.7, -18.9}}};
 
-/// Even-odd rule on longitude and latitude; no outline crosses the 180th meridian.
-bool holds(Outline outline, GeoPoint p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const GeoPoint a = outline[i], b = outline[j];
-    if ((a.lat > p.lat) != (b.lat > p.lat) &&
-        p.lon < a.lon + (p.lat - a.lat) / (b.lat - a.lat) * (b.lon - a.lon))
-      inside = !inside;
-  }
-  return inside;
-}
-
 }  // namespace
 
 std::string_view left_hand_region(GeoPoint place) {
   for (const Region& region : kRegions)
-    if (holds(region.outline, place)) return region.name;
+    if (ring_contains(region.outline, place)) return region.name;
   for (const BoxRegion& region : kBoxes)
     if (region.box.contains(place)) return region.name;
   return {};

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
-#include <unordered_map>
 #include <vector>
 
+#include "geometry/box_grid.h"
+#include "geometry/segment.h"
 #include "road/road_network.h"
 
 namespace sumogamma::osm {
@@ -15,11 +15,6 @@ struct WalkingEnd {
   double width = 0;           ///< of the lane [m]
 };
 std::vector<WalkingEnd> walking_ends(const RoadNetwork& road, const Lane& area);
-
-/// A stretch of a segment, as shares of it in [0, 1].
-struct Stretch {
-  double from = 0, to = 0;
-};
 
 /// The ground that lanes need, for cutting obstacles out of it. Lanes for wheels count with their
 /// whole width; those for feet with 0.6 m to either side of their middle, since guessed sidewalks
@@ -43,15 +38,12 @@ class LaneClearing {
     Vec2 from = Vec2::Zero(), direction = Vec2::UnitX();
     double length = 0, half_width = 0;
   };
-  template <typename Visit>
-  void visit_cells(const Vec2& low, const Vec2& high, Visit visit) const;
   void add_piece(const Vec2& from, const Vec2& to, double half_width);
-  std::vector<std::uint32_t> pieces_near(const Vec2& low, const Vec2& high) const;
+  void add_walking_area(const RoadNetwork& road, const Lane& area);
 
   std::vector<Piece> pieces_;
   std::vector<std::vector<Vec2>> walking_areas_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>
-      cells_;  ///< looked up only, never iterated
+  BoxGrid piece_grid_, area_grid_;
 };
 
 }  // namespace sumogamma::osm

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <utility>
+
+#include "geometry/box_grid.h"
 
 namespace sumogamma::osm {
 namespace {
@@ -23,16 +24,11 @@ struct Piece {
   std::size_t segment = 0;
 };
 
-using Cell = std::pair<std::int64_t, std::int64_t>;
+/// Pieces of all lanes, by the cells that a strip of their width touches.
+struct PieceGrid {
+  std::vector<Piece> pieces;
+  BoxGrid grid{kCell};
 
-Cell cell_of(const Vec2& p) {
-  return {static_cast<std::int64_t>(std::floor(p.x() / kCell)),
-          static_cast<std::int64_t>(std::floor(p.y() / kCell))};
-}
-
-/// Pieces by the cells that a strip of their width touches.
-class PieceGrid {
- public:
   PieceGrid(const RoadNetwork& road, double widest) {
     for (std::size_t i = 0; i < road.lanes.size(); ++i) {
       const Lane& lane = road.lanes[i];
@@ -40,22 +36,13 @@ class PieceGrid {
       const std::vector<Vec2>& points = lane.centerline.points();
       const Vec2 reach = Vec2::Constant((lane.width + widest) / 2);
       for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-        const Cell low = cell_of(points[k].cwiseMin(points[k + 1]) - reach);
-        const Cell high = cell_of(points[k].cwiseMax(points[k + 1]) + reach);
-        for (std::int64_t x = low.first; x <= high.first; ++x)
-          for (std::int64_t y = low.second; y <= high.second; ++y)
-            cells_[{x, y}].push_back({static_cast<LaneId>(i), k});
+        grid.add(static_cast<std::uint32_t>(pieces.size()),
+                 points[k].cwiseMin(points[k + 1]) - reach,
+                 points[k].cwiseMax(points[k + 1]) + reach);
+        pieces.push_back({static_cast<LaneId>(i), k});
       }
     }
   }
-  const std::vector<Piece>& near(const Vec2& p) const {
-    static const std::vector<Piece> kNone;
-    const auto cell = cells_.find(cell_of(p));
-    return cell == cells_.end() ? kNone : cell->second;
-  }
-
- private:
-  std::map<Cell, std::vector<Piece>> cells_;
 };
 
 /// A place on a lane.
@@ -121,7 +108,8 @@ void append_overlaps_of(const RoadNetwork& road, const PieceGrid& grid, LaneId i
     const double along = (static_cast<double>(i) + 0.5) * step;
     const Place place{lane.centerline.point_at(along), lane.centerline.direction_at(along),
                       elevation_at(lane, along), along};
-    for (const Piece& piece : grid.near(place.point)) {
+    for (const std::uint32_t index : grid.grid.at(place.point)) {
+      const Piece& piece = grid.pieces[index];
       const Lane& other = road.lane(piece.lane);
       if (other.edge == lane.edge || !must_be_apart(lane_use(lane), lane_use(other))) continue;
       if (at_shared_junction(edge, road.edge(other.edge), along, length - along)) continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "road/lane_locator.h"
 
 namespace sumogamma::osm {
 namespace {
@@ -21,6 +22,12 @@ GeoBox GeoBox::grown(double meters) const {
   const LocalMetric metric(center());
   const double lon = meters / metric.meters_per_lon, lat = meters / metric.meters_per_lat;
   return {west - lon, south - lat, east + lon, north + lat};
+}
+
+bool ring_contains(std::span<const GeoPoint> ring, GeoPoint place) {
+  std::vector<Vec2> points;
+  for (const GeoPoint p : ring) points.emplace_back(p.lon, p.lat);
+  return sumogamma::ring_contains(points, Vec2(place.lon, place.lat));
 }
 
 const std::string& tag(const Tags& tags, std::string_view key) {

@@ -4,19 +4,13 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "geometry/segment.h"
 
 namespace sumogamma {
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double distance_to_segment(const Vec2& from, const Vec2& to, const Vec2& point) {
-  const Vec2 edge = to - from;
-  const double length = edge.squaredNorm();
-  const double t = length > 0 ? std::clamp((point - from).dot(edge) / length, 0.0, 1.0) : 0.0;
-  return (point - from - t * edge).norm();
-}
 
 }  // namespace
 
