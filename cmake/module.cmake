@@ -19,7 +19,8 @@ target_link_libraries(sumogamma_options INTERFACE Eigen3::Eigen Threads::Threads
 # module stand in cmake/dependencies.cmake as SUMOGAMMA_LIBS_<NAME>.
 function(sumogamma_module name)
   cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp
+    ${PROJECT_SOURCE_DIR}/src/${name}/*/*.cpp)
   list(TRANSFORM ARG_DEPENDS PREPEND sumogamma_)
   if(sources)
     add_library(sumogamma_${name} STATIC ${sources})

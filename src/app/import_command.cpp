@@ -27,6 +27,7 @@ namespace {
 struct ImportOptions {
   std::string map, folder, agents = "100", duration = "3600", side = "auto";
   std::optional<std::string> bbox;
+  std::vector<std::string> without;
   bool force = false;
 };
 
@@ -184,6 +185,8 @@ int run_import(const ImportOptions& options, const CommonOptions& common) {
   build.map = options.map;
   if (options.bbox) build.bbox = parse_box(*options.bbox);
   build.side = parse_side(options.side);
+  build.without = {options.without.begin(), options.without.end()};
+  osm::check_names(build.without);
   build.should_stop = interrupted;
   if (!common.quiet)
     build.progress = [](const std::string& text) {
@@ -221,6 +224,10 @@ CommandRunner add_import_command(CLI::App& parent) {
                    "side of the road: auto (from the place), left or right")
       ->check(CLI::IsMember({"auto", "left", "right"}))
       ->capture_default_str();
+  command->add_option(
+      "--without", options->without,
+      "leave out a repair of the map or network, by its name in docs/import.md; may "
+      "be given again");
   command->add_flag("--force", options->force, "write into a folder that is not empty");
   return [options](const CommonOptions& common) { return run_import(*options, common); };
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "osm/osm_map.h"
+#include "osm/repair_names.h"
 #include "road/road_network.h"
 
 namespace sumogamma::osm {
@@ -19,6 +20,7 @@ struct BuildRequest {
   std::filesystem::path map;
   std::optional<GeoBox> bbox;  ///< cut to this; without it the bounds that the file declares
   Side side = Side::Auto;      ///< Auto: from the place
+  RepairSet without;           ///< repairs that are switched off
   std::filesystem::path
       folder;  ///< existing; net.net.xml, obstacles.add.xml and netconvert.log are written into it
   std::filesystem::path work;  ///< existing; for files that do not stay
@@ -36,6 +38,7 @@ struct BuildResult {
   std::map<std::string, long> read;     ///< what the extract held
   std::map<std::string, double> built;  ///< network_facts(), and overlaps before edges moved apart
   std::map<std::string, long> obstacles;  ///< what became of buildings, walls and trees
+  RepairSet without;                      ///< repairs that were switched off
   std::map<std::string, long> netconvert_messages;
   std::vector<std::string> command;  ///< netconvert's
   IssueLog log;

@@ -20,6 +20,7 @@ nlohmann::ordered_json import_report(const BuildResult& result, const std::strin
   report["read"] = result.read;
   report["built"] = result.built;
   report["obstacles"] = result.obstacles;
+  if (!result.without.empty()) report["repairs_left_out"] = result.without;
   report["issues"] = nlohmann::ordered_json::array();
   for (const auto& [kind, issue] : result.log.issues())
     report["issues"].push_back(

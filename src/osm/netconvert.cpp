@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
-#include <pugixml.hpp>
 #include <regex>
 #include <sstream>
 
@@ -98,13 +97,13 @@ std::map<std::string, Places> places_by_node(const pugi::xml_node& network) {
 /// Writes the groups of nodes to join. Where traffic keeps left each of them needs its place, the
 /// mean of what the network as it stands makes of it: without one netconvert 1.15 mirrors what
 /// stands for none, puts the junction 1e9 m off, and cuts the roads there to fit.
-void write_joins(const NetconvertRequest& request, const std::filesystem::path& file) {
+void write_joins(const NetconvertRequest& request, const pugi::xml_node& before,
+                 const std::filesystem::path& file) {
   std::map<std::string, Places> places;
-  if (request.left_hand)
-    places = places_by_node(load_network(request.folder / request.network).child("net"));
+  if (request.left_hand) places = places_by_node(before);
   pugi::xml_document document;
   pugi::xml_node nodes = document.append_child("nodes");
-  for (const NodeGroup& group : request.joins) {
+  for (const NodeGroup& group : *request.joins) {
     std::string names;
     Places sum;
     for (const std::string& node : group) {
@@ -145,7 +144,8 @@ std::vector<std::filesystem::path> typemaps() {
   return files;
 }
 
-std::vector<std::string> run_netconvert(const NetconvertRequest& request) {
+std::vector<std::string> run_netconvert(const NetconvertRequest& request,
+                                        const pugi::xml_node& before) {
   std::string types;
   for (const std::filesystem::path& file : typemaps())
     types += (types.empty() ? "" : ",") + file.string();
@@ -165,12 +165,12 @@ std::vector<std::string> run_netconvert(const NetconvertRequest& request) {
       "surface,layer,bridge,tunnel,lit,maxspeed,sidewalk,footway,crossing,access,width,junction"};
   if (request.left_hand) arguments.push_back("--lefthand");
   if (request.layers) arguments.insert(arguments.end(), {"--osm.layer-elevation", "5"});
-  if (request.joins.empty()) {
+  if (!request.joins) {
     arguments.insert(arguments.end(),
                      {"--junctions.join", "--junctions.join-output", request.joined});
   } else {
     const std::string joins = "work/join.nod.xml";
-    write_joins(request, request.folder / joins);
+    write_joins(request, before, request.folder / joins);
     arguments.insert(arguments.end(), {"--node-files", joins});
   }
   return run(request, std::move(arguments));
@@ -232,13 +232,12 @@ void append_refused(const std::vector<Turn>& turns, pugi::xml_node connections) 
   }
 }
 
-void write_patch(const std::filesystem::path& network_file, const NetworkPatch& patch,
+void write_patch(const pugi::xml_node& net, const NetworkPatch& patch,
                  const std::filesystem::path& edge_file, const std::filesystem::path& node_file,
                  const std::filesystem::path& connection_file) {
-  const pugi::xml_document network = load_network(network_file);
   pugi::xml_document edge_document, node_document, connection_document;
   std::map<std::string, std::string> start;
-  for (const pugi::xml_node edge : network.child("net").children("edge"))
+  for (const pugi::xml_node edge : net.children("edge"))
     start[edge.attribute("id").value()] = edge.attribute("from").value();
 
   pugi::xml_node edges = edge_document.append_child("edges"),
@@ -253,7 +252,7 @@ void write_patch(const std::filesystem::path& network_file, const NetworkPatch& 
     roundabout.append_attribute("nodes") = node_names.c_str();
     roundabout.append_attribute("edges") = edge_names.c_str();
   }
-  append_carriageways(network.child("net"), patch.carriageways, edges);
+  append_carriageways(net, patch.carriageways, edges);
   for (const auto& [junction, type] : patch.junction_types) {
     pugi::xml_node node = nodes.append_child("node");
     node.append_attribute("id") = junction.c_str();
@@ -268,12 +267,12 @@ void write_patch(const std::filesystem::path& network_file, const NetworkPatch& 
 
 }  // namespace
 
-std::vector<std::string> patch_network(const NetconvertRequest& request,
+std::vector<std::string> patch_network(const NetconvertRequest& request, const pugi::xml_node& net,
                                        const NetworkPatch& patch) {
   const std::string edges = "work/patch.edg.xml", nodes = "work/patch.nod.xml",
                     connections = "work/patch.con.xml", unpatched = "work/unpatched.net.xml";
-  write_patch(request.folder / request.network, patch, request.folder / edges,
-              request.folder / nodes, request.folder / connections);
+  write_patch(net, patch, request.folder / edges, request.folder / nodes,
+              request.folder / connections);
   std::filesystem::rename(request.folder / request.network, request.folder / unpatched);
   std::vector<std::string> arguments = {"--xml-validation",
                                         "never",

@@ -3,12 +3,14 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
+#include <pugixml.hpp>
 #include <string>
 #include <vector>
 
-#include "osm/carriageways_apart.h"
 #include "osm/osm_map.h"
-#include "osm/swallowed_roads.h"
+#include "osm/repairs/carriageways_apart.h"
+#include "osm/repairs/swallowed_roads.h"
 
 namespace sumogamma::osm {
 
@@ -24,9 +26,8 @@ struct NetconvertRequest {
   bool left_hand = false;
   bool layers = false;  ///< give bridges and tunnels a height of 5 m a layer, so that traffic on
                         ///< them is kept apart
-  /// To make one junction each, of the network that stands in `network`; none: netconvert joins as
-  /// it sees fit.
-  std::vector<NodeGroup> joins;
+  /// To make one junction each; nothing: netconvert joins as it sees fit.
+  std::optional<std::vector<NodeGroup>> joins;
   double time_limit = 1800.0;  ///< [s]
   std::function<bool()> should_stop;
 };
@@ -39,9 +40,11 @@ std::filesystem::path sumo_home();
 std::vector<std::filesystem::path> typemaps();
 
 /// Runs netconvert on a prepared map with the option set that docs/import.md explains. Returns its
-/// command line. Throws Error with netconvert's own message where it is missing, fails or crashes;
-/// returns an empty command where should_stop ended it.
-std::vector<std::string> run_netconvert(const NetconvertRequest& request);
+/// command line. `before` is the network as it stands, which tells places of junctions to join;
+/// none where there is nothing to join. Throws Error with netconvert's own message where it is
+/// missing, fails or crashes; returns an empty command where should_stop ended it.
+std::vector<std::string> run_netconvert(const NetconvertRequest& request,
+                                        const pugi::xml_node& before = {});
 
 /// The groups of nodes in a file of joins, as netconvert writes it to request.joined. Throws Error
 /// where it is none.
@@ -81,8 +84,10 @@ struct NetworkPatch {
   }
 };
 
-/// Applies the patch to request.network. Same returns and errors as run_netconvert().
-std::vector<std::string> patch_network(const NetconvertRequest& request, const NetworkPatch& patch);
+/// Applies the patch to request.network, whose elements are `net`. Same returns and errors as
+/// run_netconvert().
+std::vector<std::string> patch_network(const NetconvertRequest& request, const pugi::xml_node& net,
+                                       const NetworkPatch& patch);
 
 /// netconvert's messages by kind: ids and numbers replaced, then counted.
 std::map<std::string, long> count_message_kinds(const std::string& log_text);

@@ -73,16 +73,15 @@ std::map<std::string, double> network_facts(const RoadNetwork& road) {
   return facts;
 }
 
-std::vector<std::vector<std::string>> unmarked_roundabouts(const std::filesystem::path& network,
+std::vector<std::vector<std::string>> unmarked_roundabouts(const pugi::xml_node& net,
                                                            const OsmMap& map) {
   std::set<std::int64_t> ways;
   for (const MapWay& way : map.ways)
     if (tag_is(way.tags, "junction", {"roundabout"})) ways.insert(way.id);
-  const pugi::xml_document document = load_network(network);
-  const auto origins = ways_of_edges(document);
+  const auto origins = ways_of_edges(net);
 
   std::set<std::string> marked;
-  for (const pugi::xml_node ring : document.child("net").children("roundabout")) {
+  for (const pugi::xml_node ring : net.children("roundabout")) {
     std::istringstream edges(ring.attribute("edges").value());
     for (std::string edge; edges >> edge;) marked.insert(edge);
   }
@@ -90,7 +89,7 @@ std::vector<std::vector<std::string>> unmarked_roundabouts(const std::filesystem
     std::string id, to;
   };
   std::map<std::string, RingEdge> by_start;
-  for (const pugi::xml_node edge : document.child("net").children("edge")) {
+  for (const pugi::xml_node edge : net.children("edge")) {
     if (edge.attribute("function")) continue;
     const auto& made_of = origins.at(edge.attribute("id").value());
     const bool on_ring = std::any_of(made_of.begin(), made_of.end(),

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
+#include <pugixml.hpp>
 #include <string>
 #include <vector>
 
@@ -20,7 +20,7 @@ std::map<std::string, double> network_facts(const RoadNetwork& road);
 
 /// Rings of edges that stem from ways tagged as roundabouts and that the network file does not list
 /// as roundabouts, in driving order. Needs a network written with --output.original-names.
-std::vector<std::vector<std::string>> unmarked_roundabouts(const std::filesystem::path& network,
+std::vector<std::vector<std::string>> unmarked_roundabouts(const pugi::xml_node& net,
                                                            const OsmMap& map);
 
 }  // namespace sumogamma::osm

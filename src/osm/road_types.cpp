@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "osm/mode_access.h"
 #include "osm/network_file.h"
-#include "osm/prepare.h"
+#include "osm/ways.h"
 
 namespace sumogamma::osm {
 namespace {

@@ -541,11 +541,21 @@ double elevation_at(const Lane& lane, double along) {
 
 RoadNetwork read_sumo_net(const std::filesystem::path& file) {
   pugi::xml_document document;
-  const pugi::xml_node root = load_document(file, document);
+  load_document(file, document);
+  return read_sumo_net(document, file);
+}
+
+RoadNetwork read_net_elements(const pugi::xml_document& document,
+                              const std::filesystem::path& file) {
+  const pugi::xml_node root = document.document_element();
   if (std::string_view(root.name()) != "net")
     throw Error(file.string(),
                 "root element is <" + std::string(root.name()) + ">, expected <net>");
-  RoadNetwork network = NetBuilder(file, root).build();
+  return NetBuilder(file, root).build();
+}
+
+RoadNetwork read_sumo_net(const pugi::xml_document& document, const std::filesystem::path& file) {
+  RoadNetwork network = read_net_elements(document, file);
   set_back_stop_lines(network);
   find_inner_signals(network);
   set_junction_rooms(network);

@@ -7,11 +7,23 @@
 
 #include "road/road_network.h"
 
+namespace pugi {
+class xml_document;
+}
+
 namespace sumogamma {
 
 /// Reads a SUMO network (.net.xml, or gzipped .net.xml.gz).
 /// Throws Error naming the file where it is missing, unreadable, not a network, or inconsistent.
 RoadNetwork read_sumo_net(const std::filesystem::path& file);
+
+/// The same of a network that is parsed already; `file` names it where it is inconsistent.
+RoadNetwork read_sumo_net(const pugi::xml_document& document, const std::filesystem::path& file);
+
+/// Its elements alone, without what is worked out from them: stop lines set back, signals within
+/// junctions, rooms of junctions, overpasses. For who looks at networks that nobody drives on.
+RoadNetwork read_net_elements(const pugi::xml_document& document,
+                              const std::filesystem::path& file);
 
 /// Appends the polygons of a SUMO additional file (<poly>) as obstacles: type "building*" and
 /// "furniture*" closed, "barrier*" open chains, anything else ignored. Throws Error as above.

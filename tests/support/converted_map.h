@@ -7,6 +7,7 @@
 #include <string>
 
 #include "osm/netconvert.h"
+#include "osm/network_file.h"
 #include "road/sumo_net_reader.h"
 
 namespace sumogamma::osm {
@@ -28,6 +29,7 @@ struct ConvertedMap {
   ~ConvertedMap() { std::filesystem::remove_all(request.folder); }
 
   std::filesystem::path network() const { return request.folder / request.network; }
+  NetworkFile load() const { return load_network(network()); }
   RoadNetwork read() const { return read_sumo_net(network()); }
 };
 

@@ -42,4 +42,22 @@ class MapBuilder {
   LocalMetric metric_{GeoPoint{11.0, 48.0}};
 };
 
+/*            5
+              |
+   2 --s11--> 1 <--s12-- 3      stop lines 30 m out
+              |
+              4                                       */
+inline MapBuilder crossroads_with_stop_lines() {
+  const Tags street = {{"highway", "residential"}};
+  MapBuilder b;
+  b.node(1, 0, 0).node(2, -150, 0).node(3, 150, 0).node(4, 0, -150).node(5, 0, 150);
+  b.node(11, -30, 0, {{"highway", "traffic_signals"}})
+      .node(12, 30, 0, {{"highway", "traffic_signals"}});
+  b.way(101, {2, 11, 1}, street)
+      .way(102, {1, 12, 3}, street)
+      .way(103, {4, 1}, street)
+      .way(104, {1, 5}, street);
+  return b;
+}
+
 }  // namespace sumogamma::osm

@@ -165,6 +165,15 @@ TEST_F(ImportTest, StopSignsRuleTheirJunction) {
   EXPECT_EQ(road.junction(road.junction_by_name.at("1")).type, "priority_stop");
 }
 
+TEST_F(ImportTest, ARepairCanBeLeftOut) {
+  const fs::path map = kFixtures / "two_way_stop_right.osm";
+  ASSERT_EQ(import(map, {"--without", "stop-signs", "--without", "kerbs"}).exit_code, 0);
+  const auto report = nlohmann::json::parse(content(out() / "import.json"));
+  EXPECT_EQ(report["repairs_left_out"], (nlohmann::json{"kerbs", "stop-signs"}));
+  for (const Junction& junction : read_sumo_net(out() / "net.net.xml").junctions)
+    EXPECT_NE(junction.type, "priority_stop");
+}
+
 TEST_F(ImportTest, ABridgeIsAboveTheRoadBelow) {
   ASSERT_EQ(import(kFixtures / "bridge_left.osm", {"--agents", "5", "--duration", "60"}).exit_code,
             0);
@@ -407,6 +416,10 @@ TEST_F(ImportTest, RefusesBadOptions) {
     expect_refused(import(map, {"--bbox", box}), "--bbox");
   expect_refused(import(map, {"--bbox", "20,20,21,21"}), "outside the extract");
   expect_refused(import(map, {"--bbox", "11.01,47.9,11.02,48.1"}), "outside the extract");
+}
+
+TEST_F(ImportTest, RefusesARepairThatItDoesNotKnow) {
+  expect_refused(import(kFixtures / "zebra_right.osm", {"--without", "stop-sign"}), "stop-signs?");
 }
 
 TEST_F(ImportTest, RefusesAFolderThatIsNotItsOwn) {

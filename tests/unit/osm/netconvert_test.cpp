@@ -59,8 +59,8 @@ TEST(RunNetconvert, JoinsNodesWhereTheyAre) {
   for (const bool left_hand : {false, true}) {
     ConvertedMap map(kStaggered, left_hand);
     run_netconvert(map.request);
-    map.request.joins = {{"2", "3"}};
-    run_netconvert(map.request);
+    map.request.joins = {NodeGroup{"2", "3"}};
+    run_netconvert(map.request, map.load().net());
     const RoadNetwork road = map.read();
     ASSERT_TRUE(road.junction_by_name.contains("cluster_2_3"));
     const Vec2 joined = road.junction(road.junction_by_name.at("cluster_2_3")).position;
