@@ -3,11 +3,11 @@
 #include <chrono>
 #include <ctime>
 
-#include "model/backing.h"
-#include "model/detour.h"
-#include "model/locate.h"
-#include "model/lost_way.h"
-#include "model/road_context.h"
+#include "scene/locate.h"
+#include "traffic/recovery/detour.h"
+#include "traffic/recovery/lost_way.h"
+#include "traffic/recovery/reversing.h"
+#include "traffic/road_context.h"
 
 namespace sumogamma {
 

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "model/approaches.h"
 #include "model/gamma_velocity.h"
-#include "model/lane_choice.h"
 #include "model/tracking.h"
 #include "simulation/world.h"
+#include "traffic/junction/approaches.h"
+#include "traffic/lateral/lane_choice.h"
 
 namespace sumogamma {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "model/approaches.h"
-#include "model/passing.h"
+#include "scene/extent.h"
 #include "scene/storey.h"
+#include "traffic/lateral/passing.h"
 
 namespace sumogamma {
 

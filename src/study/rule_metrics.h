@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "model/road_state.h"
 #include "road/lane_locator.h"
 #include "scene/agent_type.h"
+#include "scene/road_state.h"
 #include "scene/scene.h"
 #include "study/agent_track.h"
 

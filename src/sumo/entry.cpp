@@ -6,9 +6,9 @@
 #include "base/units.h"
 #include "geometry/oriented_box.h"
 #include "geometry/rotation.h"
-#include "model/approaches.h"
-#include "model/following.h"
 #include "model/obstacle_constraints.h"
+#include "scene/extent.h"
+#include "traffic/longitudinal/car_following.h"
 
 namespace sumogamma {
 

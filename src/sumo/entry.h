@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "model/model.h"
-#include "model/road_state.h"
 #include "road/path.h"
+#include "scene/road_state.h"
 #include "scene/storey.h"
 
 namespace sumogamma {

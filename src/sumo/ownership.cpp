@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "model/approaches.h"
+#include "scene/extent.h"
 #include "sumo/sumo_agents.h"
 #include "sumo/sumo_world.h"
 

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "base/units.h"
-#include "model/approaches.h"
 #include "road/lane_locator.h"
+#include "scene/extent.h"
 #include "sumo/sumo_agents.h"
 #include "sumo/sumo_world.h"
 

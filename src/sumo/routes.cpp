@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "base/units.h"
-#include "model/locate.h"
+#include "scene/locate.h"
 #include "sumo/sumo_agents.h"
 #include "sumo/sumo_world.h"
 

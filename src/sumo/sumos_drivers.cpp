@@ -7,8 +7,8 @@
 #include <set>
 
 #include "base/units.h"
-#include "model/approaches.h"
-#include "model/locate.h"
+#include "scene/extent.h"
+#include "scene/locate.h"
 #include "sumo/sumo_world.h"
 
 namespace sumogamma {

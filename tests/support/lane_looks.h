@@ -1,8 +1,8 @@
 #pragma once
 
-#include "model/lane_choice.h"
 #include "support/road_scene.h"
 #include "support/small_net.h"
+#include "traffic/lateral/lane_choice.h"
 
 namespace sumogamma::testing {
 

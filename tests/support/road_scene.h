@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "base/units.h"
-#include "model/locate.h"
 #include "model/model.h"
-#include "model/occupation.h"
-#include "model/road_context.h"
-#include "model/road_view.h"
 #include "model/tick_geometry.h"
+#include "scene/locate.h"
 #include "support/plain_net.h"
+#include "traffic/junction/occupation.h"
+#include "traffic/road_context.h"
+#include "traffic/traffic_view.h"
 
 namespace sumogamma::testing {
 

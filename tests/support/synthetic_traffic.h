@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/random.h"
-#include "model/road_state.h"
 #include "road/road_network.h"
 #include "scene/agent_type.h"
+#include "scene/road_state.h"
 #include "scene/scene.h"
 
 namespace sumogamma::testing {
