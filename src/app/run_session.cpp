@@ -462,7 +462,7 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   results.threads = common.threads;
   observers.fill(results);
   fill_agents(world.life_cycle(), sim->model.types, results.agents);
-  results.agents.detours = sim->detours;
+  results.agents.detours = sim->traffic.detours;
   results.coupling = coupling.result();
   results.hand_back = summary_of(world.coupling().hand_backs);
   results.teleports = static_cast<std::uint64_t>(world.coupling().teleports);

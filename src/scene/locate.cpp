@@ -46,10 +46,9 @@ double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& 
 
 void take_path(Path path, double along, std::size_t row, RoadState& road, Scene& scene) {
   const Path* old = road.path(scene.path[row]);
-  scene.next_stop[row] = old ? next_stop_on(path, *old, scene.next_stop[row]) : 0;
+  scene.halt[row].next = old ? next_stop_on(path, *old, scene.halt[row].next) : 0;
   road.paths[scene.id[row].value] = std::make_shared<const Path>(std::move(path));
   scene.path_along[row] = along;
-  scene.gate[row] = std::numeric_limits<double>::infinity();
 }
 
 }  // namespace sumogamma

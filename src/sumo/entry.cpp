@@ -120,7 +120,7 @@ std::optional<double> entry_speed(const Model& model, const Path& path, const Ag
       return std::nullopt;
     // who is ahead and not quite in this lane may be on its way into it, and is if it says so
     const LaneId lane = path.stretches.front().lane;
-    const bool comes_in = scene.lane[row].lane == lane || scene.merge_to[row] == lane;
+    const bool comes_in = scene.lane[row].lane == lane || scene.context[row].merge_to == lane;
     const double aside = relative.x() <= 0.0 ? 0.3 : comes_in ? 3.5 : 0.7;
     if (on_foot) continue;
     // a long body ahead, amid a lane change, has its tail further aside than its middle

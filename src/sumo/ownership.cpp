@@ -125,7 +125,7 @@ void SumoWorld::hand_back(Scene& scene) {
     const AgentId id = scene.id[row];
     Known& known = known_[id.value];
     if (is_wanted(known, scene.position[row], true)) {
-      if (std::exchange(known.leaves, false)) scene.path_offset[row] = known.liked_offset;
+      if (std::exchange(known.leaves, false)) scene.manners[row].path_offset = known.liked_offset;
       continue;
     }
     if (known.is_person) {
@@ -137,8 +137,8 @@ void SumoWorld::hand_back(Scene& scene) {
       continue;
     }
     if (!std::exchange(known.leaves, true)) {
-      known.liked_offset = scene.path_offset[row];
-      scene.path_offset[row] = 0.0;
+      known.liked_offset = scene.manners[row].path_offset;
+      scene.manners[row].path_offset = 0.0;
     }
     if (may_give(scene, row)) give(id, scene, row);
   }
@@ -200,10 +200,12 @@ void SumoWorld::take_over(AgentId id, Scene& scene, std::size_t row) {
   known.external = known.speed_held = known.lane_held = known.resumes = known.keeps_place = false;
   known.service = Service::None;
   known.watched_steps = -1;
-  scene.stop_left[row] = 0.0;
+  scene.halt[row].left = 0.0;
   scene.control[row] = Control::Gamma;
+  const double liked = scene.manners[row].path_offset;
   scene.manners[row] =
       draw_manners(type_of(model_.types, scene.type[row]).compliance, options_.seed, id.value);
+  scene.manners[row].path_offset = liked;
   scene.steering[row] = 0.0;
   external_ids_.erase({known.is_person, known.sumo_id});
 }

@@ -202,7 +202,7 @@ bool SumoWorld::take_back(const SumoAgent& seen, AgentId id, std::size_t row, Sc
   known.route = std::move(details->route);
   scene.path[row] = static_cast<PathId>(id.value);
   scene.path_along[row] = path->line.project(scene.position[row]).along;
-  scene.next_stop[row] = 0;
+  scene.halt[row].next = 0;
   road.paths[id.value] = std::move(path);
   take_over(id, scene, row);
   return true;
@@ -212,13 +212,13 @@ bool SumoWorld::take_back(const SumoAgent& seen, AgentId id, std::size_t row, Sc
 void SumoWorld::begin_services(Scene& scene, const RoadState& road) {
   constexpr double kBefore = 0.1;  // SUMO refuses a stop that a vehicle has passed [m]
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (scene.stop_left[row] != kForever || scene.control[row] != Control::Gamma) continue;
+    if (scene.halt[row].left != kForever || scene.control[row] != Control::Gamma) continue;
     const AgentId id = scene.id[row];
     Known& known = known_[id.value];
     if (known.service != Service::None) continue;
     const Path& path = *road.path(scene.path[row]);
     const auto plan =
-        static_cast<std::size_t>(path.stops[static_cast<std::size_t>(scene.next_stop[row])].plan);
+        static_cast<std::size_t>(path.stops[static_cast<std::size_t>(scene.halt[row].next)].plan);
     const SumoAgentDetails::Stop& stop = known.stops[plan];
     const Lane& lane = model_.road.lane(model_.road.lane_by_name.at(stop.lane));
     const Vec2 forward = direction_of(scene.heading[row]);
@@ -274,7 +274,7 @@ void SumoWorld::follow_service(const SumoAgent& seen, AgentId id, std::size_t ro
     if (seen.speed < kDrivesOn && time_ < known.asked_at + kPatience) return;
     if (time_ < known.asked_at + kSettles) return;
     const auto details = details_of(known.sumo_id, false);
-    const std::size_t next = static_cast<std::size_t>(scene.next_stop[row]);
+    const std::size_t next = static_cast<std::size_t>(scene.halt[row].next);
     const auto plan = static_cast<std::size_t>(road.path(scene.path[row])->stops[next].plan);
     if (seen.speed < kDrivesOn && details && !details->stops.empty() &&
         same_stop(details->stops.front(), known.stops[plan])) {
@@ -294,8 +294,8 @@ void SumoWorld::end_service(AgentId id, std::size_t row, Scene& scene, RoadState
   backend_.allow_lane_changes(known.sumo_id, true);
   backend_.take_over(known.sumo_id, 0.0);
   external_ids_.erase({false, known.sumo_id});
-  scene.stop_left[row] = 0.0;
-  ++scene.next_stop[row];
+  scene.halt[row].left = 0.0;
+  ++scene.halt[row].next;
   auto details = details_of(known.sumo_id, false);
   if (!details) return;
   const Path& path = *road.path(scene.path[row]);

@@ -35,7 +35,7 @@ bool SumoWorld::follow_sumos_route(SumoAgentDetails& details, AgentId id, std::s
   known.route = std::move(details.route);
   known.trip = path->trip;
   scene.path_along[row] = path->line.project(scene.position[row]).along;
-  scene.next_stop[row] = 0;
+  scene.halt[row].next = 0;
   road.paths[id.value] = std::move(path);
   return true;
 }

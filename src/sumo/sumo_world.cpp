@@ -292,10 +292,10 @@ bool is_at_end(const Path& path, const Scene& scene, std::size_t row, double len
   constexpr double kStood = 2.0;                   // [s]
   const double along = scene.path_along[row];
   if (!path.walking)
-    return static_cast<std::size_t>(scene.next_stop[row]) >= path.stops.size() &&
+    return static_cast<std::size_t>(scene.halt[row].next) >= path.stops.size() &&
            along + 0.5 * length + 0.3 + 2.0 * scene.speed[row] * dt >= path.arrival;
   return along + kOnFoot >= path.arrival ||
-         (along + kInCrowd >= path.arrival && scene.standing_time[row] > kStood);
+         (along + kInCrowd >= path.arrival && scene.held[row].standing > kStood);
 }
 
 }  // namespace
@@ -367,11 +367,12 @@ AgentState SumoWorld::newcomer(const Pending& pending, const Path& path, AgentId
   const double width = details.width > 0.0 && !own_size ? details.width : type.width;
   agent.footprint = box_footprint(length, width);
   const Vec2 direction = path.line.direction_at(0.0);
-  agent.path_offset = draw_path_offset(model_, type, options_.seed, id);
+  agent.manners = draw_manners(type.compliance, options_.seed, id.value);
+  agent.manners.path_offset = draw_path_offset(model_, type, options_.seed, id);
   const PathStretch& stretch = path.stretches.front();
   const double half_width = 0.5 * width;
   const double offset =
-      std::clamp(agent.path_offset, std::min(0.0, half_width + 0.1 - stretch.room_right),
+      std::clamp(agent.manners.path_offset, std::min(0.0, half_width + 0.1 - stretch.room_right),
                  std::max(0.0, stretch.room_left - half_width - 0.1));
   agent.position = path.line.point_at(0.0) + offset * left_of(direction);
   agent.heading = heading_of(direction);
@@ -381,7 +382,6 @@ AgentState SumoWorld::newcomer(const Pending& pending, const Path& path, AgentId
                      type.max_speed)
           : type.preferred_speed;
   agent.behavior = draw_behavior(type, options_.seed, id);
-  agent.manners = draw_manners(type.compliance, options_.seed, id.value);
   agent.path = static_cast<PathId>(id.value);
   return agent;
 }
@@ -542,7 +542,7 @@ void SumoWorld::follow(const SumoAgent& seen, AgentId id, std::size_t row, Scene
     return;
   }
   if (known.keeps_place) {
-    scene.stop_left[row] = options_.dt;  // by its plan
+    scene.halt[row].left = options_.dt;  // by its plan
     take_back(seen, id, row, scene, road);
     return;
   }
@@ -559,8 +559,8 @@ void SumoWorld::follow(const SumoAgent& seen, AgentId id, std::size_t row, Scene
     scene.path_along[row] = path->line.project(scene.position[row]).along;
   follow_lane(seen, id, row, scene, road);
   const bool stopped = stop_state::stopped(seen.stop_state);
-  if (scene.stop_left[row] > 0.0 && !stopped) ++scene.next_stop[row];
-  scene.stop_left[row] = stopped ? options_.dt : 0.0;
+  if (scene.halt[row].left > 0.0 && !stopped) ++scene.halt[row].next;
+  scene.halt[row].left = stopped ? options_.dt : 0.0;
   const bool parks = stop_state::parked(seen.stop_state);
   const bool leaves = !parks && scene.control[row] == Control::Parked;
   if (known.resumes && take_back(seen, id, row, scene, road)) return;

@@ -191,7 +191,7 @@ void SumoWorld::follow_lane(const SumoAgent& seen, AgentId id, std::size_t row, 
   auto other = go_on_from(model_.road, *path, along, from, piece.link, on_lane, kBack);
   if (!other) return;
   scene.path_along[row] = along;
-  scene.next_stop[row] = 0;
+  scene.halt[row].next = 0;
   road.paths[id.value] = std::make_shared<const Path>(std::move(*other));
 }
 
@@ -224,7 +224,7 @@ void SumoWorld::hold_drivers(const Scene& scene) {
                        context.allowed_speed < scene.speed[row] + 1.0;
     double most = bound ? context.allowed_speed : kForever;
     // where both have waited for long, SUMO's driver goes as if there were nobody
-    if (!near.empty() && scene.standing_time[row] < kPatience)
+    if (!near.empty() && scene.held[row].standing < kPatience)
       most = std::min(most, free_speed(scene, row, near, aside));
     if (most < kForever)
       backend_.set_speed(known.sumo_id, known.is_person,

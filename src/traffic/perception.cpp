@@ -8,9 +8,12 @@
 
 namespace sumogamma {
 
-void look_around(const Model& model, const RoadState& road, const Scene& scene,
-                 const SpatialGrid& grid, std::size_t row, double reach, double aside,
+void look_around(const TrafficView& view, std::size_t row, double reach, double aside,
                  Surroundings& around) {
+  const Model& model = view.model;
+  const RoadState& road = view.road;
+  const Scene& scene = view.scene;
+  const SpatialGrid& grid = view.grid;
   const Path& path = *road.path(scene.path[row]);
   const double along = scene.path_along[row];
   const Vec2 tangent = path.line.direction_at(along);
@@ -70,16 +73,16 @@ void look_at_walls(const Model& model, const Path& path, const Scene& scene, std
   }
 }
 
-void look_at_red_crossings(const Path& path, const Scene& scene, std::size_t row,
+void look_at_red_crossings(const TrafficView& view, const Path& path, std::size_t row,
                            Surroundings& around) {
   constexpr double kLong = 4.0;                // [s]
   constexpr double kTip = 0.25, kReach = 4.0;  // [m]
-  const RoadContext& context = scene.context[row];
-  if (scene.waiting_time[row] <= kLong || context.reason == LimitReason::Signal) return;
+  const RoadContext& context = view.scene.context[row];
+  if (view.traffic.waiting_time[row] <= kLong || context.reason == LimitReason::Signal) return;
   for (const Vec2& way : context.to_red) {
     if (way.isZero()) continue;
     const Vec2 onto = way.normalized();
-    const Vec2 tip = scene.position[row] + way + half_extent(scene, row, onto) * onto;
+    const Vec2 tip = view.scene.position[row] + way + half_extent(view.scene, row, onto) * onto;
     const PolylinePosition place =
         path.line.project(tip, around.along - kReach, around.along + kReach);
     around.walls.push_back({place.along - kTip, place.along + kTip, place.offset, kTip});

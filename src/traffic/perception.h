@@ -3,9 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/spatial_grid.h"
-#include "model/model.h"
-#include "scene/road_state.h"
+#include "traffic/traffic_view.h"
 
 namespace sumogamma {
 
@@ -38,8 +36,7 @@ struct Surroundings {
 
 /// Fills `around` for a row with a path: everybody whose centre lies within `reach` ahead, or
 /// `reach` behind [m], and within `aside` of the path on the same storey.
-void look_around(const Model& model, const RoadState& road, const Scene& scene,
-                 const SpatialGrid& grid, std::size_t row, double reach, double aside,
+void look_around(const TrafficView& view, std::size_t row, double reach, double aside,
                  Surroundings& around);
 
 /// Fills around.walls, after look_around, with what is solid within `reach` [m] of a row and within
@@ -50,7 +47,7 @@ void look_at_walls(const Model& model, const Path& path, const Scene& scene, std
 /// Adds to around.walls, after look_at_walls, where a row that has been held up for long is about
 /// to get onto a red crossing that it doesn't wait for (RoadContext::to_red): who walked along
 /// beside the tip of one pressed on against it, for as long as it was red.
-void look_at_red_crossings(const Path& path, const Scene& scene, std::size_t row,
+void look_at_red_crossings(const TrafficView& view, const Path& path, std::size_t row,
                            Surroundings& around);
 
 /// Speed that can be hoped for over the next seconds with the body's centre at `offset` beside the

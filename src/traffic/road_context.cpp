@@ -33,7 +33,7 @@ void limit(double acceleration, LimitReason reason, std::int64_t foe, double& bi
 
 /// Planned halts: stands for the stop's duration with the front at its end.
 double stop_acceleration(const Scene& scene, const Course& course, double free_speed) {
-  const auto next = static_cast<std::size_t>(scene.next_stop[course.row]);
+  const auto next = static_cast<std::size_t>(scene.halt[course.row].next);
   if (next >= course.path.stops.size()) return course.type.max_acceleration;
   const double gap =
       course.path.stops[next].along - course.along - course.half_length + course.type.min_gap;
@@ -42,9 +42,11 @@ double stop_acceleration(const Scene& scene, const Course& course, double free_s
 
 /// Remembers that the agent came to a halt before its next link, on the junction where it may wait
 /// there, or before the link right behind it where it has priority at the next.
-void note_halt(const RoadNetwork& road, const Course& course, Scene& scene) {
+void note_halt(const TrafficView& view, const Course& course, TrafficState& traffic) {
+  const RoadNetwork& road = view.model.road;
+  const Scene& scene = view.scene;
   constexpr double kAtLine = 4.0, kHalt = 0.3;
-  if (scene.standing_time[course.row] < kHalt) return;
+  if (scene.held[course.row].standing < kHalt) return;
   const double front = course.along + course.half_length;
   for (const PathLink& link : course.path.links) {
     if (link.stop_line < front - 0.3 && front > link.inside + 0.3) continue;
@@ -54,9 +56,9 @@ void note_halt(const RoadNetwork& road, const Course& course, Scene& scene) {
         halt_counts_for(road, course.path, link, 2.0 * course.half_length);
     const bool has_priority = connection.state == 'M' && connection.signal == kNoSignal;
     if (has_priority && halted_for == link.connection) continue;
-    if (scene.halted_for[course.row] != halted_for) {
-      scene.halted_for[course.row] = halted_for;
-      scene.halted_at[course.row] = scene.time;
+    if (traffic.halted_for[course.row] != halted_for) {
+      traffic.halted_for[course.row] = halted_for;
+      traffic.halted_at[course.row] = scene.time;
     }
     return;
   }
@@ -98,8 +100,8 @@ double beside_lane(const Model& model, const Course& course) {
 
 /// Who rides wholly in the lane beside its own, past a queue, drives over that lane's line: at red
 /// it halts there, though its own lane be free to go.
-LinkDecision decide_beside(const RoadView& view, const Course& course, const Traveller& traveller,
-                           const PathLink& link) {
+LinkDecision decide_beside(const TrafficView& view, const Course& course,
+                           const Traveller& traveller, const PathLink& link) {
   const RoadNetwork& network = view.model.road;
   const LaneId own = course.path.stretch_at(course.along).lane;
   const Lane& lane = network.lane(own);
@@ -129,9 +131,9 @@ void aim_sooner(const Scene& scene, const Course& course, double way, RoadContex
   context.sub_goal = position + from_body(Vec2(ahead, goal.y()), context.tangent);
 }
 
-void set_allowed_speed(const RoadView& view, const Course& course, double dt,
+void set_allowed_speed(const TrafficView& view, const Course& course, double dt,
                        RoadContext& context) {
-  const auto& [model, road, scene, grid, approaches] = view;
+  const auto& [model, road, scene, traffic, grid, approaches] = view;
   const AgentType& type = course.type;
   const double front = course.along + course.half_length;
   const double free_speed = context.speed_limit;
@@ -141,7 +143,7 @@ void set_allowed_speed(const RoadView& view, const Course& course, double dt,
   double binding = following_acceleration(type, course.speed, free_speed,
                                           std::numeric_limits<double>::infinity(), 0.0);
   DrivingAhead ahead;
-  const Leader leader = find_leader(model, road, scene, grid, course.row, reach, ahead);
+  const Leader leader = find_leader(view, course.row, reach, ahead);
   if (leader.id >= 0)
     limit(
         behind_acceleration(type, course.speed, free_speed,
@@ -162,7 +164,7 @@ void set_allowed_speed(const RoadView& view, const Course& course, double dt,
   // who stands sees the light at the head of its queue
   constexpr double kSeesLight = 100.0;  // [m]
   bool first = true;
-  const double looked_at = scene.standing_time[course.row] > 0.0 ? kSeesLight : reach;
+  const double looked_at = scene.held[course.row].standing > 0.0 ? kSeesLight : reach;
   for (PathLink link : course.path.links) {
     if (link.end < course.along - course.half_length) continue;
     if (link.stop_line > front + looked_at) break;
@@ -213,16 +215,16 @@ void set_allowed_speed(const RoadView& view, const Course& course, double dt,
       limit(following_acceleration(type, course.speed, free_speed, gap, 0.0), room.reason, room.foe,
             binding, context);
   }
-  if (std::isfinite(scene.gate[course.row])) {
+  if (std::isfinite(traffic.gate[course.row])) {
     // some way before it: who rolled over it by a hair had begun its change, whoever was beside
     constexpr double kBefore = 0.3;  // [m]
-    const double gap = scene.gate[course.row] - kBefore - course.along + type.min_gap;
+    const double gap = traffic.gate[course.row] - kBefore - course.along + type.min_gap;
     limit(following_acceleration(type, course.speed, free_speed, gap, 0.0), LimitReason::Merge, -1,
           binding, context);
   }
   limit(stop_acceleration(scene, course, free_speed), LimitReason::Stop, -1, binding, context);
   context.allowed_speed = std::max(0.0, course.speed + eased(scene, course, binding, dt) * dt);
-  if (scene.gives_way_left[course.row] > 0.0) {
+  if (traffic.gives_way_left[course.row] > 0.0) {
     context.allowed_speed = 0.0;
     context.reason = LimitReason::GivesWay;
     context.foe = -1;
@@ -240,48 +242,60 @@ void set_allowed_speed(const RoadView& view, const Course& course, double dt,
   }
 }
 
+/// Where a row is on its path.
+Course course_of(const TrafficView& view, const Path& path, std::size_t row) {
+  const Scene& scene = view.scene;
+  const double along = scene.path_along[row];
+  const Vec2 tangent = path.line.direction_at(along);
+  const AgentType& type = type_of(view.model.types, scene.type[row]);
+  const bool remembers = !path.walking && !type.steady_headway;
+  return {path,
+          type,
+          row,
+          along,
+          cross(tangent, scene.position[row] - path.line.point_at(along)),
+          half_extent(scene, row, tangent),
+          path.walking ? std::max(0.0, scene.velocity[row].dot(tangent)) : scene.speed[row],
+          scene.manners[row].headway_factor *
+              (remembers ? headway_memory(scene.time - view.traffic.stood_at[row]) : 1.0)};
+}
+
+/// Writes the row's own columns of `traffic` alone.
+RoadContext road_context(const TrafficView& view, std::size_t row, double dt,
+                         TrafficState& traffic) {
+  const Scene& scene = view.scene;
+  RoadContext context;
+  const Path* path = view.road.path(scene.path[row]);
+  if (path == nullptr) return context;
+  const Course course = course_of(view, *path, row);
+  context.active = true;
+  context.speed_limit =
+      std::min(path->walking ? path->profile_at(course.along)
+                             : foreseen_limit(*path, course.along, course.speed, dt),
+               scene.preferred_speed[row]);
+  context.merge_to = traffic.merge_to[row];
+  context.aside = traffic.lateral_aim[row] - scene.manners[row].path_offset;
+  set_geometry(view, course, context);
+  note_halt(view, course, traffic);
+  if (path->walking) {
+    set_walker_limits(view, course, context);
+  } else {
+    set_allowed_speed(view, course, dt, context);
+    note_keeping_clear(view, course, context, dt, traffic);
+  }
+  return context;
+}
+
 }  // namespace
 
-void update_road_contexts(const Model& model, const RoadState& road, const SpatialGrid& grid,
-                          double dt, Workers& workers, ApproachTable& approaches, Scene& scene) {
-  approaches.rebuild(model, road, scene);
-  const RoadView view{model, road, scene, grid, approaches};
-  workers.for_each_range(scene.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      RoadContext context;
-      const Path* path = road.path(scene.path[row]);
-      if (path != nullptr) {
-        const double along = scene.path_along[row];
-        const Vec2 tangent = path->line.direction_at(along);
-        const AgentType& type = type_of(model.types, scene.type[row]);
-        const bool remembers = !path->walking && !type.steady_headway;
-        const Course course{
-            *path,
-            type,
-            row,
-            along,
-            cross(tangent, scene.position[row] - path->line.point_at(along)),
-            half_extent(scene, row, tangent),
-            path->walking ? std::max(0.0, scene.velocity[row].dot(tangent)) : scene.speed[row],
-            scene.manners[row].headway_factor *
-                (remembers ? headway_memory(scene.time - scene.stood_at[row]) : 1.0)};
-        context.active = true;
-        context.speed_limit =
-            std::min(path->walking ? path->profile_at(along)
-                                   : foreseen_limit(*path, along, course.speed, dt),
-                     scene.preferred_speed[row]);
-        set_geometry(model, scene, course, context);
-        note_halt(model.road, course, scene);
-        if (path->walking) {
-          set_walker_limits(view, course, context);
-        } else {
-          set_allowed_speed(view, course, dt, context);
-          note_keeping_clear(view, course, context, dt, scene);
-        }
-      }
-      // a row reads other rows' state but never their new context
-      scene.context[row] = context;
-    }
+void update_road_contexts(const TrafficTick& tick) {
+  const TrafficView view = tick.view();
+  const Scene& scene = tick.scene;
+  tick.approaches.rebuild(tick.model, tick.road, scene, tick.traffic);
+  tick.workers.for_each_range(scene.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    // a row reads other rows' state but never their new context
+    for (std::size_t row = begin; row < end; ++row)
+      tick.scene.context[row] = road_context(view, row, tick.dt, tick.traffic);
   });
 }
 

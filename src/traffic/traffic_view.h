@@ -5,14 +5,17 @@
 #include "scene/road_state.h"
 #include "scene/scene.h"
 #include "traffic/junction/approaches.h"
+#include "traffic/traffic_state.h"
 
 namespace sumogamma {
 
-/// The frozen scene and what is known of its roads, for the rules of one tick.
-struct RoadView {
+/// What every rule of one tick reads: the frozen scene, what is known of its roads, and what the
+/// rules remember.
+struct TrafficView {
   const Model& model;
   const RoadState& road;
   const Scene& scene;
+  const TrafficState& traffic;
   const SpatialGrid& grid;
   const ApproachTable& approaches;
 };

@@ -19,7 +19,7 @@ inline void let_all_look(RoadScene& here) {
   LaneChoiceWork work;
   Workers alone(1);
   for (here.scene.tick = 0; here.scene.tick < 8; ++here.scene.tick)
-    choose_lanes(here.model, here.geometry.grid, 0.05, alone, here.road, here.scene, work);
+    choose_lanes(here.tick(alone), work);
 }
 
 }  // namespace sumogamma::testing

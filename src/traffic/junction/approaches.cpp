@@ -34,7 +34,8 @@ ConnectionId halt_counts_for(const RoadNetwork& road, const Path& path, const Pa
   return counts;
 }
 
-void ApproachTable::rebuild(const Model& model, const RoadState& road, const Scene& scene) {
+void ApproachTable::rebuild(const Model& model, const RoadState& road, const Scene& scene,
+                            const TrafficState& traffic) {
   for (const Approach& approach : approaches_) ranges_[index_of(approach.connection)] = {};
   ranges_.resize(model.road.connections.size());
   approaches_.clear();
@@ -45,13 +46,13 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
     // who is on foot shuffles before what shuts its way, and never stands for long
     const bool shuffles =
         type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic &&
-        context.reason == LimitReason::None && scene.waiting_time[row] > kShuffles;
-    waiting_[row] = {context.reason,        context.foe,
-                     scene.halted_for[row], scene.halted_at[row],
-                     context.to_halt,       shuffles || scene.blocked_time[row] > kPatience};
+        context.reason == LimitReason::None && traffic.waiting_time[row] > kShuffles;
+    waiting_[row] = {context.reason,          context.foe,
+                     traffic.halted_for[row], traffic.halted_at[row],
+                     context.to_halt,         shuffles || scene.held[row].blocked > kPatience};
   }
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (waiting_[row].reason != LimitReason::Yield || scene.standing_time[row] < kSomeTime)
+    if (waiting_[row].reason != LimitReason::Yield || scene.held[row].standing < kSomeTime)
       continue;
     if (!comes_with_right_of_way(model, road, scene, row)) continue;
     // whoever that one stands behind holds it up, too
@@ -73,7 +74,7 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
     const bool wide = is_wide(scene, row);
     // far enough for the slowest foe to find its gap: ten seconds at the present speed
     const double reach = std::max(path->walking ? 8.0 : 30.0, 10.0 * speed);
-    const ConnectionId halted_for = scene.halted_for[row];
+    const ConnectionId halted_for = traffic.halted_for[row];
     auto link = path->link_from(along - half_length);
     for (; link != path->links.end() && link->stop_line < along + half_length + reach; ++link) {
       const bool has_halted =

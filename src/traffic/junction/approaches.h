@@ -6,6 +6,7 @@
 #include "model/model.h"
 #include "scene/extent.h"
 #include "scene/road_state.h"
+#include "traffic/traffic_state.h"
 
 namespace sumogamma {
 
@@ -41,7 +42,8 @@ class ApproachTable {
  public:
   /// Registers every agent with a path for the links within its stopping distance and some seconds.
   /// Serial, O(n log n).
-  void rebuild(const Model& model, const RoadState& road, const Scene& scene);
+  void rebuild(const Model& model, const RoadState& road, const Scene& scene,
+               const TrafficState& traffic);
   /// Foremost first.
   std::span<const Approach> of(ConnectionId id) const;
   /// Frozen copy of what the contexts said at the last tick: rows may read each other's.

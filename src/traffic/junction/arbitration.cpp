@@ -61,18 +61,18 @@ constexpr double kNearLine = 2.5;
 bool has_entered(double past, double begin) { return past > begin + kEdge; }
 
 /// Has a row waited for longer than another? The smaller id where they began together.
-bool has_waited_longer(const Scene& scene, std::size_t row, std::size_t other) {
-  const double own = scene.waiting_time[row], their = scene.waiting_time[other];
-  return own > their || (own == their && scene.id[row] < scene.id[other]);
+bool has_waited_longer(const TrafficView& view, std::size_t row, std::size_t other) {
+  const double own = view.traffic.waiting_time[row], their = view.traffic.waiting_time[other];
+  return own > their || (own == their && view.scene.id[row] < view.scene.id[other]);
 }
 
 /// True where a foe that stands and waits lets `row` go first: it waits for a signal or in a queue,
 /// for this very agent, or it came later. Of two that wait for each other exactly one goes: who is
 /// on foot, else who has stood longer.
-bool lets_go_first(const Model& model, const Scene& scene, const ApproachTable& approaches,
-                   const Approach& foe, std::size_t row, bool both_on_junction, bool has_set_out) {
+bool lets_go_first(const TrafficView& view, const Approach& foe, std::size_t row,
+                   bool both_on_junction, bool has_set_out) {
   if (!foe.stands || (both_on_junction && foe.speed > kCreeps)) return false;
-  const Waiting& waiting = approaches.waiting(foe.row);
+  const Waiting& waiting = view.approaches.waiting(foe.row);
   switch (waiting.reason) {
     case LimitReason::Signal:
     case LimitReason::Stop:
@@ -90,14 +90,15 @@ bool lets_go_first(const Model& model, const Scene& scene, const ApproachTable& 
       return false;
   }
   auto on_foot = [&](std::size_t r) {
-    return type_of(model.types, scene.type[r]).kinematics == Kinematics::Holonomic;
+    return type_of(view.model.types, view.scene.type[r]).kinematics == Kinematics::Holonomic;
   };
-  if (waiting.foe == scene.id[row].value && on_foot(row) != on_foot(foe.row)) return on_foot(row);
-  const double own = scene.waiting_time[row], other = scene.waiting_time[foe.row];
+  if (waiting.foe == view.scene.id[row].value && on_foot(row) != on_foot(foe.row))
+    return on_foot(row);
+  const double own = view.traffic.waiting_time[row], other = view.traffic.waiting_time[foe.row];
   // it has waited long for a third one and isn't about to go
-  if (waiting.foe != scene.id[row].value && other > kPatience && (own > kLooks || has_set_out))
+  if (waiting.foe != view.scene.id[row].value && other > kPatience && (own > kLooks || has_set_out))
     return true;
-  return has_waited_longer(scene, row, foe.row);
+  return has_waited_longer(view, row, foe.row);
 }
 
 /// Where a front waits for a zone of a link [m along its path]: before the stop line, or on the
@@ -117,9 +118,9 @@ WaitingPlace waiting_place(const PathLink& link, double zone_begin) {
 
 /// Does somebody ride so far beside the middle of its lane that on the junction it might wait where
 /// a foe's long body sweeps? Whether that one turns isn't asked.
-bool is_aside_for(const Approach& foe, const Scene& scene, std::size_t row) {
+bool is_aside_for(const Approach& foe, const TrafficState& traffic, std::size_t row) {
   constexpr double kAside = 0.7, kLong = 7.0;  // [m]
-  return foe.length > kLong && std::abs(scene.passing_offset[row]) >= kAside;
+  return foe.length > kLong && std::abs(traffic.passing_offset[row]) >= kAside;
 }
 
 /// What a foe means for a traveller.
@@ -129,7 +130,7 @@ enum class Verdict {
   Blocks,  ///< it has to be waited for
 };
 
-struct Judge : RoadView {
+struct Judge : TrafficView {
   const Traveller& traveller;
   const PathLink& link;
   bool at_red = false;  ///< the traveller goes over this link at red, where the way is free
@@ -265,11 +266,10 @@ struct Judge : RoadView {
     const Waiting& waiting = approaches.waiting(foe.row);
     return !on_foot(traveller.row) && has_set_out_from(link.stop_line) &&
            waiting.reason == LimitReason::Yield && waiting.foe != scene.id[traveller.row].value &&
-           scene.waiting_time[foe.row] > kPatience;
+           traffic.waiting_time[foe.row] > kPatience;
   }
   bool waits_behind(const Approach& foe) const {
-    return lets_go_first(model, scene, approaches, foe, traveller.row,
-                         foe.front > 0.0 && on_junction(),
+    return lets_go_first(*this, foe, traveller.row, foe.front > 0.0 && on_junction(),
                          on_foot(traveller.row) && has_set_out_from(link.halt));
   }
   /// Has a foe on wheels with the right of way stood for so long for others in the zone that the
@@ -278,7 +278,7 @@ struct Judge : RoadView {
     constexpr double kLong = 20.0;  // [s]
     return zone.yields && to_line() > -kEdge && !on_foot(foe.row) &&
            approaches.waiting(foe.row).reason == LimitReason::Yield &&
-           scene.standing_time[foe.row] > kLong;
+           scene.held[foe.row].standing > kLong;
   }
   /// Somebody who hasn't stepped on an unsignalled crossing, where the traveller doesn't let people
   /// go first.
@@ -324,7 +324,7 @@ struct Judge : RoadView {
     constexpr double kLong = 30.0, kSetOut = 10.0;  // of waiting, which walking counts down [s]
     constexpr double kSinceItCame = 45.0;           // [s]
     if (!on_foot(row)) return false;
-    return scene.waiting_time[row] > (scene.speed[row] > kCreeps ? kSetOut : kLong) ||
+    return traffic.waiting_time[row] > (scene.speed[row] > kCreeps ? kSetOut : kLong) ||
            (has_waited_since_it_came(row, its, kSinceItCame) &&
             road.signal(model.road.connection(its)) == 'O');
   }
@@ -411,7 +411,7 @@ struct Judge : RoadView {
   /// Does it halt so for one that has waited for long? Not if it has waited for some time itself.
   bool halts_for_long_wait(const ConflictZone& zone, const Approach& foe) const {
     constexpr double kOwnWait = 10.0;  // [s]
-    return scene.waiting_time[traveller.row] < kOwnWait && halts_at_ease_for(zone, foe);
+    return traffic.waiting_time[traveller.row] < kOwnWait && halts_at_ease_for(zone, foe);
   }
   bool past_line(const ConflictZone& zone) const {
     // who goes at red waits before the junction, not on it; who rolls out beyond its place there
@@ -446,18 +446,19 @@ struct Judge : RoadView {
   /// tries.
   bool in_deadlock(const Approach& foe) const {
     constexpr double kLong = 8.0, kInRing = 3.0;  // [s]
-    const double both = std::min(scene.waiting_time[traveller.row], scene.waiting_time[foe.row]);
+    const double both =
+        std::min(traffic.waiting_time[traveller.row], traffic.waiting_time[foe.row]);
     if (!on_junction() || both < kInRing) return false;
     if (both < kLong && !waits_for_itself(scene, approaches, traveller.row)) return false;
     const LimitReason reason = approaches.waiting(foe.row).reason;
     const bool yields = reason == LimitReason::Yield || reason == LimitReason::Crossing;
     // who isn't held by a rule and moves has begun to try
-    return yields ? has_waited_longer(scene, traveller.row, foe.row) : foe.speed < kCreeps;
+    return yields ? has_waited_longer(*this, traveller.row, foe.row) : foe.speed < kCreeps;
   }
   /// Is a foe on its way out of where it was stuck between bodies, step by step?
   bool creeps_out(const Approach& foe) const {
     constexpr double kLong = 8.0;  // [s]
-    return is_wedged(scene, foe.row) && foe.speed < kCrawl && scene.waiting_time[foe.row] > kLong;
+    return is_wedged(scene, foe.row) && foe.speed < kCrawl && traffic.waiting_time[foe.row] > kLong;
   }
   /// Does a foe creep up to somebody who stands before the zone? Who has waited for some time
   /// crosses such a queue before it, too, not only where it happens to stand.
@@ -466,7 +467,7 @@ struct Judge : RoadView {
     constexpr double kStands = 0.3;     // [m/s]
     const Connection& foe_link = model.road.connection(zone.foe);
     if (joins_our_lane(foe_link) || foe_link.signal != kNoSignal ||
-        scene.waiting_time[traveller.row] <= kSomeTime)
+        traffic.waiting_time[traveller.row] <= kSomeTime)
       return false;
     const Waiting& waiting = approaches.waiting(foe.row);
     if (waiting.reason != LimitReason::Leader) return false;
@@ -495,7 +496,9 @@ struct Judge : RoadView {
   }
   double to_line() const { return link.stop_line - traveller.front; }
   /// From 0 to 1 while the traveller waits.
-  double impatience() const { return std::min(scene.waiting_time[traveller.row] / kLongWait, 1.0); }
+  double impatience() const {
+    return std::min(traffic.waiting_time[traveller.row] / kLongWait, 1.0);
+  }
   /// Does the traveller still wait to join a lane on which the foe comes without having to halt?
   bool turns_in(const ConflictZone& zone, const Connection& foe_link) const {
     const bool halts_first = foe_link.state == 's' || foe_link.state == 'w';
@@ -568,18 +571,21 @@ struct Aspect {
 
 /// Does somebody who stood near its line for a gap before amber began, `since` [s], take the one
 /// that amber makes, as it gets over the line from rest in the time `left` [s]?
-bool takes_gap(const Scene& scene, const Traveller& traveller, const PathLink& link,
+bool takes_gap(const TrafficView& view, const Traveller& traveller, const PathLink& link,
                const AgentType& type, double since, double left) {
   const double to_line = link.stop_line - traveller.front;
-  return to_line < kNearLine && scene.halted_for[traveller.row] == link.connection &&
-         scene.halted_at[traveller.row] < since &&
+  return to_line < kNearLine && view.traffic.halted_for[traveller.row] == link.connection &&
+         view.traffic.halted_at[traveller.row] < since &&
          time_to_cover(to_line, 0.0, type.max_speed, type.max_acceleration) < left;
 }
 
 /// Red stops always, amber where braking at ease still does it, for a front that would come to rest
 /// at `halt`, where the line is drawn at `drawn` [m]. Once past the line, clear the junction.
-SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& traveller,
-                       const PathLink& link, const Aspect& aspect, double halt, double drawn) {
+SignalDuty signal_duty(const TrafficView& view, const Traveller& traveller, const PathLink& link,
+                       const Aspect& aspect, double halt, double drawn) {
+  const Model& model = view.model;
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   const char signal = aspect.letter;
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const bool on_foot = type.kinematics == Kinematics::Holonomic;
@@ -601,7 +607,7 @@ SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& 
     const double most = too_late ? kHardest * type.max_deceleration
                         : late   ? 0.65 * type.max_deceleration
                                  : type.comfortable_deceleration;
-    if (!on_foot && takes_gap(scene, traveller, link, type, aspect.since, left))
+    if (!on_foot && takes_gap(view, traveller, link, type, aspect.since, left))
       return SignalDuty::None;
     const bool stands = late && traveller.speed < kCrawl;
     // who gets over in time doesn't halt where others need the room
@@ -614,7 +620,7 @@ SignalDuty signal_duty(const Model& model, const Scene& scene, const Traveller& 
   const bool steps_back = on_foot && to_line > -kStep;
   const bool can_stop =
       to_line > -1.0 && (steps_back || needed < type.max_deceleration || traveller.speed < kCrawl);
-  const bool has_halted = scene.halted_for[traveller.row] == link.connection;
+  const bool has_halted = traffic.halted_for[traveller.row] == link.connection;
   if ((can_stop || has_halted || on_foot) &&
       goes_at_red(model, scene, traveller.row, link.connection))
     return SignalDuty::GoAtRed;
@@ -632,9 +638,12 @@ bool comes_soon(const ConflictZone& zone, const Approach& foe) {
 
 /// Who has to wait on a junction waits where it stands in nobody's way: not with its body in a zone
 /// that somebody else is about to need, but before it, unless it is in there already.
-void keep_zones_free(const Model& model, const RoadState& road, const Scene& scene,
-                     const ApproachTable& approaches, const Traveller& traveller,
-                     const PathLink& link, LinkDecision& decision) {
+void keep_zones_free(const TrafficView& view, const Traveller& traveller, const PathLink& link,
+                     LinkDecision& decision) {
+  const Model& model = view.model;
+  const RoadState& road = view.road;
+  const Scene& scene = view.scene;
+  const ApproachTable& approaches = view.approaches;
   const Path& path = *road.path(scene.path[traveller.row]);
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const bool wide = is_wide(scene, traveller.row);
@@ -663,8 +672,9 @@ void keep_zones_free(const Model& model, const RoadState& road, const Scene& sce
 
 }  // namespace
 
-LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const PathLink& link) {
-  const auto& [model, road, scene, grid, approaches] = view;
+LinkDecision decide_link(const TrafficView& view, const Traveller& traveller,
+                         const PathLink& link) {
+  const auto& [model, road, scene, traffic, grid, approaches] = view;
   const Connection& connection = model.road.connection(link.connection);
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const char signal = road.signal(connection);
@@ -678,7 +688,7 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
   const double stop_at = halt - kStopMargin;
   LinkDecision decision;
   const SignalDuty duty = signal_duty(
-      model, scene, traveller, link,
+      view, traveller, link,
       {signal, signal_since(road, connection, scene.time), amber_until(road, connection)}, halt,
       is_amber(signal) ? drawn_line(view, traveller, link) : halt);
   if (duty == SignalDuty::Stop) return {true, stop_at, LimitReason::Signal, -1};
@@ -686,7 +696,7 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
   const bool stop_sign = (connection.state == 's' || connection.state == 'w') && signal == 'O';
   const bool halts_first = stop_sign || (at_red && !own_path.walking && connection.storage == 0.0);
   if (halts_first && to_line > -0.2 &&
-      scene.halted_for[traveller.row] !=
+      traffic.halted_for[traveller.row] !=
           halt_counts_for(model.road, own_path, link, traveller.length))
     decision = {true, stop_at, at_red ? LimitReason::Signal : LimitReason::Yield, -1};
 
@@ -725,7 +735,7 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
       const WaitingPlace place = waiting_place(link, zone.begin);
       const bool has_place =
           place.inside && !at_red &&
-          (connection.signal != kNoSignal || !is_aside_for(foe, scene, traveller.row));
+          (connection.signal != kNoSignal || !is_aside_for(foe, traffic, traveller.row));
       double line = has_place && traveller.front < place.along + 0.3 ? place.along
                     : to_line > -0.2                                 ? stop_at
                                      : link.stop_line + zone.begin - kStopMargin;
@@ -744,12 +754,12 @@ LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const
     }
   }
   if (decision.must_stop && decision.stop_at > link.stop_line &&
-      scene.waiting_time[traveller.row] < kKeepsZonesFree)
-    keep_zones_free(model, road, scene, approaches, traveller, link, decision);
+      traffic.waiting_time[traveller.row] < kKeepsZonesFree)
+    keep_zones_free(view, traveller, link, decision);
   return decision;
 }
 
-bool stands_beside(const RoadView& view, const Traveller& traveller, const PathLink& link,
+bool stands_beside(const TrafficView& view, const Traveller& traveller, const PathLink& link,
                    double begin, double end, const Approach& foe) {
   constexpr double kSide = 0.25, kStep = 0.5;  // [m]
   const Scene& scene = view.scene;
@@ -792,9 +802,9 @@ bool has_crossing_traffic(const Model& model, ConnectionId link) {
   });
 }
 
-ZipperLeader find_zipper_leader(const RoadView& view, const Traveller& traveller,
+ZipperLeader find_zipper_leader(const TrafficView& view, const Traveller& traveller,
                                 const PathLink& link) {
-  const auto& [model, road, scene, grid, approaches] = view;
+  const auto& [model, road, scene, traffic, grid, approaches] = view;
   ZipperLeader leader;
   for (const ConflictZone& zone : model.conflicts[index_of(link.connection)]) {
     if (!runs_together(model, link.connection, zone.foe)) continue;

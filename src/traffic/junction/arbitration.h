@@ -24,11 +24,11 @@ struct Traveller {
 };
 
 /// Signals, priority and occupied conflict zones (facts of the network) applied to one link.
-LinkDecision decide_link(const RoadView& view, const Traveller& traveller, const PathLink& link);
+LinkDecision decide_link(const TrafficView& view, const Traveller& traveller, const PathLink& link);
 
 /// Does a body leave free what a traveller sweeps between two places [m past its link's begin]?
 /// Conflict zones and swept ways are wider than bodies.
-bool stands_beside(const RoadView& view, const Traveller& traveller, const PathLink& link,
+bool stands_beside(const TrafficView& view, const Traveller& traveller, const PathLink& link,
                    double begin, double end, const Approach& foe);
 
 /// Do two links lead from lanes of one road into one lane?
@@ -43,7 +43,7 @@ struct ZipperLeader {
   double gap = 0, speed = 0;  ///< between the fronts less the other's length [m]; of it [m/s]
   std::int64_t id = -1;       ///< -1: nobody
 };
-ZipperLeader find_zipper_leader(const RoadView& view, const Traveller& traveller,
+ZipperLeader find_zipper_leader(const TrafficView& view, const Traveller& traveller,
                                 const PathLink& link);
 
 }  // namespace sumogamma

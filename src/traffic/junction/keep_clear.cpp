@@ -16,7 +16,7 @@ constexpr double kQueue = 80.0;   // beyond a link within which a queue is looke
 
 /// Where the next queue behind a link may have its head [m along the path]: before the next link
 /// at which somebody might have to wait, infinite where none is near.
-double next_queue_head(const RoadView& view, const Course& course, const PathLink& link) {
+double next_queue_head(const TrafficView& view, const Course& course, const PathLink& link) {
   for (const PathLink& next : course.path.links) {
     if (next.stop_line <= link.stop_line) continue;
     if (next.stop_line > link.end + kQueue) break;
@@ -39,7 +39,7 @@ double end_of_road(const Course& course, const PathLink& link) {
 /// From where on a body that stands on a link's junction, or behind it, leaves the junction clear
 /// [m along the path]. From the junction's end on; where a light follows at once, though, from the
 /// last place on where others cross: who joins the same road there waits for that light anyway.
-double clear_from(const RoadView& view, const Course& course, const PathLink& link) {
+double clear_from(const TrafficView& view, const Course& course, const PathLink& link) {
   constexpr double kAtOnce = 8.0;  // [m]
   const RoadNetwork& network = view.model.road;
   const auto next = course.path.link_after(link.stop_line);
@@ -60,7 +60,8 @@ double clear_from(const RoadView& view, const Course& course, const PathLink& li
 /// Calls `visit` for everybody who has halted at its line, to give way to the row for the lane that
 /// `link` leads into, and isn't past it.
 template <typename Visit>
-void visit_joining(const RoadView& view, const Course& course, const PathLink& link, Visit visit) {
+void visit_joining(const TrafficView& view, const Course& course, const PathLink& link,
+                   Visit visit) {
   constexpr double kPast = 0.3;  // [m]
   const LaneId to = view.model.road.connection(link.connection).to;
   for (const ConflictZone& zone : view.model.conflicts[index_of(link.connection)]) {
@@ -73,7 +74,7 @@ void visit_joining(const RoadView& view, const Course& course, const PathLink& l
 }
 
 /// Is somebody with that id on a link, past its line?
-bool is_past_line(const RoadView& view, const PathLink& link, std::int64_t id) {
+bool is_past_line(const TrafficView& view, const PathLink& link, std::int64_t id) {
   const auto row = view.approaches.of(link.connection);
   return std::any_of(row.begin(), row.end(), [&](const Approach& one) {
     return one.front > 0.0 && view.scene.id[one.row].value == id;
@@ -82,7 +83,7 @@ bool is_past_line(const RoadView& view, const PathLink& link, std::int64_t id) {
 
 /// Length [m] of who has stood for long at its line and waits to join; of the longest there, 0
 /// where nobody does.
-double waits_to_join(const RoadView& view, const Course& course, const PathLink& link) {
+double waits_to_join(const TrafficView& view, const Course& course, const PathLink& link) {
   constexpr double kLong = 20.0;  // [s]
   double length = 0.0;
   visit_joining(view, course, link, [&](const Approach& foe, const Waiting& waiting) {
@@ -98,7 +99,7 @@ double waits_to_join(const RoadView& view, const Course& course, const PathLink&
 /// Keep clear: is there room behind a link for the body, should everybody ahead close up and stop?
 /// Into a full road drivers let one in who has waited for long, and count its body as well. Where
 /// not, for whom it waits; where to halt is left open. Sorts `ahead`.
-LinkDecision decide_exit(const RoadView& view, DrivingAhead& ahead, const Course& course,
+LinkDecision decide_exit(const TrafficView& view, DrivingAhead& ahead, const Course& course,
                          const PathLink& link) {
   constexpr double kBraking = 3.5;   // [m/s^2]
   constexpr double kDrives = 3.0;    // [m/s]
@@ -107,8 +108,7 @@ LinkDecision decide_exit(const RoadView& view, DrivingAhead& ahead, const Course
   constexpr double kNever = std::numeric_limits<double>::infinity();
   // all of the road that the link leads into: with the few metres that following needs a queue of
   // 60 m looked as if it went on
-  see_queue(view.model, view.road, view.scene, view.grid, course.row, end_of_road(course, link),
-            ahead);
+  see_queue(view, course.row, end_of_road(course, link), ahead);
   if (ahead.count == 0) return {};
   const auto begin = ahead.vehicles.begin(), end = begin + static_cast<std::ptrdiff_t>(ahead.count);
   std::sort(begin, end, [](const auto& a, const auto& b) {
@@ -141,15 +141,15 @@ LinkDecision decide_exit(const RoadView& view, DrivingAhead& ahead, const Course
 /// one with its rear still on this one, or has no room behind that one, waits here already, for
 /// some time, and for a light before which there is no room at all as long as it takes, unless one
 /// here may end meanwhile.
-LinkDecision decide_beyond(const RoadView& view, const Course& course, const Traveller& traveller,
-                           const PathLink& link, DrivingAhead& ahead) {
+LinkDecision decide_beyond(const TrafficView& view, const Course& course,
+                           const Traveller& traveller, const PathLink& link, DrivingAhead& ahead) {
   constexpr double kPatience = 20.0;  // [s]
   constexpr double kFarthest = 20.0;  // [m]
   constexpr double kNoRoom = 2.0;     // between the two [m]
   constexpr double kSetOut = 0.3;     // [m]
   // who has set out from a place short of the line doesn't halt again
   if (traveller.front > link.halt + kSetOut && link.stop_line > link.halt + kSetOut) return {};
-  const bool patient = view.scene.waiting_time[course.row] <= kPatience;
+  const bool patient = view.traffic.waiting_time[course.row] <= kPatience;
   const bool waits_for_light = view.model.road.connection(link.connection).signal == kNoSignal;
   double room_from = clear_from(view, course, link);
   for (PathLink next : course.path.links) {
@@ -175,12 +175,12 @@ LinkDecision decide_beyond(const RoadView& view, const Course& course, const Tra
 
 }  // namespace
 
-LinkDecision keep_clear(const RoadView& view, const Course& course, const Traveller& traveller,
+LinkDecision keep_clear(const TrafficView& view, const Course& course, const Traveller& traveller,
                         const PathLink& link, DrivingAhead& ahead) {
   // who waits on the junction goes no further, either
   const double front = course.along + course.half_length;
   if (std::max(link.stop_line, link.inside) <= front - 0.3 ||
-      view.scene.keeps_clear[course.row] > kKeepsClear ||
+      view.traffic.keeps_clear[course.row] > kKeepsClear ||
       !has_crossing_traffic(view.model, link.connection))
     return {};
   LinkDecision decision = decide_exit(view, ahead, course, link);
@@ -192,12 +192,12 @@ LinkDecision keep_clear(const RoadView& view, const Course& course, const Travel
   return {true, line - kStopMargin, decision.reason, decision.foe};
 }
 
-LinkDecision let_one_in(const RoadView& view, const Course& course, const Traveller& traveller,
+LinkDecision let_one_in(const TrafficView& view, const Course& course, const Traveller& traveller,
                         const PathLink& link) {
   constexpr double kStands = 2.0, kSomeTime = 10.0, kLong = 20.0, kPatience = 120.0;  // [s]
   constexpr double kAtLine = 6.0, kFirst = 2.5, kShort = 40.0;                        // [m]
   const Connection& connection = view.model.road.connection(link.connection);
-  const double waited = view.scene.waiting_time[course.row];
+  const double waited = view.traffic.waiting_time[course.row];
   if (traveller.front > link.stop_line + 0.3 || traveller.front < link.halt - kAtLine ||
       waited < kStands || waited > kPatience || connection.signal != kNoSignal ||
       next_queue_head(view, course, link) < link.end + kShort)
@@ -226,16 +226,20 @@ LinkDecision let_one_in(const RoadView& view, const Course& course, const Travel
   return decision;
 }
 
-bool takes_turning_room(const RoadView& view, const Course& course, const PathLink& link) {
+bool takes_turning_room(const TrafficView& view, const Course& course, const PathLink& link) {
   constexpr double kCycles = 180.0;  // [s]
   const bool signalled = view.model.road.connection(link.connection).signal != kNoSignal;
-  return view.scene.keeps_clear[course.row] > kKeepsClear &&
-         (!signalled || view.scene.waiting_time[course.row] > kCycles);
+  return view.traffic.keeps_clear[course.row] > kKeepsClear &&
+         (!signalled || view.traffic.waiting_time[course.row] > kCycles);
 }
 
-void note_keeping_clear(const RoadView& view, const Course& course, const RoadContext& context,
-                        double dt, Scene& scene) {
-  double& kept = scene.keeps_clear[course.row];
+void forget_keeping_clear(TrafficState& traffic, std::size_t row) {
+  traffic.keeps_clear[row] = 0.0;
+}
+
+void note_keeping_clear(const TrafficView& view, const Course& course, const RoadContext& context,
+                        double dt, TrafficState& traffic) {
+  double& kept = traffic.keeps_clear[course.row];
   const bool for_others =
       context.reason == LimitReason::BlockedJunction || context.reason == LimitReason::TurningRoom;
   if (for_others && course.speed < 0.3) {
@@ -246,7 +250,7 @@ void note_keeping_clear(const RoadView& view, const Course& course, const RoadCo
       kept = kKeepsClear + kGoesOn;
   } else if (kept > kKeepsClear) {
     kept = kept - dt > kKeepsClear ? kept - dt : 0.0;
-  } else if (scene.waiting_time[course.row] == 0.0) {
+  } else if (traffic.waiting_time[course.row] == 0.0) {
     kept = 0.0;
   }
 }

@@ -19,7 +19,7 @@ double time_to_drive(const Path& path, double from, double to, double speed, dou
   return time;
 }
 
-Occupation occupation(const RoadView& view, const Approach& who, double begin, double end) {
+Occupation occupation(const TrafficView& view, const Approach& who, double begin, double end) {
   if (who.front - who.length > end) return {Occupation::kNever, Occupation::kNever};
   // somebody who stands in it stays there as far as anyone can tell
   if (who.front > begin && who.speed < 0.3) return {0.0, Occupation::kNever};

@@ -14,7 +14,7 @@ struct Occupation {
 
 /// From when the front of a row with a path gets to `begin` until its rear has left `end` [m past
 /// the link's begin, as `who.front`], as fast as its path, its type and its liking let it.
-Occupation occupation(const RoadView& view, const Approach& who, double begin, double end);
+Occupation occupation(const TrafficView& view, const Approach& who, double begin, double end);
 
 /// Time [s] in which somebody at `speed` [m/s] gets from one place of its path to another [m along
 /// it, of its middle], as its speed profile and `most` [m/s] let it, taking up speed with

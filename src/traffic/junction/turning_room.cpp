@@ -35,7 +35,7 @@ bool comes_first(const Occupation& theirs, const Occupation& ours, bool surely, 
 }
 
 /// Does somebody halt at ease before its piece of a way?
-bool halts_before(const RoadView& view, const Approach& foe, const SweptWay& way) {
+bool halts_before(const TrafficView& view, const Approach& foe, const SweptWay& way) {
   const AgentType& type = type_of(view.model.types, view.scene.type[foe.row]);
   return deceleration_to_stop(foe.speed, way.foe_begin - foe.front) < type.comfortable_deceleration;
 }
@@ -43,21 +43,21 @@ bool halts_before(const RoadView& view, const Approach& foe, const SweptWay& way
 /// Has a long body waited for long for those who come through the room that it needs, before that
 /// place or amid it, held by bodies? On the junction, where others wait for it, it soon has, and
 /// the time counts in which it backed out before somebody. A queue that creeps on is never over.
-bool has_long_wanted(const RoadView& view, const Approach& foe, bool there) {
+bool has_long_wanted(const TrafficView& view, const Approach& foe, bool there) {
   constexpr double kLong = 10.0, kSoon = 3.0;  // [s]
   const Waiting& waiting = view.approaches.waiting(foe.row);
   const Scene& scene = view.scene;
-  if (there && waiting.blocked) return scene.waiting_time[foe.row] > kLong;
+  if (there && waiting.blocked) return view.traffic.waiting_time[foe.row] > kLong;
   if (foe.front <= 0.0)
-    return waiting.reason == LimitReason::TurningRoom && scene.standing_time[foe.row] > kLong;
-  return scene.waiting_time[foe.row] > kSoon &&
+    return waiting.reason == LimitReason::TurningRoom && scene.held[foe.row].standing > kLong;
+  return view.traffic.waiting_time[foe.row] > kSoon &&
          (waiting.reason == LimitReason::TurningRoom || waiting.reason == LimitReason::GivesWay);
 }
 
 /// See leave_turning_room; of somebody whose trip `ends` at the line, who is gone from there on.
-LinkDecision leave_room(const RoadView& view, const Traveller& traveller, const PathLink& link,
+LinkDecision leave_room(const TrafficView& view, const Traveller& traveller, const PathLink& link,
                         bool ends) {
-  const auto& [model, road, scene, grid, approaches] = view;
+  const auto& [model, road, scene, traffic, grid, approaches] = view;
   LinkDecision decision;
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const double front = traveller.front - link.stop_line;
@@ -114,7 +114,7 @@ LinkDecision leave_room(const RoadView& view, const Traveller& traveller, const 
 
 }  // namespace
 
-double drawn_line(const RoadView& view, const Traveller& traveller, const PathLink& link) {
+double drawn_line(const TrafficView& view, const Traveller& traveller, const PathLink& link) {
   double line = link.halt;
   for (const SweptWay& way : view.model.swept_ways[index_of(link.connection)])
     if (way.foe_sweeps && moves_line(view.model, link, way) &&
@@ -123,9 +123,9 @@ double drawn_line(const RoadView& view, const Traveller& traveller, const PathLi
   return line;
 }
 
-double halt_for_long_bodies(const RoadView& view, const Traveller& traveller,
+double halt_for_long_bodies(const TrafficView& view, const Traveller& traveller,
                             const PathLink& link) {
-  const auto& [model, road, scene, grid, approaches] = view;
+  const auto& [model, road, scene, traffic, grid, approaches] = view;
   double halt = link.halt;
   for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
     const double place = link.stop_line + way.begin;
@@ -146,12 +146,12 @@ double halt_for_long_bodies(const RoadView& view, const Traveller& traveller,
   return halt;
 }
 
-LinkDecision leave_turning_room(const RoadView& view, const Traveller& traveller,
+LinkDecision leave_turning_room(const TrafficView& view, const Traveller& traveller,
                                 const PathLink& link) {
   return leave_room(view, traveller, link, false);
 }
 
-LinkDecision leave_room_at_end(const RoadView& view, const Course& course,
+LinkDecision leave_room_at_end(const TrafficView& view, const Course& course,
                                const Traveller& traveller) {
   constexpr double kAtEnd = 2.0;  // [m]
   LinkDecision decision;

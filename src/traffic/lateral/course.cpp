@@ -100,22 +100,23 @@ constexpr double kStepAhead = 0.3;  ///< [m]
 
 /// Is somebody on foot caught in a nook beside its way, a wall between its body and its `goal`?
 /// Houses leave the middle of the way free.
-bool is_caught(const Model& model, const Scene& scene, const Course& course, double half_width,
-               const Vec2& goal) {
+bool is_caught(const TrafficView& view, const Course& course, double half_width, const Vec2& goal) {
   constexpr double kLong = 10.0;  // [s]
-  if (scene.waiting_time[course.row] <= kLong ||
-      scene.context[course.row].reason != LimitReason::None)
+  if (view.traffic.waiting_time[course.row] <= kLong ||
+      view.scene.context[course.row].reason != LimitReason::None)
     return false;
-  const Vec2 position = scene.position[course.row];
+  const Vec2 position = view.scene.position[course.row];
   const Vec2 side = half_width * left_of((goal - position).normalized());
-  return model.obstacles.is_between(position + side, goal + side) ||
-         model.obstacles.is_between(position - side, goal - side);
+  return view.model.obstacles.is_between(position + side, goal + side) ||
+         view.model.obstacles.is_between(position - side, goal - side);
 }
 
 }  // namespace
 
-void set_geometry(const Model& model, const Scene& scene, const Course& course,
-                  RoadContext& context) {
+void set_geometry(const TrafficView& view, const Course& course, RoadContext& context) {
+  const Model& model = view.model;
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   const Polyline& line = course.path.line;
   const double ahead = course.along + look_ahead(course);
   const double beyond = std::max(0.0, ahead - line.length());
@@ -123,11 +124,11 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
   const PathStretch& target = course.path.stretch_at(ahead);
   const double half_width =
       half_extent(scene, course.row, left_of(direction_of(scene.heading[course.row])));
-  const double over = scene.overtaking_room[course.row];
+  const double over = traffic.overtaking_room[course.row];
   const bool walks = course.path.walking;
   const double over_left = !walks && model.road.left_hand ? 0.0 : over;
   const double over_right = walks ? over : over - over_left;
-  double offset = std::clamp(scene.lateral_aim[course.row],
+  double offset = std::clamp(traffic.lateral_aim[course.row],
                              -std::max(target.room_right + over_right - half_width - 0.1, 0.0),
                              std::max(target.room_left + over_left - half_width - 0.1, 0.0));
   if (course.path.walking) {
@@ -137,7 +138,7 @@ void set_geometry(const Model& model, const Scene& scene, const Course& course,
     const double kept = std::clamp(2.0 * turn, 0.0, 1.0);
     const Vec2 middle = line.point_at(ahead) + beyond * direction;
     context.sub_goal = middle + kept * offset * left_of(direction);
-    if (is_caught(model, scene, course, half_width, context.sub_goal))
+    if (is_caught(view, course, half_width, context.sub_goal))
       context.sub_goal = line.point_at(course.along + kStepAhead);
     const Vec2 chord = middle - line.point_at(course.along);
     context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : direction;

@@ -1,9 +1,6 @@
 #pragma once
 
-#include "model/model.h"
-#include "road/path.h"
-#include "scene/road_context.h"
-#include "scene/scene.h"
+#include "traffic/traffic_view.h"
 
 namespace sumogamma {
 
@@ -20,7 +17,6 @@ struct Course {
 
 /// Where the agent wants to go and what is free to its sides: tangent, sub-goal, bend and rooms of
 /// its context. How fast it may go is road_context's.
-void set_geometry(const Model& model, const Scene& scene, const Course& course,
-                  RoadContext& context);
+void set_geometry(const TrafficView& view, const Course& course, RoadContext& context);
 
 }  // namespace sumogamma

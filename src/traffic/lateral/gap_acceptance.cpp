@@ -49,8 +49,10 @@ double LaneBeside::offset_at(double along) const {
   return shift * (1.0 - smooth_step(std::min((along - from) / (to - from), 1.0)));
 }
 
-bool is_gap(const Scene& scene, const Surroundings& around, std::size_t row, const LaneBeside& lane,
-            double braking) {
+bool is_gap(const TrafficView& view, const Surroundings& around, std::size_t row,
+            const LaneBeside& lane, double braking) {
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   constexpr double kLeast = 0.5, kLeastTime = 0.35;  // [m], [s]
   constexpr double kClose = 0.3, kCloseTime = 0.15;  // [m], [s]
   constexpr double kCourtesy = 2.0, kLeft = 0.4;     // [m/s^2], [m]
@@ -69,7 +71,7 @@ bool is_gap(const Scene& scene, const Surroundings& around, std::size_t row, con
     const bool lets_us_in = user.front < front && waits_for_row(scene, user, row);
     // who stands beside our tail or behind it and holds, or has stepped back to let others go
     // first, leaves the way for our nose
-    const bool holds = lets_us_in || scene.gives_way_left[user.row] > 0.0;
+    const bool holds = lets_us_in || traffic.gives_way_left[user.row] > 0.0;
     if (user.rear < front && holds && leaves_room_for_nose(around, user) && user.speed < kHolds)
       continue;
     if (user.rear < front && user.front > rear) return false;
@@ -88,22 +90,25 @@ bool is_gap(const Scene& scene, const Surroundings& around, std::size_t row, con
   return true;
 }
 
-bool is_contested(const Scene& scene, const Surroundings& around, std::size_t row, LaneId target,
-                  const LaneBeside& lane) {
+bool is_contested(const TrafficView& view, const Surroundings& around, std::size_t row,
+                  LaneId target, const LaneBeside& lane) {
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   constexpr double kHalts = 2.0, kNear = 2.0;  // [s], [m]
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
     const bool other_side = aside_of(scene, user, lane) * lane.shift > 0.0;
-    const bool waits = std::isfinite(scene.gate[user.row]) ||
-                       scene.standing_time[user.row] > kHalts || waits_for_row(scene, user, row);
-    return other_side && scene.merge_to[user.row] == target && !waits &&
+    const bool waits = std::isfinite(traffic.gate[user.row]) ||
+                       scene.held[user.row].standing > kHalts || waits_for_row(scene, user, row);
+    return other_side && traffic.merge_to[user.row] == target && !waits &&
            user.rear < front + kNear && user.front > rear - kNear &&
-           (scene.merge_to[row] != target || scene.id[user.row] < scene.id[row]);
+           (traffic.merge_to[row] != target || scene.id[user.row] < scene.id[row]);
   });
 }
 
-bool is_let_in(const Scene& scene, const Surroundings& around, std::size_t row,
+bool is_let_in(const TrafficView& view, const Surroundings& around, std::size_t row,
                const LaneBeside& lane) {
+  const Scene& scene = view.scene;
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
     const double aside = std::abs(aside_of(scene, user, lane));
     // who follows in our own lane, be it half in the other, waits for us but leaves no gap there
@@ -112,14 +117,16 @@ bool is_let_in(const Scene& scene, const Surroundings& around, std::size_t row,
   });
 }
 
-bool is_beside(const Scene& scene, const Surroundings& around, std::size_t row) {
+bool is_beside(const TrafficView& view, const Surroundings& around, std::size_t row) {
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   constexpr double kSide = 0.3;   // [m]
   constexpr double kWaits = 1.0;  // [s]
   const double front = around.along + around.half_length;
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
     // who waits for a gap itself, or for us, isn't waited for
-    const bool waits = scene.standing_time[user.row] > kWaits &&
-                       (std::isfinite(scene.gate[user.row]) || waits_for_row(scene, user, row));
+    const bool waits = scene.held[user.row].standing > kWaits &&
+                       (std::isfinite(traffic.gate[user.row]) || waits_for_row(scene, user, row));
     return user.aligned && !waits && user.rear < front && user.front > front &&
            std::abs(user.offset) < user.half_width + around.half_width + kSide &&
            std::abs(user.offset - around.offset) > user.half_width + around.half_width - kSide;

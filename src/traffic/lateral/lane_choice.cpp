@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "scene/locate.h"
 #include "traffic/junction/arbitration.h"
 #include "traffic/lateral/exit_lane.h"
 #include "traffic/lateral/gap_acceptance.h"
@@ -68,8 +68,10 @@ double way_to_last_light(const RoadNetwork& network, const Path& path, double al
 }
 
 /// The neighbouring lane on which this agent would rather be, kNoLane where it stays.
-LaneId better_lane(const Model& model, const LaneQueues& queues, const Path& path,
-                   const Scene& scene, const Surroundings& around, std::size_t row) {
+LaneId better_lane(const TrafficView& view, const LaneQueues& queues, const Path& path,
+                   const Surroundings& around, std::size_t row) {
+  const Model& model = view.model;
+  const Scene& scene = view.scene;
   const PathStretch& here = path.stretch_at(around.along);
   const double distance = way_of_change(around.speed);
   const Lane& lane = model.road.lane(here.lane);
@@ -103,7 +105,7 @@ LaneId better_lane(const Model& model, const LaneQueues& queues, const Path& pat
     const double there =
         hoped_speed(around, shift, std::min(free_speed, other.speed_limit * 1.2), 0.3);
     if (there <= most || there < kSlowest ||
-        !is_gap(scene, around, row, {.shift = shift, .middle = &other.centerline}, kSafeBraking) ||
+        !is_gap(view, around, row, {.shift = shift, .middle = &other.centerline}, kSafeBraking) ||
         run_together_soon(model, path, around.along, id))
       continue;
     most = there;
@@ -122,26 +124,28 @@ const PathStretch* next_change(const Path& path, double along, double reach) {
 }
 
 /// Is a narrow vehicle on its way past somebody beside its lane? Then it stays on its path.
-bool filters(const Scene& scene, const Surroundings& around, std::size_t row) {
+bool filters(const TrafficView& view, const Surroundings& around, std::size_t row) {
   constexpr double kBeside = 0.3;  // [m]
   return is_narrow(2.0 * around.half_width) &&
-         std::abs(scene.passing_offset[row] - scene.path_offset[row]) > kBeside;
+         std::abs(view.traffic.passing_offset[row] - view.scene.manners[row].path_offset) > kBeside;
 }
 
 /// A lane change that the trip needs waits for its gap: says so to whoever may leave one, closes
 /// the gate at its begin while there is none, and begins it over the way that its speed asks for.
-void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
-                  const Surroundings& around, std::size_t row, LaneIntent& intent) {
+void wait_for_gap(const TrafficView& view, const Path& path, const Surroundings& around,
+                  std::size_t row, LaneIntent& intent) {
+  const Model& model = view.model;
+  const Scene& scene = view.scene;
   constexpr double kPressed = 3.0, kCreeps = 3.0;  // [m/s^2], [m/s]
   constexpr double kTooLong = 1.3;                 // times the way that it takes
   const PathStretch& here = path.stretch_at(around.along);
   if (here.changing) {
     // who goes on between the lanes is in no lane's way until it has got past
-    if (filters(scene, around, row)) return;
+    if (filters(view, around, row)) return;
     intent.merge_to = here.lane;
-    if (is_beside(scene, around, row)) intent.gate = around.along;
+    if (is_beside(view, around, row)) intent.gate = around.along;
     const LimitReason reason = scene.context[row].reason;
-    intent.abort = scene.standing_time[row] > kPatience &&
+    intent.abort = scene.held[row].standing > kPatience &&
                    (reason == LimitReason::None || reason == LimitReason::Merge);
     return;
   }
@@ -154,9 +158,9 @@ void wait_for_gap(const Model& model, const Path& path, const Scene& scene,
   const LaneBeside beside{shift_to(model, from, to), change->from, change->to, &to.centerline};
   const double braking = speed < 2.0 ? kPressed : kSafeBraking;
   const bool due = change->from - around.along < 2.0 + 1.2 * speed;
-  const bool let_in = speed < kCreeps && is_let_in(scene, around, row, beside);
-  if (!is_contested(scene, around, row, change->lane, beside) &&
-      is_gap(scene, around, row, beside, braking)) {
+  const bool let_in = speed < kCreeps && is_let_in(view, around, row, beside);
+  if (!is_contested(view, around, row, change->lane, beside) &&
+      is_gap(view, around, row, beside, braking)) {
     // planned over the way that it takes at full speed: in a queue, that long over two lanes
     if ((due || let_in) && change->to - change->from > kTooLong * way_of_change(speed))
       intent.wanted = change->lane;
@@ -179,77 +183,92 @@ void move_aim(double wanted, bool overtakes, double dt, double& aim) {
   aim += std::clamp(wanted - aim, -most, most);
 }
 
+/// Looks around, and says where beside its path the row means to be and which lane it wants.
+void look_about(const TrafficView& view, const Path& path, std::size_t row, LaneChoiceWork& work,
+                std::size_t worker, TrafficState& traffic) {
+  const Scene& scene = view.scene;
+  Surroundings& around = work.around[worker];
+  LaneIntent& intent = work.intents[row];
+  if (path.walking) {
+    look_around(view, row, kSidewalk, kAside, around);
+    look_at_walls(view.model, path, scene, row, kWalls, kAside, around);
+    look_at_red_crossings(view, path, row, around);
+    const double place = walking_place(view, path, around, row);
+    traffic.passing_offset[row] = place;
+    traffic.overtaking_room[row] = room_off_the_way(path, around, place);
+    return;
+  }
+  look_around(view, row, outlook(view.model, path, scene, row), 8.0, around);
+  traffic.overtaking_room[row] = overtaking_room(view, around, row, work.far[worker]);
+  traffic.passing_offset[row] = passing_offset(view, path, around, row);
+  if (!path.trip) return;
+  intent.entered = free_entry(view.model, view.road, work.queues, path, around);
+  wait_for_gap(view, path, around, row, intent);
+  if (intent.wanted == kNoLane && scene.halt[row].left <= 0.0 && !std::isfinite(intent.gate) &&
+      !filters(view, around, row))
+    intent.wanted = better_lane(view, work.queues, path, around, row);
+}
+
+/// The row's path with its lane change begun, put off or given up; none where it goes on as it is.
+std::optional<Path> path_as_intended(const RoadNetwork& network, const Path& path,
+                                     const LaneIntent& intent, double speed, double& along) {
+  if (intent.abort) return back_to_lane(network, path, along, kBack);
+  if (intent.postpone) return stay_in_lane(network, path, along, std::max(speed, 3.0), kBack);
+  if (intent.entered != kNoLane) return enter_beside(network, path, along, intent.entered, kBack);
+  return change_lane(network, path, along, intent.wanted, way_of_change(speed), kBack);
+}
+
+/// What others look at changes only here, one after the other.
+void do_as_intended(const TrafficTick& tick, const LaneIntent& intent, std::size_t row) {
+  TrafficState& traffic = tick.traffic;
+  const RoadNetwork& network = tick.model.road;
+  traffic.merge_to[row] = intent.merge_to;
+  traffic.gate[row] = intent.gate;
+  if (intent.wanted == kNoLane && intent.entered == kNoLane && !intent.postpone && !intent.abort)
+    return;
+  double along = tick.scene.path_along[row];
+  const Path& path = *tick.road.path(tick.scene.path[row]);
+  auto changed = path_as_intended(network, path, intent, tick.scene.speed[row], along);
+  // no room left to change in: who gets on by its own lane nearly as well doesn't wait for a gap
+  if (!changed && intent.postpone) {
+    changed = keep_lane(network, path, along, kNearlyAsWell, kBack);
+    if (changed) traffic.merge_to[row] = kNoLane;
+  }
+  if (!changed) return;
+  // who comes there now already reckons with it
+  if (intent.wanted != kNoLane) traffic.merge_to[row] = intent.wanted;
+  change_path(std::move(*changed), along, row, tick.road, tick.scene, traffic);
+}
+
 }  // namespace
 
-void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Workers& workers,
-                  RoadState& road, Scene& scene, LaneChoiceWork& work) {
-  const auto period = std::max<std::int64_t>(1, std::llround(kPeriod / dt));
-  work.around.resize(workers.count());
-  work.far.resize(workers.count());
+void choose_lanes(const TrafficTick& tick, LaneChoiceWork& work) {
+  const TrafficView view = tick.view();
+  const Scene& scene = tick.scene;
+  TrafficState& traffic = tick.traffic;
+  const auto period = std::max<std::int64_t>(1, std::llround(kPeriod / tick.dt));
+  work.around.resize(tick.workers.count());
+  work.far.resize(tick.workers.count());
   work.intents.assign(scene.size(), {});
-  measure_queues(model, road, scene, work.queues);
-  workers.for_each_range(scene.size(), [&](std::size_t worker, std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      const Path* path = road.path(scene.path[row]);
-      if (path == nullptr || scene.control[row] != Control::Gamma) continue;
-      LaneIntent& intent = work.intents[row];
-      Surroundings& around = work.around[worker];
-      // who has just come looks before it does what its path begins with
-      const bool looks =
-          (scene.tick + scene.id[row].value) % period == 0 || !scene.context[row].active;
-      intent.fresh = looks && !path->walking;
-      if (looks && path->walking) {
-        look_around(model, road, scene, grid, row, kSidewalk, kAside, around);
-        look_at_walls(model, *path, scene, row, kWalls, kAside, around);
-        look_at_red_crossings(*path, scene, row, around);
-        const double place = walking_place(*path, scene, around, row);
-        scene.passing_offset[row] = place;
-        scene.overtaking_room[row] = room_off_the_way(*path, around, place);
-      }
-      if (intent.fresh) {
-        look_around(model, road, scene, grid, row, outlook(model, *path, scene, row), 8.0, around);
-        scene.overtaking_room[row] =
-            overtaking_room(model, road, scene, grid, around, row, work.far[worker]);
-        scene.passing_offset[row] = passing_offset(model, road, *path, scene, around, row);
-        if (path->trip) {
-          intent.entered = free_entry(model, road, work.queues, *path, around);
-          wait_for_gap(model, *path, scene, around, row, intent);
-          if (intent.wanted == kNoLane && scene.stop_left[row] <= 0.0 &&
-              !std::isfinite(intent.gate) && !filters(scene, around, row))
-            intent.wanted = better_lane(model, work.queues, *path, scene, around, row);
+  measure_queues(tick.model, tick.road, scene, work.queues);
+  tick.workers.for_each_range(
+      scene.size(), [&](std::size_t worker, std::size_t begin, std::size_t end) {
+        for (std::size_t row = begin; row < end; ++row) {
+          const Path* path = view.road.path(scene.path[row]);
+          if (path == nullptr || scene.control[row] != Control::Gamma) continue;
+          // who has just come looks before it does what its path begins with
+          const bool looks =
+              (scene.tick + scene.id[row].value) % period == 0 || !scene.context[row].active;
+          work.intents[row].fresh = looks && !path->walking;
+          if (looks) look_about(view, *path, row, work, worker, traffic);
+          move_aim(traffic.passing_offset[row], traffic.overtaking_room[row] > 0.0, tick.dt,
+                   traffic.lateral_aim[row]);
         }
-      }
-      move_aim(scene.passing_offset[row], scene.overtaking_room[row] > 0.0, dt,
-               scene.lateral_aim[row]);
-    }
-  });
-  // what others look at changes only now, one after the other
-  for (std::size_t row = 0; row < scene.size(); ++row) {
-    const LaneIntent& intent = work.intents[row];
-    if (!intent.fresh) continue;
-    scene.merge_to[row] = intent.merge_to;
-    scene.gate[row] = intent.gate;
-    if (intent.wanted == kNoLane && intent.entered == kNoLane && !intent.postpone && !intent.abort)
-      continue;
-    double along = scene.path_along[row];
-    const Path& path = *road.path(scene.path[row]);
-    const double speed = scene.speed[row];
-    auto changed =
-        intent.abort      ? back_to_lane(model.road, path, along, kBack)
-        : intent.postpone ? stay_in_lane(model.road, path, along, std::max(speed, 3.0), kBack)
-        : intent.entered != kNoLane
-            ? enter_beside(model.road, path, along, intent.entered, kBack)
-            : change_lane(model.road, path, along, intent.wanted, way_of_change(speed), kBack);
-    // no room left to change in: who gets on by its own lane nearly as well doesn't wait for a gap
-    if (!changed && intent.postpone) {
-      changed = keep_lane(model.road, path, along, kNearlyAsWell, kBack);
-      if (changed) scene.merge_to[row] = kNoLane;
-    }
-    if (!changed) continue;
-    // who comes there now already reckons with it
-    if (intent.wanted != kNoLane) scene.merge_to[row] = intent.wanted;
-    take_path(std::move(*changed), along, row, road, scene);
-  }
+      });
+  for (std::size_t row = 0; row < scene.size(); ++row)
+    if (work.intents[row].fresh) do_as_intended(tick, work.intents[row], row);
 }
+
+void forget_lane_change(TrafficState& traffic, std::size_t row) { traffic.merge_to[row] = kNoLane; }
 
 }  // namespace sumogamma

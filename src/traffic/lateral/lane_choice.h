@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "base/parallel.h"
 #include "traffic/lateral/lane_queues.h"
 #include "traffic/perception.h"
+#include "traffic/traffic_tick.h"
 
 namespace sumogamma {
 
@@ -15,8 +15,8 @@ struct LaneIntent {
   bool abort = false;         ///< a change that was begun does not get on
   LaneId wanted = kNoLane;    ///< lane to go over to now: where it would be better off, or has to
   LaneId entered = kNoLane;   ///< free lane beside the one that its link leads to
-  LaneId merge_to = kNoLane;  ///< see Scene
-  double gate = std::numeric_limits<double>::infinity();  ///< see Scene
+  LaneId merge_to = kNoLane;  ///< see TrafficState
+  double gate = std::numeric_limits<double>::infinity();  ///< see TrafficState
 };
 
 /// Buffers of choose_lanes, reused from tick to tick.
@@ -32,8 +32,10 @@ struct LaneChoiceWork {
 /// criterion of MOBIL, Kesting et al. 2007) and leads on along the trip; its path is made again.
 /// Who meets somebody slow and narrow passes within the lane where there is room, and narrow
 /// vehicles pass between queues. Each agent looks again a few times a second. Sets
-/// scene.lateral_aim of every row with a driving path.
-void choose_lanes(const Model& model, const SpatialGrid& grid, double dt, Workers& workers,
-                  RoadState& road, Scene& scene, LaneChoiceWork& work);
+/// TrafficState::lateral_aim of every row with a driving path.
+void choose_lanes(const TrafficTick& tick, LaneChoiceWork& work);
+
+/// A row no longer has to change lanes, as its new path leads on from where it is.
+void forget_lane_change(TrafficState& traffic, std::size_t row);
 
 }  // namespace sumogamma

@@ -96,9 +96,12 @@ double straight_ahead(const Path& path, double along, double most) {
 
 }  // namespace
 
-double overtaking_room(const Model& model, const RoadState& road, const Scene& scene,
-                       const SpatialGrid& grid, const Surroundings& around, std::size_t row,
+double overtaking_room(const TrafficView& view, const Surroundings& around, std::size_t row,
                        Surroundings& far) {
+  const Model& model = view.model;
+  const RoadState& road = view.road;
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   constexpr double kMargin = 3.5, kKept = 1.2;  // [s]
   constexpr double kStarts = 2.0;               // likewise to who may start in sight [s]
   constexpr double kClear = 15.0;               // before a junction [m]
@@ -111,18 +114,18 @@ double overtaking_room(const Model& model, const RoadState& road, const Scene& s
   const Lane& opposite = model.road.lane(lane.opposite);
   if ((opposite.allowed & lane.allowed & vehicle_class::kPassenger) == 0) return 0.0;
   const double inner_side = model.road.left_hand ? -1.0 : 1.0;
-  const double liked = scene.path_offset[row];
+  const double liked = scene.manners[row].path_offset;
   const Overtaken overtaken = find_overtaken(around, liked, inner_side);
   const double aside_now = inner_side * around.offset;
   const bool over_now = aside_now + around.half_width > 0.5 * lane.width - kAtMiddle;
   const double front = around.along + around.half_length;
-  const bool out = scene.overtaking_room[row] > 0.0 && over_now;
+  const bool out = traffic.overtaking_room[row] > 0.0 && over_now;
   // past, with room before the next, if any: back to its own side, but not right before a nose; the
   // next one is overtaken only if that could be begun now
   constexpr double kPassed = 20.0;  // [m]
   const bool past_them = out && (!overtaken.any || (overtaken.rear - front > way_back(around) &&
                                                     has_passed(around, liked, kPassed, 0.0)));
-  if (past_them && is_just_past(around, liked)) return scene.overtaking_room[row];
+  if (past_them && is_just_past(around, liked)) return traffic.overtaking_room[row];
   if (!overtaken.any) return 0.0;
   const bool begun = out && !past_them;
 
@@ -167,7 +170,7 @@ double overtaking_room(const Model& model, const RoadState& road, const Scene& s
   if (!begun && sight < unseen) return 0.0;
 
   // nobody comes, neither towards it nor from behind
-  look_around(model, road, scene, grid, row, kSight, 8.0, far);
+  look_around(view, row, kSight, 8.0, far);
   for (const RoadUser& user : far.users) {
     const double side = inner_side * user.offset;
     if (side + user.half_width < 0.5 * lane.width && user.aligned) continue;

@@ -17,8 +17,7 @@ inline constexpr double kOvertakingGap = 1.3;
 ///   beyond it, and before anybody faster comes from behind.
 /// Who has begun gives up only where somebody would be met. Looks around again, far ahead: `far` is
 /// scratch.
-double overtaking_room(const Model& model, const RoadState& road, const Scene& scene,
-                       const SpatialGrid& grid, const Surroundings& around, std::size_t row,
+double overtaking_room(const TrafficView& view, const Surroundings& around, std::size_t row,
                        Surroundings& far);
 
 }  // namespace sumogamma

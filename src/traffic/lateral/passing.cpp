@@ -268,17 +268,16 @@ bool may_be_passed(const Surroundings& around, const RoadUser& user) {
 /// Where in its own lane a wide vehicle gets past the tails of those who stand in a lane beside, if
 /// there is such a place: who changed into a full lane stands with a corner of its body in this
 /// one.
-std::optional<double> place_beside_tails(const Model& model, const Scene& scene, LaneId id,
+std::optional<double> place_beside_tails(const TrafficView& view, LaneId id,
                                          const Surroundings& around, double liked) {
   constexpr double kGap = 0.35;  // to the side [m]
-  const Lane& lane = model.road.lane(id);
+  const Lane& lane = view.model.road.lane(id);
   if (lane.kind != LaneKind::Normal) return std::nullopt;
   const double within = 0.5 * lane.width - around.half_width - kOffEdge;
   double least = -within, most = within;
   bool any = false;
   for (const RoadUser& user : around.users) {
-    if (!may_be_passed(around, user) ||
-        !stands_beside_lane(model, scene, user.row, id, user.offset))
+    if (!may_be_passed(around, user) || !stands_beside_lane(view, user.row, id, user.offset))
       continue;
     const double apart = user.half_width + around.half_width + kGap;
     any = any || std::abs(user.offset - liked) < apart;
@@ -291,21 +290,27 @@ std::optional<double> place_beside_tails(const Model& model, const Scene& scene,
 
 }  // namespace
 
-bool stands_beside_lane(const Model& model, const Scene& scene, std::size_t other, LaneId lane,
-                        double offset) {
+bool stands_beside_lane(const TrafficView& view, std::size_t other, LaneId lane, double offset) {
+  const Model& model = view.model;
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   constexpr double kStands = 0.5;  // [m/s]
   const AgentType& type = type_of(model.types, scene.type[other]);
   return type.kinematics != Kinematics::Holonomic && !is_narrow(type.width) &&
          scene.speed[other] < kStands && std::abs(offset) > 0.5 * model.road.lane(lane).width &&
-         scene.merge_to[other] != lane && scene.lane[other].lane != lane;
+         traffic.merge_to[other] != lane && scene.lane[other].lane != lane;
 }
 
-double passing_offset(const Model& model, const RoadState& road, const Path& path,
-                      const Scene& scene, const Surroundings& around, std::size_t row) {
+double passing_offset(const TrafficView& view, const Path& path, const Surroundings& around,
+                      std::size_t row) {
+  const Model& model = view.model;
+  const RoadState& road = view.road;
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
   const PathStretch& here = path.stretch_at(around.along);
   const double half = around.half_width;
-  const double over = scene.overtaking_room[row];
+  const double over = traffic.overtaking_room[row];
   const double over_left = model.road.left_hand ? 0.0 : over, over_right = over - over_left;
   const Sides sides = sides_of(model.road, path, around);
   double most_left = farthest_left(sides.left + over_left, half);
@@ -315,7 +320,7 @@ double passing_offset(const Model& model, const RoadState& road, const Path& pat
   // what a junction has beside its lanes is for who has to get past, and for bodies that swing
   const Lane& lane = model.road.lane(here.lane);
   const double on_lane =
-      std::clamp(scene.path_offset[row], std::min(most_right + lane.beside_right, 0.0),
+      std::clamp(scene.manners[row].path_offset, std::min(most_right + lane.beside_right, 0.0),
                  std::max(most_left - lane.beside_left, 0.0));
   keep_to_exit(model.road, path, around, most_left, most_right);
   const double liked = std::clamp(on_lane, most_right, most_left);
@@ -332,7 +337,7 @@ double passing_offset(const Model& model, const RoadState& road, const Path& pat
   const double as_liked = hope(liked, margin);
   double most = as_liked;
   // what was begun is gone on with unless something is clearly better
-  const double present = scene.passing_offset[row];
+  const double present = traffic.passing_offset[row];
   if (std::abs(present - liked) > 0.2 && present <= most_left && present >= most_right) {
     const double hoped = hope(present, 0.8 * margin);
     if (hoped > most + 0.3 || (narrow && most < kQueue)) {
@@ -342,7 +347,7 @@ double passing_offset(const Model& model, const RoadState& road, const Path& pat
   }
   if (most > 0.8 * free_speed) return best;
   if (!narrow && over == 0.0) {
-    const auto place = place_beside_tails(model, scene, here.lane, around, liked);
+    const auto place = place_beside_tails(view, here.lane, around, liked);
     if (place && hope(*place, margin) > as_liked + kSmallGain) return *place;
   }
 

@@ -41,16 +41,15 @@ double passing_speed(const Passed& passed, const AgentType& type);
 /// Does a wide vehicle, its middle `offset` [m] from a path on `lane`, stand beside that lane and
 /// neither wait to get into it nor be on its way there, so that a wide vehicle, too, may pass what
 /// of its body is in there?
-bool stands_beside_lane(const Model& model, const Scene& scene, std::size_t other, LaneId lane,
-                        double offset);
+bool stands_beside_lane(const TrafficView& view, std::size_t other, LaneId lane, double offset);
 
 /// Where beside its path an agent on wheels should be [m, positive left]: where it likes to be, or
 /// far enough aside to pass somebody slow with a gap, where the room of its own direction allows
-/// it, and over the middle of the road where it may overtake there (scene.overtaking_room). Wide
-/// vehicles pass narrow ones on the inner side, and within their lane who stands beside it with its
-/// tail in there; narrow ones pass anybody, on either side, and between two queues in the middle of
-/// what is free.
-double passing_offset(const Model& model, const RoadState& road, const Path& path,
-                      const Scene& scene, const Surroundings& around, std::size_t row);
+/// it, and over the middle of the road where it may overtake there (TrafficState::overtaking_room).
+/// Wide vehicles pass narrow ones on the inner side, and within their lane who stands beside it
+/// with its tail in there; narrow ones pass anybody, on either side, and between two queues in the
+/// middle of what is free.
+double passing_offset(const TrafficView& view, const Path& path, const Surroundings& around,
+                      std::size_t row);
 
 }  // namespace sumogamma

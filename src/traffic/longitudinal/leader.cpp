@@ -17,7 +17,7 @@ constexpr double kNoseAhead = 0.3;  // likewise of narrow vehicles [m]
 
 /// Somebody on foot who stands: at a kerb, as far as anyone can tell.
 bool waits_at_kerb(const Model& model, const Scene& scene, std::size_t row) {
-  return scene.standing_time[row] > 1.5 &&
+  return scene.held[row].standing > 1.5 &&
          type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic;
 }
 
@@ -51,45 +51,44 @@ constexpr double kPatience = 6.0;     // with somebody on foot who stands in the
 constexpr Manner kOvertaking{kOvertakingGap - 0.2, 0.9, 1.5};
 
 /// Has somebody stood for long at its gate, waiting for a gap in the lane beside?
-bool waits_long(const Scene& scene, std::size_t row) {
+bool waits_long(const TrafficView& view, std::size_t row) {
   constexpr double kLong = 10.0;  // [s]
-  return std::isfinite(scene.gate[row]) && scene.standing_time[row] > kLong;
+  return std::isfinite(view.traffic.gate[row]) && view.scene.held[row].standing > kLong;
 }
 
 /// Has it been at that in a queue that creeps on?
-bool creeps_long(const Scene& scene, std::size_t row) {
+bool creeps_long(const TrafficView& view, std::size_t row) {
   constexpr double kLong = 10.0, kCreeps = 3.0;  // [s], [m/s]
-  return std::isfinite(scene.gate[row]) && scene.waiting_time[row] > kLong &&
-         scene.speed[row] < kCreeps;
+  return std::isfinite(view.traffic.gate[row]) && view.traffic.waiting_time[row] > kLong &&
+         view.scene.speed[row] < kCreeps;
 }
 
 /// Has somebody on foot held up a vehicle for long who doesn't get on either?
-bool shuffles_before(const Scene& scene, std::size_t vehicle, std::size_t walker) {
+bool shuffles_before(const TrafficView& view, std::size_t vehicle, std::size_t walker) {
   constexpr double kShuffles = 0.5;  // [m/s]
-  const LimitReason reason = scene.context[vehicle].reason;
+  const LimitReason reason = view.scene.context[vehicle].reason;
   const bool no_rule = reason == LimitReason::Leader || reason == LimitReason::None;
-  return no_rule && scene.waiting_time[vehicle] > 2.0 * kPatience &&
-         scene.velocity[walker].norm() < kShuffles;
+  return no_rule && view.traffic.waiting_time[vehicle] > 2.0 * kPatience &&
+         view.scene.velocity[walker].norm() < kShuffles;
 }
 
 /// Is somebody amid a lane change, and hasn't halted there to let others past?
-bool is_changing(const RoadState& road, const Scene& scene, std::size_t row) {
-  const Path* path = road.path(scene.path[row]);
-  return path != nullptr && !std::isfinite(scene.gate[row]) &&
-         path->stretch_at(scene.path_along[row]).changing;
+bool is_changing(const TrafficView& view, std::size_t row) {
+  const Path* path = view.road.path(view.scene.path[row]);
+  return path != nullptr && !std::isfinite(view.traffic.gate[row]) &&
+         path->stretch_at(view.scene.path_along[row]).changing;
 }
 
 /// Does somebody who is `along` on the path of a row change, or want to, into its lane? Who is at
 /// it or has waited for long counts as well where the row is about to get into that lane.
-bool changes_into_way(const RoadState& road, const Scene& scene, std::size_t row, std::size_t other,
-                      double along) {
+bool changes_into_way(const TrafficView& view, std::size_t row, std::size_t other, double along) {
   constexpr double kSoon = 10.0;  // [m]
-  const LaneId lane = scene.merge_to[other];
-  if (lane == kNoLane || lane == scene.lane[row].lane) return lane != kNoLane;
-  const auto& stretches = road.path(scene.path[row])->stretches;
-  return (waits_long(scene, other) || is_changing(road, scene, other)) &&
+  const LaneId lane = view.traffic.merge_to[other];
+  if (lane == kNoLane || lane == view.scene.lane[row].lane) return lane != kNoLane;
+  const auto& stretches = view.road.path(view.scene.path[row])->stretches;
+  return (waits_long(view, other) || is_changing(view, other)) &&
          std::any_of(stretches.begin(), stretches.end(), [&](const PathStretch& stretch) {
-           return stretch.lane == lane && stretch.to >= scene.path_along[row] &&
+           return stretch.lane == lane && stretch.to >= view.scene.path_along[row] &&
                   stretch.from <= along + kSoon;
          });
 }
@@ -98,10 +97,10 @@ bool changes_into_way(const RoadState& road, const Scene& scene, std::size_t row
 /// behind it does? In a dense queue beside a long body nobody is ever behind it. There is an end to
 /// that, also for who has rolled on by a step meanwhile. `to_nose`: from the own nose to the way
 /// that the other's needs [m].
-bool lets_nose_in(const Scene& scene, std::size_t row, std::size_t other, double to_nose) {
+bool lets_nose_in(const TrafficView& view, std::size_t row, std::size_t other, double to_nose) {
   constexpr double kHolds = 20.0;  // [s]
-  return to_nose > 0.0 && (waits_long(scene, other) || creeps_long(scene, other)) &&
-         scene.standing_time[row] < kHolds && scene.waiting_time[row] < 2.0 * kHolds;
+  return to_nose > 0.0 && (waits_long(view, other) || creeps_long(view, other)) &&
+         view.scene.held[row].standing < kHolds && view.traffic.waiting_time[row] < 2.0 * kHolds;
 }
 
 /// Remembers the nearest of those ahead who wait for a gap in this lane or are on their way into
@@ -113,20 +112,24 @@ void note_merging(const DrivingAhead::Vehicle& vehicle, bool on_its_way, Driving
 }
 
 /// Where somebody means to be, beside the path of another at whose `offset` it is [m].
-double aim_beside(const RoadState& road, const Scene& scene, std::size_t row, double offset) {
-  const Path* path = road.path(scene.path[row]);
+double aim_beside(const TrafficView& view, std::size_t row, double offset) {
+  const Path* path = view.road.path(view.scene.path[row]);
   if (path == nullptr || path->walking) return offset;
-  const double along = scene.path_along[row];
+  const double along = view.scene.path_along[row];
   const double own =
-      cross(path->line.direction_at(along), scene.position[row] - path->line.point_at(along));
-  return offset + scene.lateral_aim[row] - own;
+      cross(path->line.direction_at(along), view.scene.position[row] - path->line.point_at(along));
+  return offset + view.traffic.lateral_aim[row] - own;
 }
 
 /// Is somebody beside a vehicle, its middle ahead, where that means to be beside its path?
-bool is_way_aside_taken(const Model& model, const Path& path, const Scene& scene,
-                        const SpatialGrid& grid, std::size_t row, double own_offset) {
+bool is_way_aside_taken(const TrafficView& view, const Path& path, std::size_t row,
+                        double own_offset) {
+  const Model& model = view.model;
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
+  const SpatialGrid& grid = view.grid;
   constexpr double kThere = 0.1, kNear = 5.0;  // [m]
-  const double aim = scene.lateral_aim[row], along = scene.path_along[row];
+  const double aim = traffic.lateral_aim[row], along = scene.path_along[row];
   if (std::abs(aim - own_offset) < kThere) return false;
   const Vec2 tangent = path.line.direction_at(along), left = left_of(tangent);
   const double half_length = half_extent(scene, row, tangent);
@@ -161,8 +164,12 @@ double nose_room(double length) {
   return std::min(kMost, kShare * length);
 }
 
-Leader find_leader(const Model& model, const RoadState& road, const Scene& scene,
-                   const SpatialGrid& grid, std::size_t row, double reach, DrivingAhead& ahead) {
+Leader find_leader(const TrafficView& view, std::size_t row, double reach, DrivingAhead& ahead) {
+  const Model& model = view.model;
+  const RoadState& road = view.road;
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
+  const SpatialGrid& grid = view.grid;
   Leader leader;
   const Path* path = road.path(scene.path[row]);
   if (path == nullptr) return leader;
@@ -175,17 +182,17 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
   const double own_half_width = half_extent(scene, row, left_of(forward));
   const double own_offset = cross(tangent, position - path->line.point_at(along));
   const double speed = scene.speed[row];
-  const double aim = scene.lateral_aim[row];
+  const double aim = traffic.lateral_aim[row];
   const bool narrow = is_narrow(type.width);
-  const bool overtakes = scene.overtaking_room[row] > 0.0;
+  const bool overtakes = traffic.overtaking_room[row] > 0.0;
   // who gives up overtaking falls back behind whoever it was about to pass
-  const double wanted = scene.passing_offset[row];
+  const double wanted = traffic.passing_offset[row];
   const bool returns = !narrow && !overtakes && std::abs(own_offset - wanted) > kFarAside;
   const double margin = kept_aside(type, speed);
   ahead.seen_to = along + reach;
 
-  const bool taken = narrow && scene.standing_time[row] < kTakenFor &&
-                     is_way_aside_taken(model, *path, scene, grid, row, own_offset);
+  const bool taken = narrow && scene.held[row].standing < kTakenFor &&
+                     is_way_aside_taken(view, *path, row, own_offset);
 
   grid.visit_within(position, reach, [&](std::size_t other, double) {
     if (other == row || on_other_storey(model.road, scene, row, other)) return;
@@ -195,7 +202,7 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
         path->line.project(scene.position[other], along - 2.0 * kAbreast, along + reach);
     // who is narrow and waits for a gap from the far side of the lane beside is seen, too
     if (place.distance > own_half_width + scene.footprint[other].radius + margin &&
-        (place.distance > kLaneBeside || !changes_into_way(road, scene, row, other, place.along)))
+        (place.distance > kLaneBeside || !changes_into_way(view, row, other, place.along)))
       return;
     // of two abreast just one is ahead: close together the one with its nose ahead
     const bool close = near_each_other(scene, row, other);
@@ -225,7 +232,7 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     const bool passes =
         clear_aside &&
         (narrow || (overtakes && is_narrow(2.0 * half_width)) ||
-         stands_beside_lane(model, scene, other, path->stretch_at(place.along).lane, place.offset));
+         stands_beside_lane(view, other, path->stretch_at(place.along).lane, place.offset));
     if (passes) {
       const double reach_aside =
           gap < 0.0 ? half_extent(scene, row, left_of(tangent)) : own_half_width;
@@ -243,30 +250,30 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     }
     // two narrow ones make for the same gap: who is behind lets the other in
     if (narrow && aligned && !on_foot && is_narrow(2.0 * half_width) &&
-        scene.standing_time[other] < kHesitates &&
-        std::abs(aim_beside(road, scene, other, place.offset) - aim) < sides)
+        scene.held[other].standing < kHesitates &&
+        std::abs(aim_beside(view, other, place.offset) - aim) < sides)
       cap_passing(std::max(0.0, scene.speed[other] + kCloses * (gap - type.min_gap)),
                   scene.id[other].value, ahead);
     const bool comes_back = returns && gap > 0.0 && std::abs(place.offset - wanted) - sides < kept;
     if (std::abs(place.offset - swept) > sides + kept && !comes_back) {
-      const bool merges = changes_into_way(road, scene, row, other, place.along);
-      const bool halted = scene.standing_time[other] > kHesitates;
+      const bool merges = changes_into_way(view, row, other, place.along);
+      const bool halted = scene.held[other].standing > kHesitates;
       // who stands amid its change is passed like anybody else
       if (!merges || (passes && halted)) return;
-      const bool on_its_way = is_changing(road, scene, other);
+      const bool on_its_way = is_changing(view, other);
       // two abreast want each other's lane: of them, too, who is ahead goes first, unless it has to
       // wait for this one to get out of its way
       const bool waits =
-          halted && std::isfinite(scene.gate[other]) && rear < along + own_half_length;
-      const bool swaps =
-          !waits && scene.merge_to[row] != kNoLane && scene.merge_to[row] == scene.lane[other].lane;
+          halted && std::isfinite(traffic.gate[other]) && rear < along + own_half_length;
+      const bool swaps = !waits && traffic.merge_to[row] != kNoLane &&
+                         traffic.merge_to[row] == scene.lane[other].lane;
       const double front = 2.0 * place.along - rear;
       const double nose_from = front - nose_room(front - rear);
       // who is on its way already and has its middle ahead needs the room beside it, too
       const bool behind = on_its_way || swaps || rear > along + own_half_length + 1.0;
       const double kept_free =
           behind ? rear : nose_from - kHaltsBefore + type.min_gap;  // from here on
-      if (behind || lets_nose_in(scene, row, other, nose_from - along - own_half_length))
+      if (behind || lets_nose_in(view, row, other, nose_from - along - own_half_length))
         note_merging({kept_free, front, std::max(0.0, scene.velocity[other].dot(direction)),
                       static_cast<std::int64_t>(scene.id[other].value), other},
                      on_its_way || swaps, ahead);
@@ -281,7 +288,7 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
     // somebody on foot who waits in the way for long waits for this very vehicle as well as not:
     // who crawls goes round as close as avoidance lets it, and has the other step back
     if (on_foot && speed < kCrawl &&
-        (scene.standing_time[other] > kPatience || shuffles_before(scene, row, other)))
+        (scene.held[other].standing > kPatience || shuffles_before(view, row, other)))
       return;
     if (!on_foot)
       ahead.add({rear, 2.0 * place.along - rear, other_speed, scene.id[other].value, other});
@@ -292,8 +299,12 @@ Leader find_leader(const Model& model, const RoadState& road, const Scene& scene
   return leader;
 }
 
-void see_queue(const Model& model, const RoadState& road, const Scene& scene,
-               const SpatialGrid& grid, std::size_t row, double to, DrivingAhead& ahead) {
+void see_queue(const TrafficView& view, std::size_t row, double to, DrivingAhead& ahead) {
+  const Model& model = view.model;
+  const RoadState& road = view.road;
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
+  const SpatialGrid& grid = view.grid;
   const Path* path = road.path(scene.path[row]);
   const double from = ahead.seen_to;
   if (path == nullptr || to <= from) return;
@@ -310,7 +321,7 @@ void see_queue(const Model& model, const RoadState& road, const Scene& scene,
     const Vec2 direction = path->line.direction_at(place.along);
     const double sides = half_width + half_extent(scene, other, left_of(direction)) + margin;
     if (direction.dot(direction_of(scene.heading[other])) <= 0.5 ||
-        std::abs(place.offset - scene.lateral_aim[row]) > sides ||
+        std::abs(place.offset - traffic.lateral_aim[row]) > sides ||
         on_other_storey(model.road, scene, row, other))
       return;
     const auto begin = ahead.vehicles.begin();

@@ -3,9 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "geometry/spatial_grid.h"
-#include "model/model.h"
-#include "scene/road_state.h"
+#include "traffic/traffic_view.h"
 
 namespace sumogamma {
 
@@ -52,11 +50,9 @@ struct DrivingAhead {
 /// along its path, whoever drives it. Vehicles that don't move the same way don't count (right of
 /// way and avoidance see to them), people on foot when near. `reach` is how far to look [m]. Adds
 /// every vehicle ahead to `ahead`.
-Leader find_leader(const Model& model, const RoadState& road, const Scene& scene,
-                   const SpatialGrid& grid, std::size_t row, double reach, DrivingAhead& ahead);
+Leader find_leader(const TrafficView& view, std::size_t row, double reach, DrivingAhead& ahead);
 
 /// Adds who drives on the row's way beyond what `ahead` holds, as far as `to` [m along its path].
-void see_queue(const Model& model, const RoadState& road, const Scene& scene,
-               const SpatialGrid& grid, std::size_t row, double to, DrivingAhead& ahead);
+void see_queue(const TrafficView& view, std::size_t row, double to, DrivingAhead& ahead);
 
 }  // namespace sumogamma

@@ -5,7 +5,8 @@
 
 #include "road/route_search.h"
 #include "scene/extent.h"
-#include "scene/locate.h"
+#include "traffic/junction/keep_clear.h"
+#include "traffic/lateral/lane_choice.h"
 
 namespace sumogamma {
 
@@ -17,16 +18,16 @@ constexpr double kBack = 20.0;   ///< of path kept behind the body [m]
 
 /// Is the way of a driver shut, and can it still take another one? The link before which it stands,
 /// null where not.
-const PathLink* shut_link(const Model& model, const Path& path, const Scene& scene,
-                          std::size_t row) {
-  const LimitReason reason = scene.context[row].reason;
-  const bool waits_for_gap = reason == LimitReason::Merge && scene.standing_time[row] > kShut;
-  if (!path.trip || (!waits_for_gap && scene.keeps_clear[row] < kShut)) return nullptr;
-  if (2.0 * half_extent(scene, row, direction_of(scene.heading[row])) > kLongBody) return nullptr;
-  const double along = scene.path_along[row];
+const PathLink* shut_link(const TrafficView& view, const Path& path, std::size_t row) {
+  const LimitReason reason = view.scene.context[row].reason;
+  const bool waits_for_gap = reason == LimitReason::Merge && view.scene.held[row].standing > kShut;
+  if (!path.trip || (!waits_for_gap && view.traffic.keeps_clear[row] < kShut)) return nullptr;
+  if (2.0 * half_extent(view.scene, row, direction_of(view.scene.heading[row])) > kLongBody)
+    return nullptr;
+  const double along = view.scene.path_along[row];
   const PathStretch& here = path.stretch_at(along);
-  if (here.changing || model.road.lane(here.lane).kind != LaneKind::Normal) return nullptr;
-  const double front = along + half_extent(scene, row, path.line.direction_at(along));
+  if (here.changing || view.model.road.lane(here.lane).kind != LaneKind::Normal) return nullptr;
+  const double front = along + half_extent(view.scene, row, path.line.direction_at(along));
   const auto link = path.link_after(along);
   return link != path.links.end() && front < link->stop_line + 0.3 ? &*link : nullptr;
 }
@@ -42,7 +43,7 @@ std::vector<double> travel_times(const RoadNetwork& network, const Scene& scene)
     times[i] = lane.centerline.length() / std::max(lane.speed_limit, 1.0);
   }
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (scene.lane[row].lane == kNoLane || scene.standing_time[row] < 1.0) continue;
+    if (scene.lane[row].lane == kNoLane || scene.held[row].standing < 1.0) continue;
     const Lane& lane = network.lane(scene.lane[row].lane);
     if (lane.kind != LaneKind::Normal) continue;
     times[index_of(lane.edge)] +=
@@ -69,19 +70,24 @@ bool has_room(const Model& model, const Path& path, double along, const Scene& s
 
 }  // namespace
 
-std::uint64_t take_detours(const Model& model, RoadState& road, Scene& scene) {
+std::uint64_t take_detours(const TrafficTick& tick) {
+  const Model& model = tick.model;
+  RoadState& road = tick.road;
+  Scene& scene = tick.scene;
+  TrafficState& traffic = tick.traffic;
+  const TrafficView view = tick.view();
   std::uint64_t taken = 0;
   std::vector<double> times;
   const auto period = std::max<std::int64_t>(1, std::llround(kPeriod / model.options.step));
   auto go_on = [&](Path way, double along, std::size_t row) {
-    take_path(std::move(way), along, row, road, scene);
-    scene.merge_to[row] = kNoLane;
+    change_path(std::move(way), along, row, road, scene, traffic);
+    forget_lane_change(traffic, row);
   };
   for (std::size_t row = 0; row < scene.size(); ++row) {
     if ((scene.tick + scene.id[row].value) % period != 0) continue;
     const Path* path = road.path(scene.path[row]);
     if (path == nullptr || scene.control[row] != Control::Gamma) continue;
-    const PathLink* shut = shut_link(model, *path, scene, row);
+    const PathLink* shut = shut_link(view, *path, row);
     if (shut == nullptr) continue;
     double along = scene.path_along[row];
     if (scene.context[row].reason == LimitReason::Merge) {
@@ -105,7 +111,7 @@ std::uint64_t take_detours(const Model& model, RoadState& road, Scene& scene) {
     auto taken_path = take_route(model.road, *path, along, std::move(route), kBack);
     if (!taken_path || !has_room(model, *taken_path, along, scene, row)) continue;
     go_on(std::move(*taken_path), along, row);
-    scene.keeps_clear[row] = 0.0;
+    forget_keeping_clear(traffic, row);
     ++taken;
   }
   return taken;

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
-#include "model/model.h"
-#include "scene/road_state.h"
+#include "traffic/traffic_tick.h"
 
 namespace sumogamma {
 
@@ -14,6 +12,6 @@ namespace sumogamma {
 /// its lane leads on along its route keeps that lane instead. Buses and other long bodies do
 /// neither; who has stops to serve keeps its route. Serial, and in order of row; returns how many
 /// took another route.
-std::uint64_t take_detours(const Model& model, RoadState& road, Scene& scene);
+std::uint64_t take_detours(const TrafficTick& tick);
 
 }  // namespace sumogamma

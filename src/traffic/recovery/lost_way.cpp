@@ -8,6 +8,7 @@
 #include "road/route_search.h"
 #include "scene/extent.h"
 #include "scene/locate.h"
+#include "traffic/lateral/lane_choice.h"
 
 namespace sumogamma {
 
@@ -100,17 +101,22 @@ std::optional<Path> way_from_here(const RoadNetwork& network, const Path& path, 
 
 }  // namespace
 
-void note_progress(double before, double dt, Scene& scene, std::size_t row) {
+void note_progress(double before, double dt, const Scene& scene, TrafficState& traffic,
+                   std::size_t row) {
   constexpr double kForgiven = 1.3;  // who swings out in a bend drives further than its path
   const double got_on = std::max(scene.path_along[row] - before, 0.0);
   const double driven = scene.velocity[row].norm() * dt;
-  scene.strayed[row] = std::max(scene.strayed[row] + driven - kForgiven * got_on, 0.0);
+  traffic.strayed[row] = std::max(traffic.strayed[row] + driven - kForgiven * got_on, 0.0);
 }
 
-void find_ways_back(const Model& model, RoadState& road, Scene& scene) {
+void find_ways_back(const TrafficTick& tick) {
+  const RoadNetwork& network = tick.model.road;
+  RoadState& road = tick.road;
+  Scene& scene = tick.scene;
+  TrafficState& traffic = tick.traffic;
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (scene.strayed[row] < kLost) continue;
-    scene.strayed[row] = 0.0;
+    if (traffic.strayed[row] < kLost) continue;
+    traffic.strayed[row] = 0.0;
     const Path* path = road.path(scene.path[row]);
     if (path == nullptr || !path->trip || scene.control[row] != Control::Gamma) continue;
     if (const auto place = place_ahead(*path, scene, row)) {
@@ -124,11 +130,11 @@ void find_ways_back(const Model& model, RoadState& road, Scene& scene) {
                     [&](const PathStop& stop) { return stop.along > along_now; }))
       continue;
     double along = 0.0;
-    auto found = way_from_here(model.road, *path, scene, row, along);
+    auto found = way_from_here(network, *path, scene, row, along);
     if (!found) continue;
-    take_path(std::move(*found), along, row, road, scene);
-    scene.merge_to[row] = kNoLane;
-    locate_on_path(model.road, road, scene, row);
+    change_path(std::move(*found), along, row, road, scene, traffic);
+    forget_lane_change(traffic, row);
+    locate_on_path(network, road, scene, row);
   }
 }
 

@@ -96,19 +96,22 @@ bool keeps_clear(const RoadNetwork& network, const Scene& scene, const TickGeome
 }
 
 /// Has the gap come into another lane that this row waits for?
-bool finds_gap(const Scene& scene, std::size_t row) {
-  const LaneId lane = scene.merge_to[row];
-  return lane != kNoLane && lane != scene.lane[row].lane && !std::isfinite(scene.gate[row]);
+bool finds_gap(const TrafficView& view, std::size_t row) {
+  const LaneId lane = view.traffic.merge_to[row];
+  return lane != kNoLane && lane != view.scene.lane[row].lane &&
+         !std::isfinite(view.traffic.gate[row]);
 }
 
 /// Is this row right behind one that means to back out, or to make room itself, and can't?
-bool makes_room(const Scene& scene, std::size_t row) {
+bool makes_room(const TrafficView& view, std::size_t row) {
   constexpr double kTried = 1.0;  // [s]
-  const RoadContext& context = scene.context[row];
-  if (context.reason != LimitReason::Leader || scene.standing_time[row] < kHeldUp) return false;
-  const std::size_t leader = foe_row(scene, row);
-  return leader < scene.size() && scene.standing_time[leader] > kHeldUp &&
-         scene.backing_left[leader] > 0.0 && scene.backing_left[leader] < kTries - kTried;
+  const RoadContext& context = view.scene.context[row];
+  if (context.reason != LimitReason::Leader || view.scene.held[row].standing < kHeldUp)
+    return false;
+  const std::size_t leader = foe_row(view.scene, row);
+  return leader < view.scene.size() && view.scene.held[leader].standing > kHeldUp &&
+         view.traffic.backing_left[leader] > 0.0 &&
+         view.traffic.backing_left[leader] < kTries - kTried;
 }
 
 /// Is `holds` true of anybody on wheels near a row, one that is itself on wheels?
@@ -147,10 +150,12 @@ bool stands_before(const Model& model, const Scene& scene, const TickGeometry& g
 }
 
 /// Does somebody who lets others go first stand in this row's way? It steps back further.
-bool is_made_way_for(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                     std::size_t row) {
+bool is_made_way_for(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
+  const Model& model = view.model;
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   return any_wheeled(model, scene, geometry, row, [&](std::size_t other) {
-    return scene.gives_way_left[other] > 0.0 &&
+    return traffic.gives_way_left[other] > 0.0 &&
            is_in_room_of(geometry.agent[other], geometry.agent[row]);
   });
 }
@@ -178,9 +183,9 @@ bool waits_for_wedged(const Scene& scene, std::size_t row) {
 bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometry& geometry,
                        std::size_t row) {
   constexpr double kLong = 12.0;  // [s]
-  return scene.standing_time[row] > kLong && !is_wedged(scene, row) && !scene.context[row].at_red &&
+  return scene.held[row].standing > kLong && !is_wedged(scene, row) && !scene.context[row].at_red &&
          stands_before(model, scene, geometry, row, [&](std::size_t other) {
-           return scene.blocked_time[other] > kHeldUp &&
+           return scene.held[other].blocked > kHeldUp &&
                   (is_in_chain_behind(scene, row, other) || waits_for_wedged(scene, row));
          });
 }
@@ -191,65 +196,71 @@ bool is_still_in_the_way(const Model& model, const Scene& scene, const TickGeome
   constexpr double kSees = 3.0;  // [s]
   return backward_speed(scene, row) < kStill &&
          stands_before(model, scene, geometry, row,
-                       [&](std::size_t other) { return scene.blocked_time[other] > kSees; });
+                       [&](std::size_t other) { return scene.held[other].blocked > kSees; });
 }
 
 /// Is somebody near in front of a row that lets others go first held up for other reasons than the
 /// row?
-bool lets_somebody_go(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                      std::size_t row) {
+bool lets_somebody_go(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
+  const Model& model = view.model;
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   constexpr double kHeld = 2.0;  // [s]
   const AgentGeometry& own = geometry.agent[row];
   return any_wheeled(model, scene, geometry, row, [&](std::size_t other) {
     const Vec2 way = geometry.agent[other].position - own.position;
-    return way.dot(own.forward) > 0.0 && scene.waiting_time[other] > kHeld &&
+    return way.dot(own.forward) > 0.0 && traffic.waiting_time[other] > kHeld &&
            !is_in_chain_behind(scene, other, row);
   });
 }
 
 }  // namespace
 
-void update_backing(const Model& model, const TickGeometry& geometry, double dt, Scene& scene,
-                    std::size_t row) {
-  double& left = scene.backing_left[row];
-  double& gives_way = scene.gives_way_left[row];
+void update_backing(const TrafficView& view, const TickGeometry& geometry, double dt,
+                    TrafficState& traffic, std::size_t row) {
+  double& left = traffic.backing_left[row];
+  double& gives_way = traffic.gives_way_left[row];
   gives_way = std::max(0.0, gives_way - dt);
-  if (finds_gap(scene, row)) left = gives_way = 0.0;
-  if (gives_way > 0.0 && left <= 0.0 && scene.standing_time[row] > kGivesWay &&
-      !lets_somebody_go(model, scene, geometry, row))
+  if (finds_gap(view, row)) left = gives_way = 0.0;
+  if (gives_way > 0.0 && left <= 0.0 && view.scene.held[row].standing > kGivesWay &&
+      !lets_somebody_go(view, geometry, row))
     gives_way = 0.0;
   if (left > 0.0) {
-    const bool moved_on = scene.speed[row] > kPace;
+    const bool moved_on = view.scene.speed[row] > kPace;
     // who finds no gap to change lanes and comes up against somebody behind gives way from there.
     // Not for other reasons: with those, too, a large junction locked up in one run of eight
-    const bool no_further = scene.context[row].reason == LimitReason::Merge &&
-                            backward_speed(scene, row) < kStill &&
-                            scene.standing_time[row] < kTries - left - kStarts;
+    const bool no_further = view.scene.context[row].reason == LimitReason::Merge &&
+                            backward_speed(view.scene, row) < kStill &&
+                            view.scene.held[row].standing < kTries - left - kStarts;
     left = moved_on || no_further ? 0.0 : left - dt;
     if (left <= 0.0) {
       left = 0.0;
       // who made room for somebody follows it again
-      const bool rolled = scene.standing_time[row] < kTries;
-      const bool for_itself = scene.context[row].reason != LimitReason::Leader;
-      gives_way = rolled && for_itself && !moved_on ? courtesy(scene, row) : 0.0;
+      const bool rolled = view.scene.held[row].standing < kTries;
+      const bool for_itself = view.scene.context[row].reason != LimitReason::Leader;
+      gives_way = rolled && for_itself && !moved_on ? courtesy(view.scene, row) : 0.0;
     }
-  } else if (gives_way <= 0.0 && !scene.context[row].at_red && is_wedged(scene, row) &&
-             scene.blocked_time[row] > patience(scene, row) &&
-             !is_made_way_for(model, scene, geometry, row)) {
+  } else if (gives_way <= 0.0 && !view.scene.context[row].at_red && is_wedged(view.scene, row) &&
+             view.scene.held[row].blocked > patience(view.scene, row) &&
+             !is_made_way_for(view, geometry, row)) {
     left = kTries;  // not before a red light: others wait there, too
-  } else if (gives_way <= 0.0 && makes_room(scene, row)) {
+  } else if (gives_way <= 0.0 && makes_room(view, row)) {
     left = kMakesRoom;
-  } else if (gives_way > 0.0 ? is_still_in_the_way(model, scene, geometry, row)
-                             : stands_in_the_way(model, scene, geometry, row)) {
+  } else if (gives_way > 0.0 ? is_still_in_the_way(view.model, view.scene, geometry, row)
+                             : stands_in_the_way(view.model, view.scene, geometry, row)) {
     left = kStepsBack;
     gives_way = kStepsBack + kGivesWay;
   }
 }
 
-std::optional<BodyState> back_out(const Model& model, const RoadState& road, const Scene& scene,
-                                  const TickGeometry& geometry, std::size_t row, double dt) {
+std::optional<BodyState> back_out(const TrafficView& view, const TickGeometry& geometry,
+                                  std::size_t row, double dt) {
+  const Model& model = view.model;
+  const RoadState& road = view.road;
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   const double now = backward_speed(scene, row);
-  const bool backing = scene.backing_left[row] > 0.0 || now > kStill;
+  const bool backing = traffic.backing_left[row] > 0.0 || now > kStill;
   if (!backing || scene.speed[row] > kStill) return std::nullopt;
   const AgentGeometry& own = geometry.agent[row];
   const Path* path = road.path(scene.path[row]);
@@ -257,7 +268,7 @@ std::optional<BodyState> back_out(const Model& model, const RoadState& road, con
   const AgentType& type = type_of(model.types, scene.type[row]);
   const BodyState body = body_of(scene, row);
   // as fast as it can still stop before the time is over and before whoever is behind
-  const double speed = std::min({kPace, now + kThrottle * dt, kBrake * scene.backing_left[row]});
+  const double speed = std::min({kPace, now + kThrottle * dt, kBrake * traffic.backing_left[row]});
   const double to_stop = speed * dt + 0.5 * speed * speed / kBrake;
   // back along its path, or else straight or to a side: who stands beside may leave just that. Who
   // makes room stays on its road

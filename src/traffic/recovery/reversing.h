@@ -4,7 +4,7 @@
 
 #include "model/tick_geometry.h"
 #include "model/tracking.h"
-#include "scene/road_state.h"
+#include "traffic/traffic_view.h"
 
 namespace sumogamma {
 
@@ -18,12 +18,12 @@ namespace sumogamma {
 ///
 /// Still to roll back for that long, and still to let others go first [s]; kept once a tick, after
 /// everybody has moved.
-void update_backing(const Model& model, const TickGeometry& geometry, double dt, Scene& scene,
-                    std::size_t row);
+void update_backing(const TrafficView& view, const TickGeometry& geometry, double dt,
+                    TrafficState& traffic, std::size_t row);
 
 /// The body after a tick of backing out, as far as it keeps clear of everybody as they would brake
 /// now; nothing where the row isn't backing, or stands and has no room to begin. Forward speed 0.
-std::optional<BodyState> back_out(const Model& model, const RoadState& road, const Scene& scene,
-                                  const TickGeometry& geometry, std::size_t row, double dt);
+std::optional<BodyState> back_out(const TrafficView& view, const TickGeometry& geometry,
+                                  std::size_t row, double dt);
 
 }  // namespace sumogamma

@@ -55,7 +55,7 @@ std::optional<Meeting> find_meeting(const Polyline& line, double along, double b
 }
 
 /// Does a vehicle that meets the piece have somebody on foot wait?
-bool holds(const RoadView& view, std::size_t row, const Meeting& meeting, const Piece& piece) {
+bool holds(const TrafficView& view, std::size_t row, const Meeting& meeting, const Piece& piece) {
   constexpr double kClear = 3.0;  // before who crawls [m]
   constexpr double kEasy = 2.0;   // to brake [m/s^2]
   constexpr double kSeen = 3.0;   // time for that at the least [s]
@@ -81,7 +81,7 @@ bool holds(const RoadView& view, std::size_t row, const Meeting& meeting, const 
 }
 
 /// Id of the nearest vehicle that has somebody on foot wait, -1 where none does.
-std::int64_t find_who_comes(const RoadView& view, std::size_t row, const Piece& piece) {
+std::int64_t find_who_comes(const TrafficView& view, std::size_t row, const Piece& piece) {
   const Scene& scene = view.scene;
   constexpr double kFast = 17.0;       // [m/s]
   constexpr double kFarthest = 250.0;  // [m]
@@ -113,8 +113,8 @@ std::int64_t find_who_comes(const RoadView& view, std::size_t row, const Piece& 
 
 }  // namespace
 
-LinkDecision decide_at_kerb(const RoadView& view, const Traveller& walker, double pace) {
-  const auto& [model, road, scene, grid, approaches] = view;
+LinkDecision decide_at_kerb(const TrafficView& view, const Traveller& walker, double pace) {
+  const auto& [model, road, scene, traffic, grid, approaches] = view;
   const Path& path = *road.path(scene.path[walker.row]);
   for (const RoadCrossing& over : path.over_road) {
     if (walker.front > over.begin + kOnIt) continue;
@@ -129,7 +129,7 @@ LinkDecision decide_at_kerb(const RoadView& view, const Traveller& walker, doubl
                       walker.length,
                       0.5 * type_of(model.types, scene.type[walker.row]).width,
                       std::max(pace, 0.3),
-                      scene.waiting_time[walker.row]};
+                      traffic.waiting_time[walker.row]};
     const std::int64_t foe = find_who_comes(view, walker.row, piece);
     if (foe < 0) break;
     return {true, over.begin - kBefore, LimitReason::Crossing, foe};

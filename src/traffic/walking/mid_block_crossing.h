@@ -10,6 +10,6 @@ namespace sumogamma {
 /// be. The spare time shrinks while it waits; in the end it goes where nobody has to brake hard.
 /// Who has set out goes on: the rest is avoidance's, and the drivers'. `pace`: that it would like
 /// to walk at [m/s].
-LinkDecision decide_at_kerb(const RoadView& view, const Traveller& walker, double pace);
+LinkDecision decide_at_kerb(const TrafficView& view, const Traveller& walker, double pace);
 
 }  // namespace sumogamma

@@ -16,7 +16,7 @@ constexpr double kLeastWay = 1e-4;  ///< that has a direction: nobody creeps on 
 /// People who walk the same way one behind the other keep a distance that grows with their speed,
 /// as on any sidewalk (Seyfried et al. 2005: 0.36 m + 1.06 s v from middle to middle); whoever
 /// comes towards them is left to avoidance.
-void follow_on_foot(const RoadView& view, const Course& course, RoadContext& context) {
+void follow_on_foot(const TrafficView& view, const Course& course, RoadContext& context) {
   constexpr double kReach = 2.5;   // [m]
   constexpr double kFile = 0.05;   // two who overlap sideways by more than this walk in file [m]
   constexpr double kBeside = 0.1;  // who is no further ahead is beside [m]
@@ -68,7 +68,7 @@ Vec2 way_onto(const Lane& crossing, const Vec2& place) {
 }
 
 /// Is a crossing red? One of its two directions has the light.
-bool is_red_for_walkers(const RoadView& view, const Lane& crossing) {
+bool is_red_for_walkers(const TrafficView& view, const Lane& crossing) {
   return std::any_of(crossing.incoming.begin(), crossing.incoming.end(), [&](ConnectionId id) {
     return is_red(view.road.signal(view.model.road.connection(id)));
   });
@@ -76,7 +76,7 @@ bool is_red_for_walkers(const RoadView& view, const Lane& crossing) {
 
 /// Who makes way for others beside a crossing, or on its rim, doesn't step further onto it while it
 /// is red; its own counts where it waits for it, and before its way leads there.
-void keep_off_red_crossings(const RoadView& view, const Course& course, RoadContext& context) {
+void keep_off_red_crossings(const TrafficView& view, const Course& course, RoadContext& context) {
   constexpr double kNear = 2.0;  // [m]
   const RoadNetwork& network = view.model.road;
   const Vec2& position = view.scene.position[course.row];
@@ -143,14 +143,14 @@ double kerb_halt(const Model& model, const Course& course, const PathLink& link)
 }
 
 /// Walkers stop dead at a kerb, and otherwise leave each other to avoidance.
-void set_walker_limit(const RoadView& view, const Course& course, RoadContext& context) {
+void set_walker_limit(const TrafficView& view, const Course& course, RoadContext& context) {
   constexpr double kStep = 0.4;     // [m]
   constexpr double kOnIt = 0.7;     // whose front is further past the line crosses [m]
   constexpr double kPressed = 3.0;  // likewise who was held there, and was pressed on [m]
   constexpr double kHeldUp = 2.0;   // [s]
   // who waited for the light, or set out and got no further: a queue stands over the crossing
   const bool was_held = view.scene.context[course.row].reason == LimitReason::Signal ||
-                        view.scene.waiting_time[course.row] > kHeldUp;
+                        view.traffic.waiting_time[course.row] > kHeldUp;
   const double front = course.along + course.half_length;
   const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed};
   auto halt = [&](const LinkDecision& decision) {
@@ -189,7 +189,7 @@ void set_walker_limit(const RoadView& view, const Course& course, RoadContext& c
 
 }  // namespace
 
-void set_walker_limits(const RoadView& view, const Course& course, RoadContext& context) {
+void set_walker_limits(const TrafficView& view, const Course& course, RoadContext& context) {
   follow_on_foot(view, course, context);
   set_walker_limit(view, course, context);
   keep_off_red_crossings(view, course, context);

@@ -89,18 +89,20 @@ double free_pace(const Path& path, const Scene& scene, const Surroundings& aroun
 }
 
 /// The best of the places between two sides, no further than `reach` from the body [m].
-double best_place(const Path& path, const Scene& scene, const Surroundings& around, std::size_t row,
-                  const Sides& sides, double reach) {
+double best_place(const TrafficView& view, const Path& path, const Surroundings& around,
+                  std::size_t row, const Sides& sides, double reach) {
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   double most_left = sides.left, most_right = -sides.right;
   keep_to_waiting_room(path, around.along, most_left, most_right);
-  const double liked = std::clamp(scene.path_offset[row], most_right, most_left);
+  const double liked = std::clamp(scene.manners[row].path_offset, most_right, most_left);
   const double free_speed = free_pace(path, scene, around, row);
   if (hoped_pace(scene, around, liked, free_speed) > kFree * free_speed) return liked;
   auto worth = [&](double place) {
     return hoped_pace(scene, around, place, free_speed) -
            kStepCost * std::abs(place - around.offset) - kLikeCost * std::abs(place - liked);
   };
-  double best = std::clamp(scene.passing_offset[row], most_right, most_left);
+  double best = std::clamp(traffic.passing_offset[row], most_right, most_left);
   double most = worth(best) + kKeeps;
   auto weigh = [&](double place) {
     if (place < most_right || place > most_left || std::abs(place - around.offset) > reach) return;
@@ -126,7 +128,10 @@ double room_off_the_way(const Path& path, const Surroundings& around, double pla
   return off > 0.0 ? off + kBeyond : 0.0;
 }
 
-double walking_place(const Path& path, const Scene& scene, Surroundings& around, std::size_t row) {
+double walking_place(const TrafficView& view, const Path& path, Surroundings& around,
+                     std::size_t row) {
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   // those left to avoidance are not weighed
   std::erase_if(around.users, [&](const RoadUser& user) {
     return meeting_with(scene, user) == Meeting::IsLeftToAvoidance;
@@ -138,15 +143,15 @@ double walking_place(const Path& path, const Scene& scene, Surroundings& around,
   const double farthest = stands ? kRound : kFarthest, reach = stands ? 2.0 * kRound : kReach;
   const Sides way = sides_of_way(path, around);
   const double on_it =
-      best_place(path, scene, around, row,
+      best_place(view, path, around, row,
                  {std::min(way.left, farthest), std::min(way.right, farthest)}, reach);
   // who has waited for long before a vehicle that shuts its way steps off that, until it is past
-  const bool is_off = scene.overtaking_room[row] > 0.0;
-  if (!stands || (!is_off && scene.waiting_time[row] <= kPatience)) return on_it;
+  const bool is_off = traffic.overtaking_room[row] > 0.0;
+  if (!stands || (!is_off && traffic.waiting_time[row] <= kPatience)) return on_it;
   const double free_speed = free_pace(path, scene, around, row);
   if (hoped_pace(scene, around, on_it, free_speed) > (is_off ? kOpen : kShut) * free_speed)
     return on_it;
-  return best_place(path, scene, around, row, {kRound, kRound}, reach);
+  return best_place(view, path, around, row, {kRound, kRound}, reach);
 }
 
 }  // namespace sumogamma

@@ -10,7 +10,8 @@ namespace sumogamma {
 /// meets others follows those who walk its own way: opposite streams part into lanes. Where a
 /// vehicle stands in the way the place is beside it, after some seconds off the way where it shuts
 /// that. Takes those who are left to avoidance out of `around`.
-double walking_place(const Path& path, const Scene& scene, Surroundings& around, std::size_t row);
+double walking_place(const TrafficView& view, const Path& path, Surroundings& around,
+                     std::size_t row);
 
 /// Room beyond the sides of its way that somebody on foot needs to be at a place [m], a metre
 /// beyond the place; 0 on its way. See scene.overtaking_room.

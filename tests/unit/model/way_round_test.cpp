@@ -119,7 +119,7 @@ TEST_F(WayRoundTest, WhoIsWedgedLeavesItsLaneByLessThanAMetre) {
     context.sub_goal = here_.scene.position[own_] + Vec2(0.0, 8.0);
     context.room_left = 5.0;
     context.room_right = -beyond;
-    here_.scene.wedge_left[own_] = 5.0;
+    here_.scene.held[own_].wedge_left = 5.0;
     Workspace work;
     const Vec2 chosen = gamma_velocity(here_.model, here_.scene, here_.geometry, own_,
                                        here_.scene.behavior[own_], work);

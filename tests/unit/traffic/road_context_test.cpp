@@ -109,7 +109,7 @@ TEST_F(ContextTest, NobodyAimsFurtherInThanItCanTurn) {
   line.push_back({-10, 2 * kRadius});
   const std::size_t own = add_on(line, "bicycle", "in_1", 3.0, 10.0 + 0.5 * kPi * kRadius, 1.0);
   const auto aside_at = [&](double aim) {
-    here_.scene.lateral_aim[own] = aim;
+    here_.traffic.lateral_aim[own] = aim;
     here_.update();
     const RoadContext& context = here_.context(own);
     return (context.sub_goal - here_.scene.position[own]).dot(left_of(context.tangent));
@@ -177,7 +177,7 @@ TEST_F(ContextTest, WhoIsWedgedGetsRoundByItsOwnWidthOnAJunction) {
   for (const auto& [name, lane, goes] :
        {std::tuple{"bicycle", ":C_0_0", false}, {"car", ":C_0_0", true}, {"car", "in_1", false}}) {
     const std::size_t own = add_on(line, name, lane, -1.5, 20.0, 0.3);
-    here_.scene.wedge_left[own] = 5.0;
+    here_.scene.held[own].wedge_left = 5.0;
     here_.scene.heading[own] = 0.5 * kPi;
     here_.scene.velocity[own] = Vec2(0, 0.3);
     here_.update();
@@ -211,8 +211,8 @@ TEST_F(ContextTest, WhoIsWedgedCreepsRoundOthersOnItsCarriageway) {
   Workspace work;
   double most = 0;
   for (int tick = 0; tick < 200; ++tick) {
-    here_.scene.wedge_left[own] = 5.0;
-    here_.scene.standing_time[wall] = 60.0;
+    here_.scene.held[own].wedge_left = 5.0;
+    here_.scene.held[wall].standing = 60.0;
     drive(own, work);
     locate_on_path(here_.model.road, here_.road, here_.scene, own);
     most = std::max(most, std::abs(here_.scene.position[own].y()));
@@ -276,10 +276,10 @@ TEST_F(ContextTest, TheSubGoalLiesAheadOnThePath) {
 
 TEST_F(ContextTest, ThePlaceThatAnAgentLikesBesideItsPathIsKeptOnTheRoad) {
   const std::size_t own = here_.add("bicycle", {"in", "out"}, 40, 4);
-  here_.scene.lateral_aim[own] = -0.5;
+  here_.traffic.lateral_aim[own] = -0.5;
   here_.update();
   EXPECT_NEAR(here_.context(own).sub_goal.y(), -0.5, 1e-9);
-  here_.scene.lateral_aim[own] = -30;
+  here_.traffic.lateral_aim[own] = -30;
   here_.update();
   // lane of 3.2 m, body of 0.65 m
   EXPECT_NEAR(here_.context(own).sub_goal.y(), -(1.6 - 0.325 - 0.1), 1e-9);
@@ -386,7 +386,7 @@ TEST_F(BendTest, BicyclesFollowAHook) {
 TEST_F(ContextTest, SlowWalkersGetRoundASharpCorner) {
   const std::size_t own =
       add_on({Vec2(0, 0), Vec2(10, 0), Vec2(10, -10)}, "pedestrian", "in_0", 5.0, 5.0, 0.7);
-  here_.scene.lateral_aim[own] = -1.0;
+  here_.traffic.lateral_aim[own] = -1.0;
   for (int tick = 0; tick < 400 && here_.scene.path_along[own] < 15; ++tick) {
     here_.update();
     const Vec2 way = here_.context(own).sub_goal - here_.scene.position[own];
@@ -411,7 +411,7 @@ TEST_F(ContextTest, APlannedHaltIsApproachedAndHeld) {
   here_.update();
   EXPECT_LT(here_.context(own).allowed_speed, 0.05);
   // served: the next one, of which there is none
-  here_.scene.next_stop[own] = 1;
+  here_.scene.halt[own].next = 1;
   here_.update();
   EXPECT_GT(here_.context(own).allowed_speed, 0.05);
 }
@@ -430,9 +430,9 @@ TEST_F(ContextTest, WhoIsFreeToGoAfterAWaitGoesAhead) {
   const std::size_t own = add_on({Vec2(0, 0), Vec2(10, 0)}, "pedestrian", "in_0", 5.0, 5.0, 0.7);
   here_.update();
   ASSERT_EQ(here_.context(own).reason, LimitReason::None);
-  here_.scene.standing_time[own] = 20.0;
+  here_.scene.held[own].standing = 20.0;
   const auto times_turned = [&](double blocked) {
-    here_.scene.blocked_time[own] = blocked;
+    here_.scene.held[own].blocked = blocked;
     const Vec2 ahead = here_.context(own).sub_goal - here_.scene.position[own];
     int turned = 0;
     for (int second = 0; second < 10; ++second) {

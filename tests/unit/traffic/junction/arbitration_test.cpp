@@ -122,8 +122,8 @@ class AmberGap : public ::testing::Test {
   void stand(double before, double since) {
     const PathLink& link = here_.path(own_).links.front();
     here_.move(own_, link.stop_line - 2.25 - before);
-    here_.scene.halted_for[own_] = link.connection;
-    here_.scene.halted_at[own_] = since;
+    here_.traffic.halted_for[own_] = link.connection;
+    here_.traffic.halted_at[own_] = since;
   }
   /// The other comes at 10 m/s, with so much way to its line [m].
   void come(double before) {
@@ -179,7 +179,7 @@ TEST(HoldingUp, WhoStandsInTheWayOfOneLaneIsLetPastByTheOther) {
   here.move(held, here.path(held).links.front().stop_line - 0.6 - 2.25);
   here.move(other, here.path(other).links.front().stop_line - 12.0 - 2.25);
   for (const double stood : {1.0, 4.0}) {
-    here.scene.standing_time[held] = stood;
+    here.scene.held[held].standing = stood;
     here.update(2);
     ASSERT_EQ(here.context(held).foe, here.scene.id[own].value);
     const bool lets_past = here.context(other).foe == here.scene.id[own].value;
@@ -202,11 +202,11 @@ TEST(HoldingUp, SoDoesWhoeverThatOneStandsBehind) {
     here.scene.context[row].foe = static_cast<std::int64_t>(here.scene.id[other].value);
   };
   waits_for(held, LimitReason::Yield, second);
-  here.scene.standing_time[held] = 4.0;
+  here.scene.held[held].standing = 4.0;
   for (const LimitReason reason : {LimitReason::Leader, LimitReason::Yield}) {
     waits_for(second, reason, first);
     ApproachTable approaches;
-    approaches.rebuild(here.model, here.road, here.scene);
+    approaches.rebuild(here.model, here.road, here.scene, here.traffic);
     EXPECT_TRUE(approaches.waiting(second).holds_up);
     EXPECT_EQ(approaches.waiting(first).holds_up, reason == LimitReason::Leader);
     EXPECT_FALSE(approaches.waiting(held).holds_up);
@@ -231,8 +231,8 @@ class LeftFromTheKerb : public ::testing::Test {
     const PathLink& link = here_.path(rider).links.front();
     here_.move(rider, link.stop_line - 0.6 -
                           0.5 * type_of(here_.model.types, here_.scene.type[rider]).length);
-    here_.scene.halted_for[rider] = link.connection;
-    here_.scene.halted_at[rider] = 200 - halted_for;
+    here_.traffic.halted_for[rider] = link.connection;
+    here_.traffic.halted_at[rider] = 200 - halted_for;
     return rider;
   }
   std::size_t add_car(double before, double speed) {
@@ -260,7 +260,7 @@ TEST_F(LeftFromTheKerb, ACyclistWhoMissedAGreenGoesFirstAtTheNext) {
   update('g', 10.0);
   EXPECT_EQ(here_.context(rider).reason, LimitReason::Yield) << "not amid the green";
   EXPECT_EQ(here_.context(car).reason, LimitReason::None);
-  here_.scene.halted_at[rider] = 200 - 50;
+  here_.traffic.halted_at[rider] = 200 - 50;
   update('g', 1.0);
   EXPECT_EQ(here_.context(rider).reason, LimitReason::Yield) << "it came at red";
   EXPECT_EQ(here_.context(car).reason, LimitReason::None);
@@ -275,7 +275,7 @@ TEST_F(LeftFromTheKerb, ADriverWaitsForAGap) {
 
 TEST_F(SignalTest, WhoStandsDownTheQueueKnowsThatItIsRed) {
   const std::size_t own = here_.add("car", {"in", "out"}, 30, 0);
-  here_.scene.standing_time[own] = 5.0;
+  here_.scene.held[own].standing = 5.0;
   show('r');
   here_.update();
   EXPECT_TRUE(here_.context(own).at_red);
@@ -399,10 +399,10 @@ TEST_F(PriorityTest, WhoTurnsInWaitsForWhoWouldHaveToBrakeHard) {
   EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
   EXPECT_EQ(here_.context(minor).foe, here_.scene.id[major].value);
   // who has waited for a minute asks for more
-  here_.scene.waiting_time[minor] = 60;
+  here_.traffic.waiting_time[minor] = 60;
   here_.update();
   EXPECT_EQ(here_.context(minor).reason, LimitReason::None);
-  here_.scene.waiting_time[minor] = 0;
+  here_.traffic.waiting_time[minor] = 0;
   here_.move(major, line - 110);
   here_.update();
   EXPECT_EQ(here_.context(minor).reason, LimitReason::None);
@@ -519,8 +519,8 @@ TEST_F(PriorityTest, OfTwoThatWaitForEachOtherOneGoes) {
     here_.scene.context[row].reason = LimitReason::Yield;
     here_.scene.context[row].foe = here_.scene.id[row == a ? b : a].value;
   }
-  here_.scene.waiting_time[a] = 20;
-  here_.scene.waiting_time[b] = 10;
+  here_.traffic.waiting_time[a] = 20;
+  here_.traffic.waiting_time[b] = 10;
   here_.update();
   const bool first_goes = here_.context(a).reason != LimitReason::Yield;
   const bool second_goes = here_.context(b).reason != LimitReason::Yield;
@@ -553,12 +553,12 @@ TEST_F(PriorityTest, IntoAFullRoadDriversLetOneInWhoHasWaitedForLong) {
             here_.model.road.connection(link.connection).to);
   here_.move(minor, turn.stop_line - 2.25 - 0.6);
   here_.scene.time = 100;
-  here_.scene.halted_for[minor] = turn.connection;
-  here_.scene.halted_at[minor] = 90;
+  here_.traffic.halted_for[minor] = turn.connection;
+  here_.traffic.halted_at[minor] = 90;
   here_.update(2);
   EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
   EXPECT_NE(here_.context(own).reason, LimitReason::BlockedJunction) << "not yet for long";
-  here_.scene.halted_at[minor] = 70;
+  here_.traffic.halted_at[minor] = 70;
   here_.update();
   EXPECT_EQ(here_.context(own).reason, LimitReason::BlockedJunction);
   // it stands and lets the other go
@@ -580,11 +580,11 @@ TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
   const PathLink& turn = here_.path(minor).links.front();
   here_.scene.time = 100;
   auto came = [&](double own_at, double minor_at) {
-    here_.scene.halted_for = {link.connection, turn.connection};
-    here_.scene.halted_at = {own_at, minor_at};
+    here_.traffic.halted_for = {link.connection, turn.connection};
+    here_.traffic.halted_at = {own_at, minor_at};
     here_.scene.context.assign(2, {});
-    here_.scene.waiting_time = {3.0, 5.0};  // it inched on
-    here_.update(2);                        // the other one sees that it is let in
+    here_.traffic.waiting_time = {3.0, 5.0};  // it inched on
+    here_.update(2);                          // the other one sees that it is let in
   };
   came(80, 70);
   EXPECT_EQ(here_.context(own).reason, LimitReason::LetsIn);
@@ -597,11 +597,11 @@ TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
   EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn) << "but just before";
   came(80, 70);
   EXPECT_EQ(here_.context(own).reason, LimitReason::LetsIn);
-  here_.scene.waiting_time[own] = 100.0;
+  here_.traffic.waiting_time[own] = 100.0;
   here_.update();
   EXPECT_EQ(here_.context(own).reason, LimitReason::LetsIn) << "queues stand for a minute";
   came(80, 70);
-  here_.scene.waiting_time[own] = 130.0;
+  here_.traffic.waiting_time[own] = 130.0;
   here_.update();
   EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn) << "not for ever";
   came(80, 70);
@@ -615,8 +615,8 @@ TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
   // who is let in and then has somebody else to wait for is left behind
   const std::size_t other = here_.add("car", {"EC", "CW"}, 100, 0);
   here_.scene.context.assign(3, {});
-  here_.scene.halted_at[own] = 80;
-  here_.scene.halted_at[minor] = 70;
+  here_.traffic.halted_at[own] = 80;
+  here_.traffic.halted_at[minor] = 70;
   here_.scene.context[minor].reason = LimitReason::Yield;
   here_.scene.context[minor].foe = here_.scene.id[other].value;
   here_.update();
@@ -635,8 +635,8 @@ TEST_F(PriorityTest, WhoHasStoodForLongWithTheRightOfWayComesNext) {
     context.active = true;
     context.reason = LimitReason::Yield;
     context.foe = here_.scene.id[third].value;
-    here_.scene.standing_time[major] = here_.scene.waiting_time[major] = stood;
-    here_.scene.waiting_time[minor] = 5.0;
+    here_.scene.held[major].standing = here_.traffic.waiting_time[major] = stood;
+    here_.traffic.waiting_time[minor] = 5.0;
     here_.update();
     return here_.context(minor).foe == here_.scene.id[major].value;
   };
@@ -655,15 +655,15 @@ TEST_F(PriorityTest, WhoWaitsForTheRowToLeaveTheJunctionIsLetInBehindIt) {
   const PathLink& turn = here_.path(minor).links.front();
   const std::size_t other = here_.add("car", {"EC", "CW"}, 0, 0);
   here_.scene.time = 100;
-  here_.scene.halted_for = {link.connection, kNoConnection, turn.connection, kNoConnection};
+  here_.traffic.halted_for = {link.connection, kNoConnection, turn.connection, kNoConnection};
   const auto reason_after = [&](double wait, std::size_t foe) {
-    here_.scene.halted_at = {90, 0, 100 - wait, 0};
+    here_.traffic.halted_at = {90, 0, 100 - wait, 0};
     here_.scene.context.assign(4, {});
     here_.scene.context[minor].reason = LimitReason::Yield;
     here_.scene.context[minor].foe = here_.scene.id[foe].value;
-    here_.scene.waiting_time = {3.0, 3.0, wait, 3.0};
+    here_.traffic.waiting_time = {3.0, 3.0, wait, 3.0};
     // it has kept the junction clear for long
-    here_.scene.keeps_clear[own] = 45.0;
+    here_.traffic.keeps_clear[own] = 45.0;
     here_.update();
     return here_.context(own).reason;
   };
@@ -728,7 +728,7 @@ TEST_F(PriorityTest, WhoIsDrivingByWhoWaitsForAThirdGoesOn) {
     here_.scene.context[own].reason = LimitReason::None;
     here_.scene.context[foe].reason = LimitReason::Yield;
     here_.scene.context[foe].foe = here_.scene.id[third].value;
-    here_.scene.waiting_time[foe] = wait;
+    here_.traffic.waiting_time[foe] = wait;
     here_.update();
     return here_.context(own).reason == LimitReason::Yield;
   };
@@ -772,7 +772,7 @@ TEST_F(PriorityTest, WhoKeepsAJunctionClearForItselfInTheEndGoesOnSooner) {
   here_.move(queue, here_.path(own).links.front().end + 2.25 + 1.0);
   const std::size_t third = here_.add("car", {"NC", "CS"}, 150, 0);
   auto blocked_for = [&](std::int64_t third_waits_for) {
-    here_.scene.keeps_clear[own] = 0.0;
+    here_.traffic.keeps_clear[own] = 0.0;
     double blocked = 0;
     for (double time = 0; time < 30.0; time += 0.5) {
       here_.scene.context[queue].foe = here_.scene.id[third].value;
@@ -823,13 +823,13 @@ TEST(JunctionsThatFollowClosely, AreKeptClearForSomeTimeThoughSomebodyCreeps) {
   here.move(foe, here.path(foe).links.at(0).stop_line - 32);
   here.update();
   EXPECT_EQ(here.context(own).foe, here.scene.id[foe].value);
-  here.scene.standing_time[own] = 0.5;
-  here.scene.waiting_time[own] = 25;
+  here.scene.held[own].standing = 0.5;
+  here.traffic.waiting_time[own] = 25;
   here.update();
   EXPECT_GT(here.context(own).allowed_speed, 0.3) << "it goes as far as B";
 
   // where it waits short of the line it doesn't halt again on its way from there to the line
-  here.scene.standing_time[own] = here.scene.waiting_time[own] = 0;
+  here.scene.held[own].standing = here.traffic.waiting_time[own] = 0;
   auto path = std::make_shared<Path>(here.path(own));
   path->links[0].halt -= 3.0;
   here.road.paths[static_cast<std::size_t>(here.scene.path[own])] = path;
@@ -849,12 +849,12 @@ TEST(JunctionsThatFollowClosely, WhoseRoadBehindTheSecondIsFullWaitsBeforeTheFir
   here.update();
   EXPECT_GT(here.context(own).allowed_speed, 0.3) << "the road is free";
   const std::size_t last = here.add("car", {"BE"}, 4, 0);
-  here.scene.standing_time[last] = 5;
+  here.scene.held[last].standing = 5;
   here.update();
   EXPECT_EQ(here.context(own).reason, LimitReason::BlockedJunction);
   EXPECT_EQ(here.context(own).foe, here.scene.id[last].value);
   EXPECT_LT(here.context(own).allowed_speed, 0.3);
-  here.scene.waiting_time[own] = 25;
+  here.traffic.waiting_time[own] = 25;
   here.update();
   EXPECT_GT(here.context(own).allowed_speed, 0.3) << "it has been patient";
 }
@@ -885,11 +885,11 @@ TEST(JunctionsThatFollowClosely, WhoStandsLetsOneInWhereTheRoadGoesOnBehindTheSe
     for (const std::size_t row : {own, minor}) {
       const PathLink& link = here.path(row).links.front();
       here.move(row, link.halt - 2.25 - 0.6);
-      here.scene.halted_for[row] = link.connection;
+      here.traffic.halted_for[row] = link.connection;
     }
     here.scene.time = 100;
-    here.scene.halted_at = {80, 70};
-    here.scene.waiting_time = {3.0, 5.0};
+    here.traffic.halted_at = {80, 70};
+    here.traffic.waiting_time = {3.0, 5.0};
     here.update(2);
     EXPECT_EQ(here.context(own).reason == LimitReason::LetsIn, goes_on);
   }
@@ -908,7 +908,7 @@ TEST(JunctionsThatFollowClosely, AHaltBeforeTheFirstCountsForTheStopSignOfTheSec
   here.move(own, path->links[1].halt - 0.7 - 2.25);
   here.update();
   EXPECT_EQ(here.context(own).reason, LimitReason::Yield);
-  here.scene.standing_time[own] = 1.0;
+  here.scene.held[own].standing = 1.0;
   here.update();
   EXPECT_EQ(here.context(own).reason, LimitReason::None);
 }
@@ -926,10 +926,10 @@ TEST(JunctionsThatFollowClosely, AHaltBeforeAZebraCountsForTheStopSignThatLeaves
     here.move(own, links[0].halt - 0.6 - 2.25);
     here.update();
     EXPECT_EQ(here.context(own).reason, LimitReason::Yield);
-    here.scene.standing_time[own] = 1.0;
+    here.scene.held[own].standing = 1.0;
     here.update();
     EXPECT_GT(here.context(own).allowed_speed, 0.3);
-    here.scene.standing_time[own] = 0.0;
+    here.scene.held[own].standing = 0.0;
     here.move(own, links[1].halt - 0.6 - 2.25);
     here.update();
     EXPECT_GT(here.context(own).allowed_speed, 0.3) << "it halts once";
@@ -1007,7 +1007,7 @@ TEST(JunctionsThatFollowClosely,
       state.assign(here.model.road.signals.at(0).size, letter);
     };
     for (const double waited : {0.0, 60.0}) {
-      here.scene.standing_time[own] = here.scene.waiting_time[own] = waited;
+      here.scene.held[own].standing = here.traffic.waiting_time[own] = waited;
       show('r');
       here.update();
       EXPECT_EQ(here.context(own).reason, LimitReason::Signal) << "after " << waited << " s";
@@ -1074,7 +1074,7 @@ TEST(JunctionsThatFollowClosely, WhoseLineAtALightIsDrawnOnTheJunctionBeforeWait
   swept.begin = -room - 0.5;
   here.model.swept_ways[index_of(links[1].connection)].push_back(swept);
   for (const double waited : {0.0, 60.0}) {
-    here.scene.standing_time[own] = here.scene.waiting_time[own] = waited;
+    here.scene.held[own].standing = here.traffic.waiting_time[own] = waited;
     EXPECT_TRUE(waits('r')) << "after " << waited << " s";
     EXPECT_FALSE(waits('G')) << "after " << waited << " s";
   }
@@ -1088,11 +1088,11 @@ TEST_F(PriorityTest, OfTwoWhoHaveWaitedOnAJunctionForLongNobodyTriesWhileTheOthe
   const std::size_t foe = here_.add("bus", {"WC", "CE"}, 0, 0.5, 0, -1, "WC_1");
   const PathLink& foe_link = here_.path(foe).links.front();
   here_.move(foe, foe_link.end - 3.0);
-  here_.scene.waiting_time[own] = here_.scene.waiting_time[foe] = 10;
+  here_.traffic.waiting_time[own] = here_.traffic.waiting_time[foe] = 10;
   here_.update();
   EXPECT_EQ(here_.context(own).foe, here_.scene.id[foe].value) << "it creeps on";
   here_.set_speed(foe, 0);
-  here_.scene.waiting_time[own] = here_.scene.waiting_time[foe] = 10;
+  here_.traffic.waiting_time[own] = here_.traffic.waiting_time[foe] = 10;
   here_.scene.context[foe] = {};
   here_.update();
   EXPECT_NE(here_.context(own).foe, here_.scene.id[foe].value) << "it stands, held by nothing";
@@ -1111,7 +1111,7 @@ TEST_F(PriorityTest, ARingOnAJunctionDissolvesAfterThreeSeconds) {
       here_.scene.context[chain[k]].reason = LimitReason::Yield;
       here_.scene.context[chain[k]].foe = here_.scene.id[chain[k + 1]].value;
     }
-    here_.scene.waiting_time = {waited + 1.0, waited, waited};
+    here_.traffic.waiting_time = {waited + 1.0, waited, waited};
     here_.update();
     return here_.context(own).foe == here_.scene.id[foe].value;
   };
@@ -1126,8 +1126,8 @@ TEST_F(PriorityTest, NobodyWaitsForWhoIsHeldByBodiesAlone) {
   const std::size_t major = add_at_line({"WC", "CE"});
   here_.update();
   EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
-  here_.scene.blocked_time[major] = 10;
-  here_.scene.standing_time[major] = 10;
+  here_.scene.held[major].blocked = 10;
+  here_.scene.held[major].standing = 10;
   here_.update();
   EXPECT_NE(here_.context(minor).reason, LimitReason::Yield);
 }
@@ -1139,10 +1139,10 @@ TEST_F(PriorityTest, NobodyWaitsForWhoCreepsOutOfAWedge) {
   here_.move(major, here_.path(major).links.front().stop_line - 2.25 + 0.5);
   here_.update();
   EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
-  here_.scene.wedge_left[major] = 10;
+  here_.scene.held[major].wedge_left = 10;
   here_.update();
   EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield) << "it has just begun";
-  here_.scene.waiting_time[major] = 20;
+  here_.traffic.waiting_time[major] = 20;
   here_.update();
   EXPECT_NE(here_.context(minor).reason, LimitReason::Yield);
   const ConnectionId link = here_.path(major).links.front().connection;
@@ -1165,7 +1165,7 @@ TEST_F(PriorityTest, WhoHasWaitedCrossesAQueueThatCreepsUpBeforeTheJunction) {
   const std::size_t next = here_.add("car", {"WC", "CE"}, 0, 1.0);
   here_.move(next, line - 0.6 - 2.2 - 2.0 - 2.25);
   const auto update_after = [&](double waited) {
-    here_.scene.waiting_time[minor] = waited;
+    here_.traffic.waiting_time[minor] = waited;
     here_.scene.context[head].reason = LimitReason::BlockedJunction;
     here_.scene.context[head].foe = -1;
     here_.scene.context[next].reason = LimitReason::Leader;
@@ -1244,7 +1244,7 @@ TEST_F(PriorityTest, WhoWaitsOnTheJunctionLeavesTheWaysOfOthersFree) {
   ASSERT_EQ(here_.context(own).foe, here_.scene.id[oncoming].value);
   EXPECT_LT(here_.context(own).to_halt, alone - 1.0);
   // not for ever
-  here_.scene.waiting_time[own] = 30.0;
+  here_.traffic.waiting_time[own] = 30.0;
   here_.update();
   EXPECT_EQ(here_.context(own).to_halt, alone);
 }
@@ -1275,7 +1275,7 @@ TEST_F(PriorityTest, WhoRidesBesideTheMiddleOfItsLaneWaitsForLongBodiesBeforeThe
     here.move(oncoming, here.path(oncoming).links.front().stop_line - 15);
     for (const double aside : {-1.0, 0.0, 1.0}) {
       here.move(own, here.path(own).links.front().stop_line - 6, aside);
-      here.scene.passing_offset[own] = aside;
+      here.traffic.passing_offset[own] = aside;
       here.update();
       ASSERT_EQ(here.context(own).foe, here.scene.id[oncoming].value) << aside;
       const bool on_junction = here.context(own).to_halt > 6.0;
@@ -1289,8 +1289,8 @@ class LongStand : public PriorityTest {
  protected:
   /// Over the major road, before which it has stood for so long [s].
   void stand(double time) {
-    here_.scene.halted_for[own_] = here_.path(own_).links.front().connection;
-    here_.scene.halted_at[own_] = here_.scene.time - time;
+    here_.traffic.halted_for[own_] = here_.path(own_).links.front().connection;
+    here_.traffic.halted_at[own_] = here_.scene.time - time;
     here_.scene.context[own_].reason = LimitReason::Yield;
   }
   /// Somebody on the major road comes, so far before its line.
@@ -1323,12 +1323,12 @@ TEST_F(LongStand, NobodyWaitsForItForLongNorWhoHasStoodForAsLong) {
   stand(60);
   here_.update();
   EXPECT_TRUE(waits(driver_, own_));
-  here_.scene.waiting_time[driver_] = 15;
+  here_.traffic.waiting_time[driver_] = 15;
   here_.update();
   EXPECT_FALSE(waits(driver_, own_)) << "it has waited for it long enough";
-  here_.scene.waiting_time[driver_] = 0;
-  here_.scene.halted_for[driver_] = here_.path(driver_).links.front().connection;
-  here_.scene.halted_at[driver_] = here_.scene.time - 60;
+  here_.traffic.waiting_time[driver_] = 0;
+  here_.traffic.halted_for[driver_] = here_.path(driver_).links.front().connection;
+  here_.traffic.halted_at[driver_] = here_.scene.time - 60;
   here_.update();
   EXPECT_FALSE(waits(driver_, own_)) << "of two that nose out one would wait for the other";
 }
@@ -1337,7 +1337,7 @@ TEST_F(LongStand, NobodyWaitsForItForLongNorWhoHasStoodForAsLong) {
 TEST_F(LongStand, GoesBeforeWhoStandsAndWaitsForIt) {
   come(0.5, 0);
   stand(60);
-  here_.scene.waiting_time[driver_] = 5;
+  here_.traffic.waiting_time[driver_] = 5;
   here_.scene.context[driver_].reason = LimitReason::Yield;
   here_.scene.context[driver_].foe = static_cast<std::int64_t>(here_.scene.id[own_].value);
   here_.update();
@@ -1348,10 +1348,10 @@ TEST_F(LongStand, GoesBeforeWhoStandsAndWaitsForIt) {
 TEST_F(LongStand, CountsOnTheJunctionToo) {
   const std::size_t turning = here_.add("car", {"WC", "CN"}, 0, 0);
   const PathLink link = here_.path(turning).links.front();
-  here_.scene.standing_time[turning] = 1.0;
+  here_.scene.held[turning].standing = 1.0;
   here_.move(turning, link.inside - 1.0 - 2.25);
   here_.update();
-  EXPECT_EQ(here_.scene.halted_for[turning], link.connection);
+  EXPECT_EQ(here_.traffic.halted_for[turning], link.connection);
 }
 
 // two that took each other for somebody who stands met nose to nose
@@ -1363,7 +1363,7 @@ TEST_F(PriorityTest, WhoCreepsOnTheJunctionIsNotTakenForSomebodyWhoStands) {
   here_.move(foe, zone_of(foe, own) - 2.25 - 0.02);
   auto decide = [&](double speed) {
     here_.set_speed(foe, speed);
-    here_.scene.waiting_time[own] = here_.scene.waiting_time[foe] = 6.0;
+    here_.traffic.waiting_time[own] = here_.traffic.waiting_time[foe] = 6.0;
     here_.scene.context[foe].reason = LimitReason::Yield;
     here_.scene.context[foe].foe = 77;
     here_.update();
@@ -1378,8 +1378,8 @@ TEST_F(PriorityTest, WhoWaitsForAThirdOneIsPassedAfterALook) {
   const std::size_t own = add_at_line({"SC", "CN"});
   const std::size_t foe = add_at_line({"WC", "CE"}, "WC_0");
   auto is_held = [&](double own_wait, double their_wait) {
-    here_.scene.waiting_time[own] = own_wait;
-    here_.scene.waiting_time[foe] = their_wait;
+    here_.traffic.waiting_time[own] = own_wait;
+    here_.traffic.waiting_time[foe] = their_wait;
     here_.scene.context[foe].reason = LimitReason::Yield;
     here_.scene.context[foe].foe = 77;
     here_.update();
@@ -1412,7 +1412,7 @@ TEST_F(PriorityTest, WhoHasBackedOutLetsTheOthersPast) {
   here_.move(other, here_.path(other).line.project(Vec2(0, -5)).along);
   here_.update();
   EXPECT_EQ(here_.context(own).reason, LimitReason::Yield);
-  here_.scene.gives_way_left[other] = 5;
+  here_.traffic.gives_way_left[other] = 5;
   here_.update(2);
   EXPECT_NE(here_.context(own).reason, LimitReason::Yield);
 }
@@ -1430,7 +1430,7 @@ TEST_F(PriorityTest, AStopSignIsHaltedAt) {
   // having stood at the line, it goes
   here.move(own, line - 2.25 - 0.7);
   here.set_speed(own, 0);
-  here.scene.standing_time[own] = 1.0;
+  here.scene.held[own].standing = 1.0;
   here.update();
   EXPECT_NE(here.context(own).reason, LimitReason::Yield);
 }
@@ -1452,7 +1452,7 @@ class RedLightRunning : public ::testing::Test {
     own_ = here_.add("motorcycle", {"SC", "CN"}, 0, 0);
     here_.scene.manners[own_].key = 1;
     here_.move(own_, here_.path(own_).links.front().halt - 1.1 - 0.7);
-    here_.scene.standing_time[own_] = 1.0;
+    here_.scene.held[own_].standing = 1.0;
   }
   static const RoadNetwork& net() {
     static const RoadNetwork network = read_plain_net(crossroads("traffic_light"));
@@ -1474,7 +1474,7 @@ TEST_F(RedLightRunning, WhoIsLeftOnTheJunctionLeavesItBeforeOthersCome) {
   for (const std::size_t row : {left, green}) {
     here_.scene.context[row].reason = LimitReason::Yield;
     here_.scene.context[row].foe = here_.scene.id[row == left ? green : left].value;
-    here_.scene.waiting_time[row] = 30;
+    here_.traffic.waiting_time[row] = 30;
   }
   here_.road.signal_since.assign(here_.road.signal_states.size(), here_.scene.time - 2.0);
   here_.update();
@@ -1504,7 +1504,7 @@ TEST_F(RedLightRunning, ItHaltsFirst) {
   set_rate(1.0);
   here_.move(own_, here_.path(own_).links.front().halt - 15);
   here_.set_speed(own_, 8);
-  here_.scene.standing_time[own_] = 0.0;
+  here_.scene.held[own_].standing = 0.0;
   here_.update();
   EXPECT_EQ(here_.context(own_).reason, LimitReason::Signal);
   EXPECT_LT(here_.context(own_).allowed_speed, 8.0);
@@ -1604,7 +1604,7 @@ TEST_F(CrossingTest, NobodyWaitsForWhoShufflesBeforeWhatShutsTheCrossing) {
   give_priority(here_.path(walker).links.at(0).connection);
   here_.update();
   EXPECT_EQ(here_.context(driver).foe, here_.scene.id[walker].value);
-  here_.scene.waiting_time[walker] = 10;
+  here_.traffic.waiting_time[walker] = 10;
   here_.update();
   EXPECT_EQ(here_.context(driver).reason, LimitReason::None);
 }
@@ -1729,7 +1729,7 @@ TEST_F(WalkersAtRed, WhoStepsBackGoesNoFurtherOn) {
 // then on to and fro
 TEST_F(WalkersAtRed, WhoSetOutAndGotNoFurtherStepsBack) {
   const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.1, 195, 5);
-  here_.scene.waiting_time[walker] = 5.0;
+  here_.traffic.waiting_time[walker] = 5.0;
   EXPECT_TRUE(steps_back(walker, 2.0));
   EXPECT_EQ(here_.context(walker).reason, LimitReason::Signal);
   here_.scene.context[walker] = {};
@@ -1926,7 +1926,7 @@ TEST_F(CrossingTest, WhoHasWaitedForLongStepsOutBeforeWhoHaltsForItAtEase) {
   const double line = here_.path(driver).links.at(0).stop_line;
   const auto waits = [&](double waited, double way) {
     here_.move(driver, line - 2.25 - way);
-    here_.scene.waiting_time[walker] = waited;
+    here_.traffic.waiting_time[walker] = waited;
     here_.update();
     return here_.context(walker).foe == here_.scene.id[driver].value;
   };
@@ -1950,12 +1950,12 @@ TEST_F(CrossingTest, WhoStepsBackHasWaitedSinceItCame) {
   const std::size_t driver = here_.add("car", {"WC", "CE"}, 0, 12, 0, -1, "WC_1");
   here_.move(driver, here_.path(driver).links.at(0).stop_line - 2.25 - 48);
   const auto waits = [&](double came) {
-    here_.scene.halted_for[walker] = kNoConnection;
+    here_.traffic.halted_for[walker] = kNoConnection;
     here_.scene.time = came;
-    here_.scene.standing_time[walker] = 1.0;
+    here_.scene.held[walker].standing = 1.0;
     here_.update();
     here_.scene.time = 100;
-    here_.scene.standing_time[walker] = 0.0;
+    here_.scene.held[walker].standing = 0.0;
     here_.update();
     return here_.context(walker).foe == here_.scene.id[driver].value;
   };
@@ -1972,7 +1972,7 @@ TEST_F(CrossingTest, WhoHasSetOutGoesOnAndDriversHaltForIt) {
   const double line = here_.path(driver).links.at(0).stop_line;
   here_.move(driver, line - 2.25 - 3.0);
   const auto waited = [&](double time, double speed) {
-    here_.scene.waiting_time[walker] = time;
+    here_.traffic.waiting_time[walker] = time;
     here_.set_speed(walker, speed);
     here_.scene.context[walker].reason = LimitReason::Yield;
     here_.update();
@@ -1985,8 +1985,8 @@ TEST_F(CrossingTest, WhoHasSetOutGoesOnAndDriversHaltForIt) {
   EXPECT_FALSE(waited(35, 0));
   EXPECT_FALSE(waited(20, 0.8));
   EXPECT_TRUE(waited(5, 0.8));
-  here_.scene.waiting_time[driver] = 15;
-  here_.scene.waiting_time[walker] = 35;
+  here_.traffic.waiting_time[driver] = 15;
+  here_.traffic.waiting_time[walker] = 35;
   here_.update();
   EXPECT_NE(here_.context(driver).foe, here_.scene.id[walker].value) << "it has waited long enough";
 }
@@ -2013,7 +2013,7 @@ class StandingDriver : public CrossingTest {
     here_.scene.context[driver_].foe = static_cast<std::int64_t>(here_.scene.id[third_].value);
     here_.scene.context[walker_].active = true;
     here_.scene.context[walker_].reason = held ? LimitReason::Yield : LimitReason::None;
-    here_.scene.waiting_time[driver_] = driver_waits;
+    here_.traffic.waiting_time[driver_] = driver_waits;
     here_.update();
     return here_.context(walker_).foe == here_.scene.id[driver_].value;
   }
@@ -2026,9 +2026,9 @@ TEST_F(StandingDriver, IsWaitedForAtAnySpeed) {
 }
 
 TEST_F(StandingDriver, WhoHasLookedAndSetOutNeedNotLookAgain) {
-  here_.scene.waiting_time[walker_] = 3.0;
+  here_.traffic.waiting_time[walker_] = 3.0;
   EXPECT_FALSE(waits(-0.6, 0.0, 6.0, true)) << "it waits for somebody else and isn't about to go";
-  here_.scene.waiting_time[walker_] = 0.0;  // forgotten with the first step
+  here_.traffic.waiting_time[walker_] = 0.0;  // forgotten with the first step
   EXPECT_FALSE(waits(0.3, 0.8, 6.0, false));
   EXPECT_TRUE(waits(0.3, 0.8, 6.0, true)) << "it was held there";
 }

@@ -134,7 +134,7 @@ TEST_F(TurningRoomTest, WhoCreepsUpToThePlaceLetsABusPastThatHasStoodForLong) {
   ASSERT_NE(way, nullptr);
   come_up_to(*way, next, 2.0);
   const auto is_held = [&](double stood) {
-    here_.scene.standing_time[bus] = stood;
+    here_.scene.held[bus].standing = stood;
     here_.update(2);
     return leaves_room(next, 2.0);
   };
@@ -152,8 +152,8 @@ TEST_F(TurningRoomTest, WhoCreepsUpToThePlaceLetsABusOutThatBodiesHaveHeldForLon
   come_up_to(*way, next, 2.0);
   here_.move(bus, here_.path(bus).links.front().stop_line + way->foe_begin + 2.0 - 6.0);
   const auto is_held = [&](double waited, double blocked) {
-    here_.scene.waiting_time[bus] = waited;
-    here_.scene.blocked_time[bus] = blocked;
+    here_.traffic.waiting_time[bus] = waited;
+    here_.scene.held[bus].blocked = blocked;
     here_.update();
     return leaves_room(next, 2.0);
   };
@@ -173,9 +173,9 @@ TEST_F(TurningRoomTest, WhoCreepsUpToThePlaceSoonLetsABusPastThatStandsOnTheJunc
   come_up_to(*way, next, 2.0);
   here_.move(bus, here_.path(bus).links.front().stop_line + way->foe_begin - 0.5 - 6.0);
   const auto is_held = [&](double waited, LimitReason reason) {
-    here_.scene.waiting_time[bus] = waited;
+    here_.traffic.waiting_time[bus] = waited;
     here_.scene.context[bus].reason = reason;
-    here_.approaches.rebuild(here_.model, here_.road, here_.scene);
+    here_.approaches.rebuild(here_.model, here_.road, here_.scene, here_.traffic);
     return leaves_room(next, 2.0);
   };
   EXPECT_FALSE(is_held(1.0, LimitReason::TurningRoom));

@@ -51,14 +51,13 @@ TEST(PassingSpeed, LeavesTheWayThatTurningOutTakes) {
 TEST(PassingOffset, NobodyLikesToRideBesideTheLanesOfAJunction) {
   RoadScene here{testing::small_net()};
   const std::size_t own = here.add("bicycle", {"in", "out"}, 100, 4);
-  here.scene.path_offset[own] = -2.0;
+  here.scene.manners[own].path_offset = -2.0;
   here.update();
   const PathStretch& stretch = here.path(own).stretch_at(100);
   ASSERT_GT(stretch.room_right, 2.8);
   Surroundings around;
-  look_around(here.model, here.road, here.scene, here.geometry.grid, own, 60.0, 8.0, around);
-  const double place =
-      passing_offset(here.model, here.road, here.path(own), here.scene, around, own);
+  look_around(here.view(), own, 60.0, 8.0, around);
+  const double place = passing_offset(here.view(), here.path(own), around, own);
   EXPECT_NEAR(place, -(1.6 - around.half_width - 0.15), 1e-9);
 }
 
@@ -76,8 +75,8 @@ TEST(ChooseLanes, WhoHasJustComeLooksAtOnce) {
   for (const bool known : {true, false}) {
     here.scene.context[own].active = known;
     here.scene.tick = 1;  // not its own
-    choose_lanes(here.model, here.geometry.grid, 0.05, alone, here.road, here.scene, work);
-    EXPECT_EQ(here.scene.merge_to[own], known ? kNoLane : wanted);
+    choose_lanes(here.tick(alone), work);
+    EXPECT_EQ(here.traffic.merge_to[own], known ? kNoLane : wanted);
   }
 }
 
@@ -92,9 +91,8 @@ class Filtering : public ::testing::Test {
   double place() {
     here_.update();
     Surroundings around;
-    look_around(here_.model, here_.road, here_.scene, here_.geometry.grid, rider_, 60.0, 8.0,
-                around);
-    return passing_offset(here_.model, here_.road, here_.path(rider_), here_.scene, around, rider_);
+    look_around(here_.view(), rider_, 60.0, 8.0, around);
+    return passing_offset(here_.view(), here_.path(rider_), around, rider_);
   }
   RoadScene here_{testing::read_plain_net(two_lanes())};
   std::size_t rider_ = 0;
@@ -118,10 +116,9 @@ TEST_F(Filtering, ChoosesTheGapWhileItIsStillFarAway) {
 }
 
 TEST_F(Filtering, FollowsNobodyWhomItMeansToPassAndGetsSlowBeforeThem) {
-  here_.scene.passing_offset[rider_] = here_.scene.lateral_aim[rider_] = place();
+  here_.traffic.passing_offset[rider_] = here_.traffic.lateral_aim[rider_] = place();
   DrivingAhead ahead;
-  const Leader leader =
-      find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, rider_, 60.0, ahead);
+  const Leader leader = find_leader(here_.view(), rider_, 60.0, ahead);
   EXPECT_EQ(leader.id, -1);
   EXPECT_GE(ahead.passed, 0);
   EXPECT_LT(ahead.passing_speed, 6.0);
@@ -133,10 +130,10 @@ TEST_F(Filtering, WhoIsAheadOnTheWayIntoTheGapGoesFirst) {
   here_.move(other, 31.5, -1.75);
   here_.update();
   for (const std::size_t row : {rider_, other})
-    here_.scene.lateral_aim[row] = row == rider_ ? 1.75 : -1.75;
+    here_.traffic.lateral_aim[row] = row == rider_ ? 1.75 : -1.75;
   const auto cap = [&](std::size_t row) {
     DrivingAhead ahead;
-    find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, row, 60.0, ahead);
+    find_leader(here_.view(), row, 60.0, ahead);
     return std::pair(ahead.passing_speed, ahead.passed);
   };
   EXPECT_EQ(cap(rider_).second, static_cast<std::int64_t>(here_.scene.id[other].value));
@@ -154,17 +151,17 @@ TEST_F(Filtering, WhoStandsAmidItsLaneChangeIsPassed) {
   take_path(std::move(*changing), along, other, here_.road, here_.scene);
   here_.scene.position[other] = here_.scene.position[rider_] + Vec2(4.0, -1.0);
   here_.move(rider_, here_.scene.path_along[rider_], 1.75);
-  here_.scene.lateral_aim[rider_] = 1.75;
+  here_.traffic.lateral_aim[rider_] = 1.75;
   here_.update();
   ASSERT_TRUE(here_.path(other).stretch_at(here_.scene.path_along[other]).changing);
-  here_.scene.merge_to[other] = lane;
+  here_.traffic.merge_to[other] = lane;
   const auto lets_in = [&] {
     DrivingAhead ahead;
-    find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, rider_, 60.0, ahead);
+    find_leader(here_.view(), rider_, 60.0, ahead);
     return ahead.merging.id;
   };
   EXPECT_EQ(lets_in(), static_cast<std::int64_t>(here_.scene.id[other].value));
-  here_.scene.standing_time[other] = 5;
+  here_.scene.held[other].standing = 5;
   EXPECT_EQ(lets_in(), -1);
 }
 
@@ -184,14 +181,13 @@ class TailInTheLane : public ::testing::Test {
   double place() {
     here_.update();
     Surroundings around;
-    look_around(here_.model, here_.road, here_.scene, here_.geometry.grid, own_, 60.0, 8.0, around);
-    return passing_offset(here_.model, here_.road, here_.path(own_), here_.scene, around, own_);
+    look_around(here_.view(), own_, 60.0, 8.0, around);
+    return passing_offset(here_.view(), here_.path(own_), around, own_);
   }
   std::int64_t leader() {
-    here_.scene.passing_offset[own_] = here_.scene.lateral_aim[own_] = place();
+    here_.traffic.passing_offset[own_] = here_.traffic.lateral_aim[own_] = place();
     DrivingAhead ahead;
-    return find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, own_, 60.0, ahead)
-        .id;
+    return find_leader(here_.view(), own_, 60.0, ahead).id;
   }
   RoadScene here_{testing::read_plain_net(two_lanes())};
   std::size_t own_ = 0, other_ = 0;
@@ -209,9 +205,9 @@ TEST_F(TailInTheLane, IsWaitedForWhereThereIsNoRoom) {
 }
 
 TEST_F(TailInTheLane, IsWaitedForWhileItMovesOrWantsToComeIn) {
-  here_.scene.merge_to[other_] = here_.model.road.lane_by_name.at("WE_0");
+  here_.traffic.merge_to[other_] = here_.model.road.lane_by_name.at("WE_0");
   EXPECT_NEAR(place(), 0.0, 0.2);
-  here_.scene.merge_to[other_] = kNoLane;
+  here_.traffic.merge_to[other_] = kNoLane;
   here_.set_speed(other_, 2.0);
   EXPECT_NEAR(place(), 0.0, 0.2);
 }
@@ -220,9 +216,9 @@ TEST_F(TailInTheLane, IsWaitedForWhileItMovesOrWantsToComeIn) {
 TEST_F(TailInTheLane, IsWaitedForWhileItIsOnItsWayIn) {
   const LaneId own = here_.model.road.lane_by_name.at("WE_0");
   here_.update();
-  EXPECT_TRUE(stands_beside_lane(here_.model, here_.scene, other_, own, 2.4));
+  EXPECT_TRUE(stands_beside_lane(here_.view(), other_, own, 2.4));
   here_.scene.lane[other_].lane = own;
-  EXPECT_FALSE(stands_beside_lane(here_.model, here_.scene, other_, own, 2.4));
+  EXPECT_FALSE(stands_beside_lane(here_.view(), other_, own, 2.4));
 }
 
 // who filtered to the left of a bus and then turned right, across its way, was pressed against it
@@ -238,8 +234,8 @@ TEST(FilteringBeforeAJunction, IsOnTheSideOfTheTurn) {
     const std::size_t rider = here.add("motorcycle", {"WC", to}, line - 22.0, 5, 0, -1, "WC_0");
     here.update();
     Surroundings around;
-    look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
-    return passing_offset(here.model, here.road, here.path(rider), here.scene, around, rider);
+    look_around(here.view(), rider, 60.0, 8.0, around);
+    return passing_offset(here.view(), here.path(rider), around, rider);
   };
   EXPECT_NEAR(place("CE"), 1.6, 0.2) << "straight on: between the queues";
   EXPECT_LT(place("CS"), 1.3) << "to the right: within its lane";
@@ -267,8 +263,8 @@ TEST(FilteringBeforeAJunction, IsOnTheSideOfATurnCloseBehindIt) {
     const std::size_t rider = here.add("motorcycle", {"WM", "MC", to}, 175.0, 5, 0, -1, "WM_1");
     here.update();
     Surroundings around;
-    look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
-    return passing_offset(here.model, here.road, here.path(rider), here.scene, around, rider);
+    look_around(here.view(), rider, 60.0, 8.0, around);
+    return passing_offset(here.view(), here.path(rider), around, rider);
   };
   EXPECT_NEAR(place("CE"), -1.6, 0.2) << "straight on: between the queues";
   EXPECT_GT(place("CN"), -1.3) << "to the left: within its lane";
@@ -292,9 +288,8 @@ TEST(FilteringBeforeAJunction, IsWhereThereIsRoomBehindIt) {
         here.add("motorcycle", {"WM", "ME"}, 200.0 - before, 5, 0, -1, "WM_0");
     here.update();
     Surroundings around;
-    look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
-    return std::abs(
-        passing_offset(here.model, here.road, here.path(rider), here.scene, around, rider));
+    look_around(here.view(), rider, 60.0, 8.0, around);
+    return std::abs(passing_offset(here.view(), here.path(rider), around, rider));
   };
   EXPECT_NEAR(place(2, 25.0), 1.75, 0.1) << "between the queues";
   EXPECT_LE(place(1, 25.0), 1.75 - 0.45 - 0.15 + 1e-9) << "within its lane";
@@ -318,9 +313,8 @@ TEST(FilteringBeforeAJunction, IsOffTheKerbWhereACornerIsRounded) {
     here.move(rider, along);
     here.update();
     Surroundings around;
-    look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
-    return std::abs(
-        passing_offset(here.model, here.road, here.path(rider), here.scene, around, rider));
+    look_around(here.view(), rider, 60.0, 8.0, around);
+    return std::abs(passing_offset(here.view(), here.path(rider), around, rider));
   };
   constexpr double kKerb = -1.0;
   EXPECT_NEAR(place(120.0, kKerb), 1.1, 0.1) << "beside the car";
@@ -343,8 +337,8 @@ TEST(FilteringBeforeAJunction, IsNotOnTheSideToWhichThePassedOneTurns) {
     here.move(rider, line - before - 14.0);
     here.update();
     Surroundings around;
-    look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
-    return passing_offset(here.model, here.road, here.path(rider), here.scene, around, rider);
+    look_around(here.view(), rider, 60.0, 8.0, around);
+    return passing_offset(here.view(), here.path(rider), around, rider);
   };
   EXPECT_GT(place("CE", 4.0, 8.0), 0.2) << "on the left of who goes straight on";
   EXPECT_LT(place("CN", 4.0, 8.0), 0.1) << "not of who turns left";
@@ -363,9 +357,8 @@ TEST(FilteringBeforeAJunction, StaysOverTheEdgeOfItsLaneBeforeASignal) {
     const std::size_t rider = here.add("motorcycle", {"WC", "CE"}, line - 14.0, 5, 0, -1, "WC_1");
     here.update();
     Surroundings around;
-    look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
-    return std::abs(
-        passing_offset(here.model, here.road, here.path(rider), here.scene, around, rider));
+    look_around(here.view(), rider, 60.0, 8.0, around);
+    return std::abs(passing_offset(here.view(), here.path(rider), around, rider));
   };
   const double lane_and_quarter = 1.6 + 0.25 * 0.9 + 1e-9;
   EXPECT_GT(place("priority"), lane_and_quarter);
@@ -391,9 +384,8 @@ TEST(FilteringBeforeAJunction, SeesTheSignalBehindTheNextJunction) {
     const std::size_t rider = here.add("motorcycle", {"WM", "MC", "CE"}, 187, 5, 0, -1, "WM_1");
     here.update();
     Surroundings around;
-    look_around(here.model, here.road, here.scene, here.geometry.grid, rider, 60.0, 8.0, around);
-    const double place = std::abs(
-        passing_offset(here.model, here.road, here.path(rider), here.scene, around, rider));
+    look_around(here.view(), rider, 60.0, 8.0, around);
+    const double place = std::abs(passing_offset(here.view(), here.path(rider), around, rider));
     EXPECT_EQ(place > 1.6 + 0.25 * 0.9 + 1e-9, std::string(type) == "priority") << type;
   }
 }

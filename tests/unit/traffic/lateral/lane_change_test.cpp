@@ -52,7 +52,7 @@ class ChangingLanes : public ::testing::Test {
   bool halts() {
     here_.update();
     let_all_look(here_);
-    return std::isfinite(here_.scene.gate[own_]);
+    return std::isfinite(here_.traffic.gate[own_]);
   }
   RoadScene here_{testing::read_plain_net(two_lanes())};
   std::size_t own_ = 0, car_ = 0;
@@ -62,8 +62,8 @@ class ChangingLanes : public ::testing::Test {
 TEST_F(ChangingLanes, NobodyLetsSomebodyGoFirstWhoWaitsForAGap) {
   begin("car", 1.6, 0.6);
   EXPECT_TRUE(halts());
-  here_.scene.standing_time[car_] = 5;
-  here_.scene.gate[car_] = here_.scene.path_along[car_];
+  here_.scene.held[car_].standing = 5;
+  here_.traffic.gate[car_] = here_.scene.path_along[car_];
   // its own look would tell it that it needs no gap
   here_.scene.control[car_] = Control::External;
   EXPECT_FALSE(halts());
@@ -74,11 +74,11 @@ TEST_F(ChangingLanes, NobodyLetsSomebodyGoFirstWhoWaitsForAGap) {
 TEST_F(ChangingLanes, NorWhoWaitsForItself) {
   begin("car", 1.6, 0.6);
   EXPECT_TRUE(halts());
-  here_.scene.standing_time[car_] = 5;
+  here_.scene.held[car_].standing = 5;
   EXPECT_TRUE(halts()) << "it may go any time";
   here_.scene.context[car_].foe = static_cast<std::int64_t>(here_.scene.id[own_].value);
   let_all_look(here_);
-  EXPECT_FALSE(std::isfinite(here_.scene.gate[own_]));
+  EXPECT_FALSE(std::isfinite(here_.traffic.gate[own_]));
 }
 
 // a car turned in before a bus whose front was ahead already, and the two wedged each other
@@ -100,10 +100,10 @@ TEST_F(ChangingLanes, WhoHasToHaltAmidItGoesBackAndOn) {
   const auto is_amid_change = [&] {
     return here_.path(own_).stretch_at(here_.scene.path_along[own_]).changing;
   };
-  here_.scene.standing_time[own_] = 3;
+  here_.scene.held[own_].standing = 3;
   let_all_look(here_);
   EXPECT_TRUE(is_amid_change());
-  here_.scene.standing_time[own_] = 5;
+  here_.scene.held[own_].standing = 5;
   let_all_look(here_);
   EXPECT_FALSE(is_amid_change());
 }
@@ -297,7 +297,7 @@ TEST_F(NoGap, WhoHasNoRoomLeftToChangeGoesOnByItsLane) {
   here_.update();
   let_all_look(here_);
   EXPECT_EQ(lane_at(here_.path(own), end - 2.0), "WC_0");
-  EXPECT_FALSE(std::isfinite(here_.scene.gate[own]));
+  EXPECT_FALSE(std::isfinite(here_.traffic.gate[own]));
 }
 
 // side by side they came to the end of their lanes, and stood there for minutes
@@ -308,8 +308,8 @@ TEST(Swap, OfTwoAbreastWhoWantEachOthersLaneOneLetsTheOtherAhead) {
   const auto& lanes = here.model.road.lane_by_name;
   here.update(2);
   const double before = here.context(right).allowed_speed;
-  here.scene.merge_to[right] = lanes.at("WE_1");
-  here.scene.merge_to[left] = lanes.at("WE_0");
+  here.traffic.merge_to[right] = lanes.at("WE_1");
+  here.traffic.merge_to[left] = lanes.at("WE_0");
   here.update(2);
   EXPECT_LT(here.context(right).allowed_speed, before - 0.05);
   EXPECT_EQ(here.context(right).foe, static_cast<std::int64_t>(here.scene.id[left].value));
@@ -323,12 +323,12 @@ TEST(Swap, NobodyWaitsForWhoWaitsForItToGetOutOfTheWay) {
   const std::size_t left = here.add("car", {"WE"}, 60.5, 0, 0, -1, "WE_1");
   here.move(left, 60.5, -0.4);
   const auto& lanes = here.model.road.lane_by_name;
-  here.scene.merge_to[right] = lanes.at("WE_1");
-  here.scene.merge_to[left] = lanes.at("WE_0");
+  here.traffic.merge_to[right] = lanes.at("WE_1");
+  here.traffic.merge_to[left] = lanes.at("WE_0");
   here.update(2);
   EXPECT_EQ(here.context(right).allowed_speed, 0.0);
-  here.scene.gate[left] = 62;
-  here.scene.standing_time[left] = 3;
+  here.traffic.gate[left] = 62;
+  here.scene.held[left].standing = 3;
   here.update(2);
   EXPECT_GT(here.context(right).allowed_speed, 0.3);
 }
@@ -390,9 +390,9 @@ class LongWait : public ::testing::Test {
  protected:
   LongWait() : bus_(here_.add("bus", {"CE", "EL"}, 0, 0, 0, -1, "CE_0")) {
     const double gate = wait_at_gate(here_, bus_);
-    here_.scene.gate[bus_] = gate;
-    here_.scene.merge_to[bus_] = here_.model.road.lane_by_name.at("CE_1");
-    here_.scene.standing_time[bus_] = 12;
+    here_.traffic.gate[bus_] = gate;
+    here_.traffic.merge_to[bus_] = here_.model.road.lane_by_name.at("CE_1");
+    here_.scene.held[bus_].standing = 12;
   }
   /// A car in the lane beside whose nose is so far behind the one of the bus [m].
   std::size_t add_car(double behind, double speed) {
@@ -404,12 +404,12 @@ class LongWait : public ::testing::Test {
   bool lets_in(std::size_t car) {
     here_.update();
     DrivingAhead ahead;
-    find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, car, 60.0, ahead);
+    find_leader(here_.view(), car, 60.0, ahead);
     return ahead.merging.id == static_cast<std::int64_t>(here_.scene.id[bus_].value);
   }
   bool waits_on() {
     let_all_look(here_);
-    return std::isfinite(here_.scene.gate[bus_]);
+    return std::isfinite(here_.traffic.gate[bus_]);
   }
   RoadScene here_{testing::read_plain_net(both_lanes_lead_on())};
   std::size_t bus_ = 0;
@@ -419,13 +419,13 @@ TEST_F(LongWait, WhoIsBesideTheTailLetsTheNoseIn) {
   const std::size_t car = add_car(4.0, 1.0);
   EXPECT_TRUE(lets_in(car));
   EXPECT_EQ(here_.context(car).foe, static_cast<std::int64_t>(here_.scene.id[bus_].value));
-  here_.scene.standing_time[bus_] = 5;
+  here_.scene.held[bus_].standing = 5;
   EXPECT_FALSE(lets_in(car)) << "it has just come";
-  here_.scene.standing_time[bus_] = 12;
-  here_.scene.standing_time[car] = 30;
+  here_.scene.held[bus_].standing = 12;
+  here_.scene.held[car].standing = 30;
   EXPECT_FALSE(lets_in(car)) << "there is an end to courtesy";
-  here_.scene.standing_time[car] = 0;
-  here_.scene.waiting_time[car] = 50;
+  here_.scene.held[car].standing = 0;
+  here_.traffic.waiting_time[car] = 50;
   EXPECT_FALSE(lets_in(car)) << "nor does it begin anew with a step";
 }
 TEST_F(LongWait, WhoseNoseIsNearTheNoseGoesOn) { EXPECT_FALSE(lets_in(add_car(1.0, 1.0))); }
@@ -443,9 +443,9 @@ TEST_F(LongWait, IsOverOnceWhoIsBesideTheTailHolds) {
 // in a queue that crept on nobody let it in over 180 m, since it never stood for long
 TEST_F(LongWait, CreepingOnIsWaitingToo) {
   const std::size_t car = add_car(4.0, 1.0);
-  here_.scene.standing_time[bus_] = 0.0;
+  here_.scene.held[bus_].standing = 0.0;
   const auto lets_it_in = [&](double waiting, double speed) {
-    here_.scene.waiting_time[bus_] = waiting;
+    here_.traffic.waiting_time[bus_] = waiting;
     here_.set_speed(bus_, speed);
     return lets_in(car);
   };
@@ -458,14 +458,14 @@ TEST_F(LongWait, CreepingOnIsWaitingToo) {
 TEST_F(LongWait, WhoIsLetInStaysWhereTheGapIs) {
   const std::size_t car = add_car(4.0, 0.0);
   here_.add("car", {"CE", "EL"}, here_.scene.position[bus_].x() - 145.0, 0, 0, -1, "CE_1");
-  here_.scene.standing_time[bus_] = 0.0;
+  here_.scene.held[bus_].standing = 0.0;
   here_.set_speed(bus_, 1.0);
   here_.update();
   for (const bool holds : {false, true}) {
     here_.scene.context[car].foe =
         holds ? static_cast<std::int64_t>(here_.scene.id[bus_].value) : -1;
     EXPECT_TRUE(waits_on());
-    EXPECT_EQ(here_.scene.gate[bus_] <= here_.scene.path_along[bus_], holds);
+    EXPECT_EQ(here_.traffic.gate[bus_] <= here_.scene.path_along[bus_], holds);
   }
 }
 
@@ -474,15 +474,15 @@ TEST_F(LongWait, WhoIsLetInStaysWhereTheGapIs) {
 TEST(LetIn, IsWhoIsNarrowAtTheFarSideOfItsLane) {
   RoadScene here{testing::read_plain_net(both_lanes_lead_on())};
   const std::size_t rider = here.add("motorcycle", {"CE", "EL"}, 0, 0, 0, -1, "CE_0");
-  here.scene.gate[rider] = wait_at_gate(here, rider);
-  here.move(rider, here.scene.gate[rider] - 1.0, -1.0);
-  here.scene.merge_to[rider] = here.model.road.lane_by_name.at("CE_1");
-  here.scene.standing_time[rider] = 12;
+  here.traffic.gate[rider] = wait_at_gate(here, rider);
+  here.move(rider, here.traffic.gate[rider] - 1.0, -1.0);
+  here.traffic.merge_to[rider] = here.model.road.lane_by_name.at("CE_1");
+  here.scene.held[rider].standing = 12;
   const std::size_t car = here.add("car", {"CE", "EL"}, 5, 4.0, 0, -1, "CE_1");
   move_to_x(here, car, here.scene.position[rider].x() - 15.0);
   here.update();
   EXPECT_EQ(here.context(car).foe, static_cast<std::int64_t>(here.scene.id[rider].value));
-  here.scene.merge_to[rider] = kNoLane;
+  here.traffic.merge_to[rider] = kNoLane;
   here.update();
   EXPECT_EQ(here.context(car).foe, -1);
 }
@@ -527,7 +527,7 @@ class IntoTheMiddle : public ::testing::Test {
   bool waits(std::size_t row) {
     here_.update();
     let_all_look(here_);
-    return std::isfinite(here_.scene.gate[row]);
+    return std::isfinite(here_.traffic.gate[row]);
   }
   RoadScene here_{testing::read_plain_net(middle_lane_leads_on())};
 };
@@ -538,7 +538,7 @@ TEST_F(IntoTheMiddle, WhoHasHaltedOnTheOtherSideDoesNotContestIt) {
   const std::size_t other = add("car", "WM_2"), own = add("car", "WM_0");
   move_to_x(here_, other, here_.scene.position[own].x() - 1.0);
   EXPECT_TRUE(waits(own));
-  here_.scene.standing_time[other] = 3.0;
+  here_.scene.held[other].standing = 3.0;
   EXPECT_FALSE(waits(own));
 }
 TEST_F(IntoTheMiddle, NorDoesWhoLetsItGoFirst) {
@@ -547,7 +547,7 @@ TEST_F(IntoTheMiddle, NorDoesWhoLetsItGoFirst) {
   here_.update();
   here_.scene.context[other].foe = static_cast<std::int64_t>(here_.scene.id[own].value);
   let_all_look(here_);
-  EXPECT_FALSE(std::isfinite(here_.scene.gate[own]));
+  EXPECT_FALSE(std::isfinite(here_.traffic.gate[own]));
 }
 
 // where its path moves over already, somebody two lanes further on counted as in the next one
@@ -600,7 +600,7 @@ TEST_F(LongWait, WhoFollowsInItsOwnLaneLetsNobodyIn) {
   here_.scene.context[beside].foe = -1;
   here_.scene.context[follower].foe = static_cast<std::int64_t>(here_.scene.id[bus_].value);
   EXPECT_TRUE(waits_on());
-  EXPECT_GT(here_.scene.gate[bus_], here_.scene.path_along[bus_]);
+  EXPECT_GT(here_.traffic.gate[bus_], here_.scene.path_along[bus_]);
 }
 
 // of two motorcycles abreast that wanted each other's lane one rolled back, and the other stayed
@@ -612,10 +612,10 @@ TEST(Swap, WhoHasRolledBackToLetOthersGoLeavesTheWayForANose) {
   const std::size_t other = here.add("motorcycle", {"CE", "EL"}, 5, 0, 0, -1, "CE_1");
   const auto waits = [&](double behind, double gives_way) {
     move_to_x(here, other, x - behind);
-    here.scene.gives_way_left[other] = gives_way;
+    here.traffic.gives_way_left[other] = gives_way;
     here.update();
     let_all_look(here);
-    return std::isfinite(here.scene.gate[own]);
+    return std::isfinite(here.traffic.gate[own]);
   };
   EXPECT_TRUE(waits(1.6, 0.0));
   EXPECT_FALSE(waits(1.6, 5.0));
@@ -637,7 +637,7 @@ TEST(LetIn, IsWhoIsAmidItsChangeRightBehindAJunction) {
   RoadScene here{testing::read_plain_net(both_lanes_lead_on())};
   const std::size_t changing = here.add("car", {"CE", "EL"}, 0, 2, 0, -1, "CE_0");
   here.move(changing, wait_at_gate(here, changing) + 0.5);
-  here.scene.merge_to[changing] = here.model.road.lane_by_name.at("CE_1");
+  here.traffic.merge_to[changing] = here.model.road.lane_by_name.at("CE_1");
   const std::size_t car = here.add("car", {"WC", "CE", "EL"}, 100, 12, 0, -1, "WC_1");
   here.move(car, here.path(car).links.front().stop_line - 4.0);
   const auto lets_in = [&] {
@@ -645,7 +645,7 @@ TEST(LetIn, IsWhoIsAmidItsChangeRightBehindAJunction) {
     return here.context(car).foe == static_cast<std::int64_t>(here.scene.id[changing].value);
   };
   EXPECT_TRUE(lets_in());
-  here.scene.gate[changing] = here.scene.path_along[changing];
+  here.traffic.gate[changing] = here.scene.path_along[changing];
   EXPECT_FALSE(lets_in()) << "it has halted to let others past";
 }
 
@@ -655,10 +655,10 @@ TEST(BetterLane, IsSaidAsSoonAsItIsChosen) {
   const std::size_t own = here.add("car", {"WE"}, 40, 10, 0, -1, "WE_0");
   here.add("bus", {"WE"}, 65, 3, 0, -1, "WE_0");
   here.update();
-  EXPECT_EQ(here.scene.merge_to[own], kNoLane);
+  EXPECT_EQ(here.traffic.merge_to[own], kNoLane);
   let_all_look(here);
   ASSERT_NE(first_change(here, own), nullptr);
-  EXPECT_EQ(here.scene.merge_to[own], here.model.road.lane_by_name.at("WE_1"));
+  EXPECT_EQ(here.traffic.merge_to[own], here.model.road.lane_by_name.at("WE_1"));
 }
 
 // it looked 30 m back before it moved off
@@ -704,9 +704,9 @@ TEST(NoGapOnAFastRoad, IsWhereSomebodyComesBesideTheLaneOfBefore) {
     move_to_x(here, other, here.scene.position[own].x() - 45.0);
     here.update();
     Surroundings around;
-    look_around(here.model, here.road, here.scene, here.geometry.grid, own, 80.0, 8.0, around);
+    look_around(here.view(), own, 80.0, 8.0, around);
     const Lane& wanted = network.lane(network.lane_by_name.at("WM_2"));
-    EXPECT_EQ(is_gap(here.scene, around, own, {.shift = 3.2, .middle = &wanted.centerline}, 1.5),
+    EXPECT_EQ(is_gap(here.view(), around, own, {.shift = 3.2, .middle = &wanted.centerline}, 1.5),
               speed < 20.0)
         << speed;
   }
@@ -728,9 +728,9 @@ TEST(NoGapBetweenLanes, IsWhereSomebodyComesFromBehindBetweenTheLanes) {
     here.move(other, here.scene.path_along[own] - behind, offset);
     here.update();
     Surroundings around;
-    look_around(here.model, here.road, here.scene, here.geometry.grid, own, 80.0, 8.0, around);
+    look_around(here.view(), own, 80.0, 8.0, around);
     const Lane& wanted = network.lane(network.lane_by_name.at("CE_1"));
-    EXPECT_EQ(is_gap(here.scene, around, own, {.shift = 3.2, .middle = &wanted.centerline}, 3.0),
+    EXPECT_EQ(is_gap(here.view(), around, own, {.shift = 3.2, .middle = &wanted.centerline}, 3.0),
               gap)
         << behind << " m behind, " << speed << " m/s, " << offset << " m to the left";
   }
@@ -746,7 +746,7 @@ TEST(Surrounding, WhoIsBehindTheBeginOfAPathIsSeenWhereItIs) {
     here.move(behind, here.path(behind).links.front().stop_line - before_line);
     here.update();
     Surroundings around;
-    look_around(here.model, here.road, here.scene, here.geometry.grid, own, 60.0, 8.0, around);
+    look_around(here.view(), own, 60.0, 8.0, around);
     const Vec2 way = here.scene.position[behind] - here.scene.position[own];
     ASSERT_LT(here.scene.path_along[own] + way.x(), -0.5) << "behind its begin";
     ASSERT_EQ(around.users.size(), 1u) << before_line;
@@ -760,11 +760,11 @@ TEST(Surrounding, WhoIsBehindTheBeginOfAPathIsSeenWhereItIs) {
 TEST(Gate, IsHaltedAtALittleBefore) {
   RoadScene here(testing::read_plain_net(two_lanes()));
   const std::size_t own = here.add("car", {"WE"}, 60, 0);
-  here.scene.gate[own] = 60.2;
+  here.traffic.gate[own] = 60.2;
   here.update();
   EXPECT_EQ(here.context(own).reason, LimitReason::Merge);
   EXPECT_EQ(here.context(own).allowed_speed, 0.0);
-  here.scene.gate[own] = 63.0;
+  here.traffic.gate[own] = 63.0;
   here.update();
   EXPECT_GT(here.context(own).allowed_speed, 0.0);
 }

@@ -31,9 +31,8 @@ class Overtaking : public ::testing::Test {
   double room() {
     here_.update();
     Surroundings around, far;
-    look_around(here_.model, here_.road, here_.scene, here_.geometry.grid, car_, 60.0, 8.0, around);
-    return overtaking_room(here_.model, here_.road, here_.scene, here_.geometry.grid, around, car_,
-                           far);
+    look_around(here_.view(), car_, 60.0, 8.0, around);
+    return overtaking_room(here_.view(), around, car_, far);
   }
   RoadScene here_{testing::read_plain_net(two_way())};
   std::size_t car_ = here_.add("car", {"east_1", "east_2"}, 300, 5);
@@ -83,7 +82,7 @@ TEST_F(Overtaking, NobodyIsOvertakenWhoIsHardlySlowerOrNotThere) {
 
 // the queue ahead of a bicycle was no reason to stay over the middle beside it
 TEST_F(Overtaking, WhoIsPastGoesBackUnlessRightBeforeANose) {
-  here_.scene.overtaking_room[car_] = 3.2;
+  here_.traffic.overtaking_room[car_] = 3.2;
   here_.add("truck", {"east_1", "east_2"}, 330, 4);
   here_.move(car_, 316, 1.7);
   here_.move(bicycle_, 312.2);
@@ -94,7 +93,7 @@ TEST_F(Overtaking, WhoIsPastGoesBackUnlessRightBeforeANose) {
 
 // a van past one bicycle drove on over the middle towards the next, and gave that up
 TEST_F(Overtaking, WhoIsPastOneBeginsWithTheNextAnewOrGoesBack) {
-  here_.scene.overtaking_room[car_] = 3.2;
+  here_.traffic.overtaking_room[car_] = 3.2;
   const std::size_t next = here_.add("bicycle", {"east_1", "east_2"}, 345, 4);
   here_.move(car_, 318, 1.7);
   here_.set_speed(car_, 10);
@@ -111,7 +110,7 @@ TEST_F(Overtaking, WhoIsPastOneBeginsWithTheNextAnewOrGoesBack) {
 }
 
 TEST_F(Overtaking, WhoIsAbreastGetsPastAndThenBack) {
-  here_.scene.overtaking_room[car_] = 3.2;
+  here_.traffic.overtaking_room[car_] = 3.2;
   here_.move(car_, 310, 1.7);
   here_.add("car", {"west_2"}, 1200 - 380, 13);
   EXPECT_GT(room(), 0.0);

@@ -19,8 +19,7 @@ class LeaderTest : public ::testing::Test {
   Leader leader_of(std::size_t row, double reach = 100) {
     here_.update();
     DrivingAhead ahead;
-    return find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, row, reach,
-                       ahead);
+    return find_leader(here_.view(), row, reach, ahead);
   }
   RoadScene here_{testing::small_net()};
 };
@@ -59,10 +58,8 @@ TEST_F(LeaderTest, TheRestOfAQueueIsAddedOnceAsFarAsItIsLookedAt) {
   here_.add("car", {"in", "out"}, 150, 0);
   here_.update();
   DrivingAhead ahead;
-  find_leader(here_.model, here_.road, here_.scene, here_.geometry.grid, own, 59.5, ahead);
-  const auto see_as_far_as = [&](double to) {
-    see_queue(here_.model, here_.road, here_.scene, here_.geometry.grid, own, to, ahead);
-  };
+  find_leader(here_.view(), own, 59.5, ahead);
+  const auto see_as_far_as = [&](double to) { see_queue(here_.view(), own, to, ahead); };
   see_as_far_as(70);  // it has been seen already
   see_as_far_as(120);
   std::vector<std::int64_t> ids;
@@ -104,10 +101,10 @@ TEST_F(LeaderTest, WhoGivesUpOvertakingFollowsThoughItIsClearOfTheOtherYet) {
   const std::size_t own = here_.add("car", {"in", "out"}, 20, 10);
   const std::size_t rider = here_.add("bicycle", {"in", "out"}, 30, 4);
   here_.move(own, 20, 1.6);
-  here_.scene.lateral_aim[own] = 1.6;
-  here_.scene.passing_offset[own] = 1.6;
+  here_.traffic.lateral_aim[own] = 1.6;
+  here_.traffic.passing_offset[own] = 1.6;
   EXPECT_EQ(leader_of(own).id, -1);
-  here_.scene.passing_offset[own] = 0.0;
+  here_.traffic.passing_offset[own] = 0.0;
   EXPECT_EQ(leader_of(own).id, static_cast<std::int64_t>(here_.scene.id[rider].value));
 }
 
@@ -137,8 +134,8 @@ TEST_F(LeaderTest, OfTwoWhoseWaysCrossOneIsAhead) {
     here.update();
     const auto follows = [&](std::size_t row, std::size_t other) {
       DrivingAhead list;
-      return find_leader(here.model, here.road, here.scene, here.geometry.grid, row, 100, list)
-                 .id == static_cast<std::int64_t>(here.scene.id[other].value);
+      return find_leader(here.view(), row, 100, list).id ==
+             static_cast<std::int64_t>(here.scene.id[other].value);
     };
     EXPECT_FALSE(follows(a, b) && follows(b, a)) << ahead;
   }
@@ -164,9 +161,9 @@ TEST_F(LeaderTest, SomebodyOnFootWhoShufflesBeforeAVehicleIsWaitedForForSomeTime
   const std::size_t walker = here_.add("pedestrian", {"in"}, 30, 0.1);
   here_.scene.position[walker] = {30, 0};
   here_.scene.heading[walker] = kPi;
-  here_.scene.waiting_time[van] = 5;
+  here_.traffic.waiting_time[van] = 5;
   EXPECT_EQ(leader_of(van).id, 1);
-  here_.scene.waiting_time[van] = 15;
+  here_.traffic.waiting_time[van] = 15;
   EXPECT_EQ(leader_of(van).id, -1);
 }
 

@@ -21,14 +21,14 @@ class DetourTest : public ::testing::Test {
   std::size_t add_waiting(const std::string& type, double kept) {
     const std::size_t row = here_.add(type, {"IA", "AS", "SD", "DO"}, 0, 0);
     here_.move(row, here_.path(row).links.front().stop_line - 8.0);
-    here_.scene.keeps_clear[row] = kept;
+    here_.traffic.keeps_clear[row] = kept;
     return row;
   }
   /// Ticks until everybody has had a look.
   std::uint64_t look() {
     std::uint64_t taken = 0;
     for (int k = 0; k < 20; ++k) {
-      taken += take_detours(here_.model, here_.road, here_.scene);
+      taken += take_detours(here_.tick(alone_));
       ++here_.scene.tick;
     }
     return taken;
@@ -37,6 +37,7 @@ class DetourTest : public ::testing::Test {
     return net().lane(here_.path(row).stretch_at(along).lane).name;
   }
   RoadScene here_{net()};
+  Workers alone_;
 };
 
 TEST_F(DetourTest, WhoseWayIsShutForLongTakesAnother) {
@@ -48,7 +49,7 @@ TEST_F(DetourTest, WhoseWayIsShutForLongTakesAnother) {
   EXPECT_EQ(net().edge(path.trip->route.back()).name, "DO") << "to the same destination";
   EXPECT_EQ(lane_after(car, here_.scene.path_along[car]), "IA_0");
   EXPECT_LT((path.line.point_at(here_.scene.path_along[car]) - place).norm(), 0.1);
-  EXPECT_EQ(here_.scene.keeps_clear[car], 0.0);
+  EXPECT_EQ(here_.traffic.keeps_clear[car], 0.0);
   EXPECT_EQ(look(), 0u);
 }
 

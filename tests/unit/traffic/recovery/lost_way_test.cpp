@@ -16,12 +16,13 @@ void drive_straight_on(RoadScene& here, std::size_t row, double way) {
   constexpr double kStep = 0.5, kDt = 0.05;  // [m], [s]
   const Vec2 forward = direction_of(here.scene.heading[row]);
   here.scene.velocity[row] = kStep / kDt * forward;
+  Workers alone;
   for (double driven = 0.0; driven < way; driven += kStep) {
     here.scene.position[row] += kStep * forward;
     const double before = here.scene.path_along[row];
     locate_on_path(here.model.road, here.road, here.scene, row);
-    note_progress(before, kDt, here.scene, row);
-    find_ways_back(here.model, here.road, here.scene);
+    note_progress(before, kDt, here.scene, here.traffic, row);
+    find_ways_back(here.tick(alone));
   }
 }
 
@@ -44,7 +45,7 @@ TEST(LostWay, WhoseWayLedWhereItCouldNotGoTakesAnotherFromTheLaneThatItIsOn) {
   EXPECT_EQ(name_at(), "AS_0");
   const Path& path = here.path(own);
   EXPECT_EQ(here.model.road.edge(path.trip->route.back()).name, "DO") << "the same destination";
-  EXPECT_LT(here.scene.strayed[own], 6.0);
+  EXPECT_LT(here.traffic.strayed[own], 6.0);
 }
 
 TEST(LostWay, WhoIsOnItsOwnPathFurtherOnGoesOnFromThere) {
@@ -67,8 +68,8 @@ TEST(LostWay, WhoFollowsItsPathBesideItOrRoundABendIsNotLost) {
     here.move(own, along, -1.5);
     here.scene.path_along[own] = before;
     locate_on_path(here.model.road, here.road, here.scene, own);
-    note_progress(before, 0.05, here.scene, own);
-    ASSERT_LT(here.scene.strayed[own], 4.0) << along;
+    note_progress(before, 0.05, here.scene, here.traffic, own);
+    ASSERT_LT(here.traffic.strayed[own], 4.0) << along;
   }
 }
 

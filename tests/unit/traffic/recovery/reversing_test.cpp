@@ -35,7 +35,7 @@ class BackingTest : public ::testing::Test {
       prepare_tick(here_.model, here_.scene, workers_, here_.geometry);
       here_.scene.context[row].active = true;
       here_.scene.context[row].allowed_speed = allowed_speed;
-      const auto body = back_out(here_.model, here_.road, here_.scene, here_.geometry, row, kDt);
+      const auto body = back_out(here_.view(), here_.geometry, row, kDt);
       if (body) {
         here_.scene.position[row] = body->position;
         here_.scene.heading[row] = body->heading;
@@ -43,11 +43,9 @@ class BackingTest : public ::testing::Test {
         here_.scene.speed[row] = body->speed;
         here_.scene.steering[row] = body->steering;
       }
-      here_.scene.standing_time[row] =
-          here_.scene.velocity[row].norm() < 0.3 ? here_.scene.standing_time[row] + kDt : 0.0;
-      update_wedge(kDt, here_.scene, row);
-      update_backing(here_.model, here_.geometry, kDt, here_.scene, row);
-      gave_way_ = gave_way_ || here_.scene.gives_way_left[row] > 0.0;
+      update_held(kDt, here_.scene, row);
+      update_backing(here_.view(), here_.geometry, kDt, here_.traffic, row);
+      gave_way_ = gave_way_ || here_.traffic.gives_way_left[row] > 0.0;
       farthest = std::max(farthest, (from - here_.scene.position[row]).dot(forward));
       fastest_ = std::max(fastest_, here_.scene.velocity[row].norm());
       here_.scene.time += kDt;
@@ -64,7 +62,7 @@ class BackingTest : public ::testing::Test {
 
   void update(std::size_t row) {
     prepare_tick(here_.model, here_.scene, workers_, here_.geometry);
-    update_backing(here_.model, here_.geometry, kDt, here_.scene, row);
+    update_backing(here_.view(), here_.geometry, kDt, here_.traffic, row);
   }
 
   RoadScene here_{net()};
@@ -108,21 +106,21 @@ TEST_F(BackingTest, WhoFindsNoGapBacksOutAfterSomeTimeAtGreen) {
 
 TEST_F(BackingTest, NobodyBacksOutOrGivesWayOnceItsGapIsThere) {
   const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
-  here_.scene.merge_to[own] = here_.model.road.lane_by_name.at("CE_0");
+  here_.traffic.merge_to[own] = here_.model.road.lane_by_name.at("CE_0");
   const auto left = [&](double gate) {
-    here_.scene.gate[own] = gate;
-    here_.scene.backing_left[own] = 0.0;
-    here_.scene.gives_way_left[own] = 10.0;
+    here_.traffic.gate[own] = gate;
+    here_.traffic.backing_left[own] = 0.0;
+    here_.traffic.gives_way_left[own] = 10.0;
     update(own);
-    const double gives_way = here_.scene.gives_way_left[own];
-    here_.scene.backing_left[own] = 5.0;
+    const double gives_way = here_.traffic.gives_way_left[own];
+    here_.traffic.backing_left[own] = 5.0;
     update(own);
-    return std::pair(gives_way > 0.0, here_.scene.backing_left[own] > 0.0);
+    return std::pair(gives_way > 0.0, here_.traffic.backing_left[own] > 0.0);
   };
   EXPECT_EQ(left(101.0), std::pair(true, true)) << "it waits for one";
   EXPECT_EQ(left(std::numeric_limits<double>::infinity()), std::pair(false, false));
   // amid its change others may wedge it
-  here_.scene.lane[own].lane = here_.scene.merge_to[own];
+  here_.scene.lane[own].lane = here_.traffic.merge_to[own];
   EXPECT_EQ(left(std::numeric_limits<double>::infinity()), std::pair(true, true));
 }
 
@@ -136,7 +134,7 @@ TEST_F(BackingTest, WhoFindsNoGapGivesWayFromWhereItCanRollNoFurther) {
   for (int k = 0; k < 60 && (rolled < 1.0 || just_now > 0.01); ++k)
     rolled += just_now = stand_wedged(own, 1.0);
   EXPECT_GT(rolled, 1.0);
-  EXPECT_GT(here_.scene.gives_way_left[own], 1.0);
+  EXPECT_GT(here_.traffic.gives_way_left[own], 1.0);
 }
 
 // a truck whose nose touched a car swung it 11 cm into that, as the place half a metre back was
@@ -168,8 +166,8 @@ TEST_F(BackingTest, NobodySwingsItsNoseIntoWhomItTouches) {
     const double before = gap();
     if (before > 0.03 || before < -0.04) continue;
     ++touching;
-    here_.scene.standing_time[own] = here_.scene.blocked_time[own] = 20.0;
-    here_.scene.backing_left[own] = here_.scene.gives_way_left[own] = 0.0;
+    here_.scene.held[own].standing = here_.scene.held[own].blocked = 20.0;
+    here_.traffic.backing_left[own] = here_.traffic.gives_way_left[own] = 0.0;
     double least = before;
     for (int k = 0; k < 30; ++k) {
       rolled += stand_wedged(own, 0.5) > 0.01 ? 1 : 0;
@@ -186,29 +184,29 @@ TEST_F(BackingTest, AQueueMakesRoomOneAfterTheOther) {
   const std::size_t first = here_.add("car", {"WC", "CE"}, 100, 0);
   const std::size_t second = here_.add("car", {"WC", "CE"}, 94, 0);
   const std::size_t third = here_.add("car", {"WC", "CE"}, 88, 0);
-  here_.scene.standing_time = {20.0, 20.0, 20.0};
-  here_.scene.backing_left[first] = 5.0;
+  here_.scene.held = {{20.0}, {20.0}, {20.0}};
+  here_.traffic.backing_left[first] = 5.0;
   for (const std::size_t row : {second, third}) {
     here_.scene.context[row].active = true;
     here_.scene.context[row].reason = LimitReason::Leader;
     here_.scene.context[row].foe = static_cast<std::int64_t>(row) - 1;
   }
   update(second);
-  EXPECT_GT(here_.scene.backing_left[second], 0.0);
+  EXPECT_GT(here_.traffic.backing_left[second], 0.0);
   update(third);
-  EXPECT_GT(here_.scene.backing_left[third], 0.0);
+  EXPECT_GT(here_.traffic.backing_left[third], 0.0);
 }
 
 TEST_F(BackingTest, NobodyMakesRoomForWhoCanRollBack) {
   const std::size_t first = here_.add("car", {"WC", "CE"}, 100, 0);
   const std::size_t second = here_.add("car", {"WC", "CE"}, 94, 0);
-  here_.scene.standing_time = {0.0, 20.0};
-  here_.scene.backing_left[first] = 5.0;
+  here_.scene.held = {{0.0}, {20.0}};
+  here_.traffic.backing_left[first] = 5.0;
   here_.scene.context[second].active = true;
   here_.scene.context[second].reason = LimitReason::Leader;
   here_.scene.context[second].foe = 0;
   update(second);
-  EXPECT_EQ(here_.scene.backing_left[second], 0.0);
+  EXPECT_EQ(here_.traffic.backing_left[second], 0.0);
 }
 
 // a motorcycle could not leave a small ring for a lorry that stood across its exit, behind a van
@@ -223,31 +221,31 @@ TEST_F(BackingTest, WhoStandsAcrossTheWayOfSomebodyWedgedStepsBack) {
   here_.scene.position[wedged] =
       here_.scene.position[own] + 2.0 * forward -
       (0.5 * type.width + 1.1 + 1.0) * direction_of(here_.scene.heading[wedged]);
-  here_.scene.standing_time = {30.0, 30.0, 30.0};
+  here_.scene.held = {{30.0}, {30.0}, {30.0}};
   waits(own, behind);
   waits(behind, wedged);
   update(own);
-  EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "for nobody who isn't wedged";
-  here_.scene.wedge_left[wedged] = 10.0;
+  EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "for nobody who isn't wedged";
+  here_.scene.held[wedged].wedge_left = 10.0;
   update(own);
-  EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "nor at once: the light may just have changed";
-  here_.scene.blocked_time[wedged] = 10.0;
+  EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "nor at once: the light may just have changed";
+  here_.scene.held[wedged].blocked = 10.0;
   waits(behind, own);
   update(own);
-  EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "nor for whom it doesn't wait";
+  EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "nor for whom it doesn't wait";
   waits(behind, wedged);
   update(own);
-  EXPECT_GT(here_.scene.backing_left[own], 0.0);
-  EXPECT_GT(here_.scene.gives_way_left[own], here_.scene.backing_left[own]);
+  EXPECT_GT(here_.traffic.backing_left[own], 0.0);
+  EXPECT_GT(here_.traffic.gives_way_left[own], here_.traffic.backing_left[own]);
   // not in front of a red light, nor before it has stood for long
-  here_.scene.backing_left[own] = here_.scene.gives_way_left[own] = 0.0;
-  here_.scene.standing_time[own] = 10.0;
+  here_.traffic.backing_left[own] = here_.traffic.gives_way_left[own] = 0.0;
+  here_.scene.held[own].standing = 10.0;
   update(own);
-  EXPECT_EQ(here_.scene.backing_left[own], 0.0);
-  here_.scene.standing_time[own] = 30.0;
+  EXPECT_EQ(here_.traffic.backing_left[own], 0.0);
+  here_.scene.held[own].standing = 30.0;
   here_.scene.context[own].at_red = true;
   update(own);
-  EXPECT_EQ(here_.scene.backing_left[own], 0.0);
+  EXPECT_EQ(here_.traffic.backing_left[own], 0.0);
 }
 
 // a bus, a van and a car: the van before the nose of the car, its tail in the turn of the bus, and
@@ -262,14 +260,14 @@ TEST_F(BackingTest, WhoStandsBeforeSomebodyWedgedAndWaitsForAnotherStepsBack) {
   here_.scene.heading[wedged] = here_.scene.heading[own] + kPi;
   here_.scene.position[wedged] =
       here_.scene.position[own] + (2.25 + 0.5 * type.length + 0.5) * forward;
-  here_.scene.standing_time = {30.0, 30.0, 30.0};
-  here_.scene.wedge_left[wedged] = here_.scene.blocked_time[wedged] = 10.0;
+  here_.scene.held = {{30.0}, {30.0}, {30.0}};
+  here_.scene.held[wedged].wedge_left = here_.scene.held[wedged].blocked = 10.0;
   waits(own, waited_for);
   update(own);
-  EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "the bus may go on any time";
-  here_.scene.wedge_left[waited_for] = 10.0;
+  EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "the bus may go on any time";
+  here_.scene.held[waited_for].wedge_left = 10.0;
   update(own);
-  EXPECT_GT(here_.scene.backing_left[own], 0.0);
+  EXPECT_GT(here_.traffic.backing_left[own], 0.0);
 }
 
 // it rolled back from a ring, gave way for half a minute, and all the time stood before the nose of
@@ -281,19 +279,19 @@ TEST_F(BackingTest, WhoGivesWayRollsBackFurtherForWhomItStillHolds) {
   here_.scene.heading[wedged] = here_.scene.heading[own] + 0.5 * kPi;
   here_.scene.position[wedged] = here_.scene.position[own] + 1.5 * forward -
                                  (0.9 + 2.25 + 0.5) * direction_of(here_.scene.heading[wedged]);
-  here_.scene.gives_way_left[own] = 4.0;
-  here_.scene.wedge_left[wedged] = 10.0;
+  here_.traffic.gives_way_left[own] = 4.0;
+  here_.scene.held[wedged].wedge_left = 10.0;
   update(own);
-  EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "the other may be about to go";
-  here_.scene.blocked_time[wedged] = 4.0;
+  EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "the other may be about to go";
+  here_.scene.held[wedged].blocked = 4.0;
   update(own);
-  EXPECT_GT(here_.scene.backing_left[own], 0.0);
-  EXPECT_GT(here_.scene.gives_way_left[own], here_.scene.backing_left[own]);
-  here_.scene.backing_left[own] = 0.0;
-  here_.scene.gives_way_left[own] = 4.0;
+  EXPECT_GT(here_.traffic.backing_left[own], 0.0);
+  EXPECT_GT(here_.traffic.gives_way_left[own], here_.traffic.backing_left[own]);
+  here_.traffic.backing_left[own] = 0.0;
+  here_.traffic.gives_way_left[own] = 4.0;
   here_.scene.position[wedged] -= 3.0 * direction_of(here_.scene.heading[wedged]);
   update(own);
-  EXPECT_EQ(here_.scene.backing_left[own], 0.0) << "not for who has room";
+  EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "not for who has room";
 }
 
 // it rolled back just when the bus that had stepped back for it had made room, came on again when
@@ -302,9 +300,9 @@ TEST_F(BackingTest, NobodyRollsBackBeforeWhoMakesRoomForIt) {
   const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
   const std::size_t other = here_.add("car", {"EC", "CW"}, 50, 0);
   here_.scene.position[other] = here_.scene.position[own] + Vec2(4.5 + 0.5, 0);
-  here_.scene.gives_way_left[other] = 10.0;
+  here_.traffic.gives_way_left[other] = 10.0;
   EXPECT_EQ(stand_wedged(own, 30.0), 0.0);
-  here_.scene.gives_way_left[other] = 0.0;
+  here_.traffic.gives_way_left[other] = 0.0;
   EXPECT_GT(stand_wedged(own, 30.0), 1.0);
 }
 
@@ -322,7 +320,7 @@ TEST_F(BackingTest, WhoCanNotFollowItsPathBackwardsRollsBackStraight) {
 
 TEST_F(BackingTest, GivingWayHoldsIt) {
   const std::size_t own = here_.add("car", {"WC", "CE"}, 100, 0);
-  here_.scene.gives_way_left[own] = 5.0;
+  here_.traffic.gives_way_left[own] = 5.0;
   here_.update();
   EXPECT_EQ(here_.context(own).reason, LimitReason::GivesWay);
   EXPECT_EQ(here_.context(own).allowed_speed, 0.0);
@@ -334,13 +332,13 @@ TEST_F(BackingTest, GivingWayEndsOnceNobodyNeedsIt) {
   const std::size_t other = here_.add("truck", {"EC", "CW"}, 50, 0);
   here_.scene.position[other] = here_.scene.position[own] + Vec2(9.0, 2.0);
   const auto gives_way_after = [&](double stood, double their_wait, std::int64_t their_foe) {
-    here_.scene.gives_way_left[own] = 15.0;
-    here_.scene.standing_time[own] = stood;
-    here_.scene.waiting_time[other] = their_wait;
+    here_.traffic.gives_way_left[own] = 15.0;
+    here_.scene.held[own].standing = stood;
+    here_.traffic.waiting_time[other] = their_wait;
     here_.scene.context[other].active = true;
     here_.scene.context[other].foe = their_foe;
     update(own);
-    return here_.scene.gives_way_left[own] > 0.0;
+    return here_.traffic.gives_way_left[own] > 0.0;
   };
   EXPECT_TRUE(gives_way_after(8.0, 20.0, -1));
   EXPECT_FALSE(gives_way_after(8.0, 0.0, -1)) << "it drives";

@@ -96,13 +96,13 @@ TEST_F(JaywalkingTest, GoesBetweenThoseWhoStand) {
 TEST_F(JaywalkingTest, WaitsForABodyThatStandsInTheWayButNotForEver) {
   const std::size_t car = add_car(-2, 0);
   EXPECT_TRUE(waits_for(car));
-  here_.scene.waiting_time[walker_] = 61;
+  here_.traffic.waiting_time[walker_] = 61;
   EXPECT_TRUE(goes());
 }
 
 TEST_F(JaywalkingTest, WhoHasWaitedForLongGoesWhereNobodyBrakesHard) {
   const std::size_t car = add_car(35, 12);
-  here_.scene.waiting_time[walker_] = 61;
+  here_.traffic.waiting_time[walker_] = 61;
   EXPECT_TRUE(waits_for(car));
   here_.move(car, here_.scene.path_along[car] - 20);
   EXPECT_TRUE(goes());
@@ -112,9 +112,9 @@ TEST_F(JaywalkingTest, WhoHasWaitedForLongGoesWhereNobodyBrakesHard) {
 TEST_F(JaywalkingTest, WhoHasSetOutKeepsToIt) {
   const std::size_t car = add_car(55, 12);
   EXPECT_TRUE(waits_for(car));
-  here_.scene.waiting_time[walker_] = 61;
+  here_.traffic.waiting_time[walker_] = 61;
   EXPECT_TRUE(goes());
-  here_.scene.waiting_time[walker_] = 0;
+  here_.traffic.waiting_time[walker_] = 0;
   EXPECT_TRUE(goes());
 }
 

@@ -6,6 +6,7 @@
 #include "model/tracking.h"
 #include "support/lane_looks.h"
 #include "support/road_scene.h"
+#include "traffic/patience.h"
 
 namespace sumogamma {
 namespace {
@@ -62,9 +63,9 @@ class WalkingPlaceTest : public ::testing::Test {
   }
   double place_of(std::size_t row) {
     here_.update();
-    look_around(here_.model, here_.road, here_.scene, here_.geometry.grid, row, 8, 2.5, around_);
+    look_around(here_.view(), row, 8, 2.5, around_);
     look_at_walls(here_.model, here_.path(row), here_.scene, row, 4, 2.5, around_);
-    return walking_place(here_.path(row), here_.scene, around_, row);
+    return walking_place(here_.view(), here_.path(row), around_, row);
   }
   RoadScene here_{sidewalk()};
   Surroundings around_;
@@ -73,7 +74,7 @@ class WalkingPlaceTest : public ::testing::Test {
 
 TEST_F(WalkingPlaceTest, WhoIsAloneWalksWhereItLikesToBe) {
   const std::size_t own = walker(10, 0, 1.3);
-  here_.scene.path_offset[own] = -0.6;
+  here_.scene.manners[own].path_offset = -0.6;
   EXPECT_NEAR(place_of(own), -0.6, 1e-9);
 }
 
@@ -82,13 +83,13 @@ TEST_F(WalkingPlaceTest, WhoIsHeldUpByTheTipOfARedCrossingGoesRoundIt) {
   const std::size_t own = walker(10, 0, 1.3);
   auto place_before_a_tip = [&](double waited, LimitReason reason) {
     here_.update();
-    here_.scene.waiting_time[own] = waited;
+    here_.traffic.waiting_time[own] = waited;
     here_.scene.context[own].reason = reason;
     here_.scene.context[own].to_red[0] = {0.1, -0.1};
-    look_around(here_.model, here_.road, here_.scene, here_.geometry.grid, own, 8, 2.5, around_);
+    look_around(here_.view(), own, 8, 2.5, around_);
     look_at_walls(here_.model, here_.path(own), here_.scene, own, 4, 2.5, around_);
-    look_at_red_crossings(here_.path(own), here_.scene, own, around_);
-    return walking_place(here_.path(own), here_.scene, around_, own);
+    look_at_red_crossings(here_.view(), here_.path(own), own, around_);
+    return walking_place(here_.view(), here_.path(own), around_, own);
   };
   EXPECT_GT(place_before_a_tip(4.5, LimitReason::None), 0.3);
   EXPECT_NEAR(place_before_a_tip(3.5, LimitReason::None), 0.0, 1e-9) << "not at once";
@@ -97,20 +98,20 @@ TEST_F(WalkingPlaceTest, WhoIsHeldUpByTheTipOfARedCrossingGoesRoundIt) {
 
 TEST_F(WalkingPlaceTest, APlaceThatTheSidewalkDoesNotHaveIsNotAimedAt) {
   const std::size_t own = walker(10, 0, 1.3);
-  here_.scene.path_offset[own] = -4.0;
+  here_.scene.manners[own].path_offset = -4.0;
   EXPECT_GT(place_of(own), -1.5 + 0.24);
 }
 
 TEST_F(WalkingPlaceTest, WhoIsBehindSomebodySlowPasses) {
   const std::size_t own = walker(10, -0.4, 1.3);
-  here_.scene.path_offset[own] = here_.scene.passing_offset[own] = -0.4;
+  here_.scene.manners[own].path_offset = here_.traffic.passing_offset[own] = -0.4;
   walker(12, -0.4, 0.4);
   EXPECT_GT(std::abs(place_of(own) + 0.4), 0.48);
 }
 
 TEST_F(WalkingPlaceTest, NobodyPassesWhereOthersCome) {
   const std::size_t own = walker(10, -0.7, 1.3);
-  here_.scene.path_offset[own] = here_.scene.passing_offset[own] = -0.7;
+  here_.scene.manners[own].path_offset = here_.traffic.passing_offset[own] = -0.7;
   walker(12, -0.7, 0.9);
   for (const double x : {11.0, 12.5, 14.0, 15.5})
     for (const double offset : {0.1, 0.7}) walker(x, offset, -1.3);
@@ -119,8 +120,8 @@ TEST_F(WalkingPlaceTest, NobodyPassesWhereOthersCome) {
 
 TEST_F(WalkingPlaceTest, WhoMeetsAStreamFollowsThoseWhoWalkItsOwnWay) {
   const std::size_t own = walker(10, 0.5, 1.3);
-  here_.scene.passing_offset[own] = 0.5;
-  here_.scene.path_offset[own] = 0.5;
+  here_.traffic.passing_offset[own] = 0.5;
+  here_.scene.manners[own].path_offset = 0.5;
   walker(14, 0.5, -1.3);
   walker(13, 0.9, -1.3);
   walker(12, -0.6, 1.1);  // its own way
@@ -130,7 +131,7 @@ TEST_F(WalkingPlaceTest, WhoMeetsAStreamFollowsThoseWhoWalkItsOwnWay) {
 TEST_F(WalkingPlaceTest, NobodyAimsAtAWall) {
   put_wall(12, 14, -0.2);
   const std::size_t own = walker(10, -0.8, 1.3);
-  here_.scene.path_offset[own] = here_.scene.passing_offset[own] = -0.8;
+  here_.scene.manners[own].path_offset = here_.traffic.passing_offset[own] = -0.8;
   EXPECT_GT(place_of(own), -0.2 + 0.24);
 }
 
@@ -138,9 +139,9 @@ TEST_F(WalkingPlaceTest, NobodyAimsAtAWall) {
 TEST_F(WalkingPlaceTest, WhoIsCaughtInANookMakesForTheMiddleOfItsWay) {
   put_wall(10.5, 14, -0.6);
   const std::size_t own = walker(10, -1.0, 0.0);
-  here_.scene.lateral_aim[own] = -1.0;
+  here_.traffic.lateral_aim[own] = -1.0;
   const auto goal_after = [&](double waited) {
-    here_.scene.waiting_time[own] = waited;
+    here_.traffic.waiting_time[own] = waited;
     here_.update();
     return here_.context(own).sub_goal;
   };
@@ -152,14 +153,14 @@ TEST_F(WalkingPlaceTest, WhoIsCaughtInANookMakesForTheMiddleOfItsWay) {
 TEST_F(WalkingPlaceTest, WhoSeesItsGoalPastACornerButDoesNotFitPastItIsCaughtToo) {
   put_wall(10.5, 11, -0.6);
   const std::size_t own = walker(10, -0.5, 0.0);
-  here_.scene.waiting_time[own] = 12.0;
-  here_.scene.lateral_aim[own] = -0.5;
+  here_.traffic.waiting_time[own] = 12.0;
+  here_.traffic.lateral_aim[own] = -0.5;
   here_.update();
   const Vec2 past_it(12, -0.5);
   ASSERT_FALSE(here_.model.obstacles.is_between(here_.scene.position[own], past_it));
   EXPECT_LT((here_.context(own).sub_goal - Vec2(10.3, 0.0)).norm(), 0.1);
   here_.move(own, 10, -0.3);
-  here_.scene.lateral_aim[own] = -0.3;
+  here_.traffic.lateral_aim[own] = -0.3;
   here_.update();
   EXPECT_GT(here_.context(own).sub_goal.x(), 10.5) << "it fits";
 }
@@ -173,27 +174,27 @@ TEST_F(WalkingPlaceTest, WhoHasWaitedLongBeforeAVehicleWalksRoundIt) {
   here_.scene.heading[car] = 0.5 * kPi;
   here_.set_speed(car, 0);
   EXPECT_LT(std::abs(place_of(own)), 1.5) << "on the sidewalk";
-  here_.scene.waiting_time[own] = 5;
+  here_.traffic.waiting_time[own] = 5;
   EXPECT_GT(std::abs(place_of(own)), 2.25);
 }
 
 // Before a crossing there may be room off the ways of those who drive on one side only.
 TEST_F(WalkingPlaceTest, WhoMayHaveToWaitKeepsToTheSideWhereNobodyDrives) {
   const std::size_t own = walker(10, -0.6, 1.3);
-  here_.scene.path_offset[own] = here_.scene.passing_offset[own] = -0.6;
+  here_.scene.manners[own].path_offset = here_.traffic.passing_offset[own] = -0.6;
   EXPECT_NEAR(place_of(own), -0.6, 1e-9);
   Path path = here_.path(own);
   PathLink link;
   link.halt = 13;
   link.halt_right = -0.2;
   path.links = {link};
-  EXPECT_NEAR(walking_place(path, here_.scene, around_, own), -0.2, 1e-9);
+  EXPECT_NEAR(walking_place(here_.view(), path, around_, own), -0.2, 1e-9);
   path.links[0].halt = 23;
-  EXPECT_NEAR(walking_place(path, here_.scene, around_, own), -0.2, 1e-9) << "on its way there";
+  EXPECT_NEAR(walking_place(here_.view(), path, around_, own), -0.2, 1e-9) << "on its way there";
   path.links[0].halt = 27;
-  EXPECT_NEAR(walking_place(path, here_.scene, around_, own), -0.6, 1e-9) << "not yet";
+  EXPECT_NEAR(walking_place(here_.view(), path, around_, own), -0.6, 1e-9) << "not yet";
   path.links[0].halt = 9.5;
-  EXPECT_NEAR(walking_place(path, here_.scene, around_, own), -0.6, 1e-9) << "past it";
+  EXPECT_NEAR(walking_place(here_.view(), path, around_, own), -0.6, 1e-9) << "past it";
 }
 
 TEST_F(WalkingPlaceTest, WhoFollowsKeepsADistanceThatGrowsWithItsSpeed) {
@@ -234,7 +235,7 @@ TEST_F(WalkingPlaceTest, WhoComesUpToABicycleThatStandsInTheWayWalksRoundIt) {
 TEST_F(WalkingPlaceTest, WhoHasRoomBesideAVehicleStaysOnTheSidewalk) {
   const std::size_t own = walker(10, 0, 0.2);
   put_across("bicycle", box_footprint(1.7, 0.65), 14, 0.5);
-  here_.scene.waiting_time[own] = 50;
+  here_.traffic.waiting_time[own] = 50;
   EXPECT_LT(place_of(own), -0.6);
   EXPECT_GE(place_of(own), -1.5 + 0.25 + 0.1 - 1e-9);
 }
@@ -249,7 +250,7 @@ TEST_F(WalkingPlaceTest, WhoFindsAVehicleAcrossAllOfItsWayStepsOffItAfterAWhile)
   auto walk_to = [&](double x, double until) {
     for (; time < until && place.x() < x; time += 0.05) {
       walk(own);
-      count_standing(0.05, Kinematics::Holonomic, here_.scene, own);
+      count_waiting(0.05, Kinematics::Holonomic, here_.scene, here_.traffic, own);
       farthest = std::min(farthest, place.y());
     }
   };

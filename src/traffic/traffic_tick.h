@@ -1,0 +1,22 @@
+#pragma once
+
+#include "base/parallel.h"
+#include "traffic/traffic_view.h"
+
+namespace sumogamma {
+
+/// What a tick of the rules reads and writes.
+struct TrafficTick {
+  const Model& model;
+  const SpatialGrid& grid;
+  Workers& workers;
+  double dt;  ///< [s]
+  RoadState& road;
+  Scene& scene;
+  TrafficState& traffic;
+  ApproachTable& approaches;
+
+  TrafficView view() const { return {model, road, scene, traffic, grid, approaches}; }
+};
+
+}  // namespace sumogamma
