@@ -100,7 +100,7 @@ void tick(Simulation& sim, World& world) {
     apply(sim.commands[row], sim.dt, scene, row);
     ++sim.times.agent_steps;
   }
-  remember_tick(sim.model, sim.road, scene, sim.dt, sim.geometry, sim.traffic);
+  remember_tick(sim.model, sim.road, scene, sim.dt, *sim.workers, sim.geometry, sim.traffic);
   ++scene.tick;
   scene.time += sim.dt;
   clock.end(sim.times.track);

@@ -30,13 +30,13 @@ void update_traffic(const Model& model, RoadState& road, Scene& scene, double dt
 }
 
 void remember_tick(const Model& model, const RoadState& road, Scene& scene, double dt,
-                   const TickGeometry& geometry, Traffic& traffic) {
+                   Workers& workers, const TickGeometry& geometry, Traffic& traffic) {
   const TrafficView view{model, road, scene, traffic.state, geometry.grid, traffic.approaches};
   for (std::size_t row = 0; row < scene.size(); ++row) {
     count_waiting(dt, type_of(model.types, scene.type[row]).kinematics, scene, traffic.state, row);
     update_held(dt, scene, row);
-    update_backing(view, geometry, dt, traffic.state, row);
   }
+  update_backing(view, geometry, dt, workers, traffic.backing, traffic.state);
 }
 
 }  // namespace sumogamma

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "model/tick_geometry.h"
 #include "traffic/lateral/lane_choice.h"
+#include "traffic/recovery/reversing.h"
 
 namespace sumogamma {
 
@@ -15,6 +17,7 @@ struct Traffic {
 
   ApproachTable approaches;
   LaneChoiceWork lanes;
+  std::vector<Backing> backing;
 };
 
 /// The folder's own tick, before anybody's velocity is chosen: where everybody is on its path, who
@@ -25,6 +28,6 @@ void update_traffic(const Model& model, RoadState& road, Scene& scene, double dt
 
 /// What the rules remember of a tick, once everybody has moved. dt [s].
 void remember_tick(const Model& model, const RoadState& road, Scene& scene, double dt,
-                   const TickGeometry& geometry, Traffic& traffic);
+                   Workers& workers, const TickGeometry& geometry, Traffic& traffic);
 
 }  // namespace sumogamma

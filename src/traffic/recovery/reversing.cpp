@@ -214,42 +214,65 @@ bool lets_somebody_go(const TrafficView& view, const TickGeometry& geometry, std
   });
 }
 
+/// One that rolls back goes on with it for its time, unless it moves on, and then lets the others
+/// go first. Who finds no gap to change lanes and comes up against somebody behind gives way from
+/// there. Not for other reasons: with those, too, a large junction locked up in one run of eight.
+Backing go_on_backing(const Scene& scene, std::size_t row, double dt, Backing now) {
+  const bool moved_on = scene.speed[row] > kPace;
+  const double standing = scene.held[row].standing;
+  const bool no_further = scene.context[row].reason == LimitReason::Merge &&
+                          backward_speed(scene, row) < kStill &&
+                          standing < kTries - now.left - kStarts;
+  const double left = moved_on || no_further ? 0.0 : now.left - dt;
+  if (left > 0.0) return {left, now.gives_way};
+  // who made room for somebody follows it again
+  const bool rolled = standing < kTries;
+  const bool for_itself = scene.context[row].reason != LimitReason::Leader;
+  return {0.0, rolled && for_itself && !moved_on ? courtesy(scene, row) : 0.0};
+}
+
+/// For how long a row rolls back that does neither that nor lets others go first [s]; 0: not at
+/// all. Not before a red light: others wait there, too.
+Backing begin_backing(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
+  const Scene& scene = view.scene;
+  if (!scene.context[row].at_red && is_wedged(scene, row) &&
+      scene.held[row].blocked > patience(scene, row) && !is_made_way_for(view, geometry, row))
+    return {kTries, 0.0};
+  if (makes_room(view, row)) return {kMakesRoom, 0.0};
+  if (stands_in_the_way(view.model, scene, geometry, row))
+    return {kStepsBack, kStepsBack + kGivesWay};
+  return {};
+}
+
+/// A row's next state from the frozen ones of everybody.
+Backing next_backing(const TrafficView& view, const TickGeometry& geometry, double dt,
+                     std::size_t row) {
+  const Scene& scene = view.scene;
+  Backing now{view.traffic.backing_left[row], std::max(0.0, view.traffic.gives_way_left[row] - dt)};
+  if (finds_gap(view, row)) now = {};
+  if (now.gives_way > 0.0 && now.left <= 0.0 && scene.held[row].standing > kGivesWay &&
+      !lets_somebody_go(view, geometry, row))
+    now.gives_way = 0.0;
+  if (now.left > 0.0) return go_on_backing(scene, row, dt, now);
+  if (now.gives_way <= 0.0) return begin_backing(view, geometry, row);
+  if (is_still_in_the_way(view.model, scene, geometry, row))
+    return {kStepsBack, kStepsBack + kGivesWay};
+  return now;
+}
+
 }  // namespace
 
 void update_backing(const TrafficView& view, const TickGeometry& geometry, double dt,
-                    TrafficState& traffic, std::size_t row) {
-  double& left = traffic.backing_left[row];
-  double& gives_way = traffic.gives_way_left[row];
-  gives_way = std::max(0.0, gives_way - dt);
-  if (finds_gap(view, row)) left = gives_way = 0.0;
-  if (gives_way > 0.0 && left <= 0.0 && view.scene.held[row].standing > kGivesWay &&
-      !lets_somebody_go(view, geometry, row))
-    gives_way = 0.0;
-  if (left > 0.0) {
-    const bool moved_on = view.scene.speed[row] > kPace;
-    // who finds no gap to change lanes and comes up against somebody behind gives way from there.
-    // Not for other reasons: with those, too, a large junction locked up in one run of eight
-    const bool no_further = view.scene.context[row].reason == LimitReason::Merge &&
-                            backward_speed(view.scene, row) < kStill &&
-                            view.scene.held[row].standing < kTries - left - kStarts;
-    left = moved_on || no_further ? 0.0 : left - dt;
-    if (left <= 0.0) {
-      left = 0.0;
-      // who made room for somebody follows it again
-      const bool rolled = view.scene.held[row].standing < kTries;
-      const bool for_itself = view.scene.context[row].reason != LimitReason::Leader;
-      gives_way = rolled && for_itself && !moved_on ? courtesy(view.scene, row) : 0.0;
-    }
-  } else if (gives_way <= 0.0 && !view.scene.context[row].at_red && is_wedged(view.scene, row) &&
-             view.scene.held[row].blocked > patience(view.scene, row) &&
-             !is_made_way_for(view, geometry, row)) {
-    left = kTries;  // not before a red light: others wait there, too
-  } else if (gives_way <= 0.0 && makes_room(view, row)) {
-    left = kMakesRoom;
-  } else if (gives_way > 0.0 ? is_still_in_the_way(view.model, view.scene, geometry, row)
-                             : stands_in_the_way(view.model, view.scene, geometry, row)) {
-    left = kStepsBack;
-    gives_way = kStepsBack + kGivesWay;
+                    Workers& workers, std::vector<Backing>& next, TrafficState& traffic) {
+  const std::size_t rows = traffic.size();
+  next.resize(rows);
+  workers.for_each_range(rows, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row)
+      next[row] = next_backing(view, geometry, dt, row);
+  });
+  for (std::size_t row = 0; row < rows; ++row) {
+    traffic.backing_left[row] = next[row].left;
+    traffic.gives_way_left[row] = next[row].gives_way;
   }
 }
 

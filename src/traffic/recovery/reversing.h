@@ -1,7 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "base/parallel.h"
 #include "model/tick_geometry.h"
 #include "model/tracking.h"
 #include "traffic/traffic_view.h"
@@ -16,10 +18,16 @@ namespace sumogamma {
 /// long in the way of somebody wedged, and waits for that one or for another who is, steps back
 /// likewise.
 ///
-/// Still to roll back for that long, and still to let others go first [s]; kept once a tick, after
-/// everybody has moved.
+/// What a row has before it.
+struct Backing {
+  double left = 0;       ///< still to roll back [s]
+  double gives_way = 0;  ///< still to let others go first [s]
+};
+
+/// Keeps everybody's once a tick, after all have moved: each row's follows from the frozen ones of
+/// all, so that nothing depends on the order of rows. `next` is scratch. dt [s].
 void update_backing(const TrafficView& view, const TickGeometry& geometry, double dt,
-                    TrafficState& traffic, std::size_t row);
+                    Workers& workers, std::vector<Backing>& next, TrafficState& traffic);
 
 /// The body after a tick of backing out, as far as it keeps clear of everybody as they would brake
 /// now; nothing where the row isn't backing, or stands and has no room to begin. Forward speed 0.

@@ -148,7 +148,7 @@ TEST_F(Filtering, WhoStandsAmidItsLaneChangeIsPassed) {
   double along = here_.scene.path_along[other];
   auto changing = change_lane(here_.model.road, here_.path(other), along, lane, 12.0, 20.0);
   ASSERT_TRUE(changing);
-  take_path(std::move(*changing), along, other, here_.road, here_.scene);
+  change_path(std::move(*changing), along, other, here_.road, here_.scene, here_.traffic);
   here_.scene.position[other] = here_.scene.position[rider_] + Vec2(4.0, -1.0);
   here_.move(rider_, here_.scene.path_along[rider_], 1.75);
   here_.traffic.lateral_aim[rider_] = 1.75;

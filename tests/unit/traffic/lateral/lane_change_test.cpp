@@ -41,7 +41,7 @@ class ChangingLanes : public ::testing::Test {
     double along = here_.scene.path_along[own_];
     auto changed = change_lane(here_.model.road, here_.path(own_), along, left, 40, 20);
     ASSERT_TRUE(changed);
-    take_path(std::move(*changed), along, own_, here_.road, here_.scene);
+    change_path(std::move(*changed), along, own_, here_.road, here_.scene, here_.traffic);
     const Polyline& target = here_.model.road.lane(left).centerline;
     while (target.project(here_.path(own_).line.point_at(along)).distance > from_lane) along += 0.5;
     here_.move(own_, along, -to_right);
@@ -291,7 +291,7 @@ TEST_F(NoGap, WhoHasNoRoomLeftToChangeGoesOnByItsLane) {
   // the change begins at the last place that leaves room for it, beside somebody who stands
   auto late = stay_in_lane(here_.model.road, here_.path(own), along, end - 15.0 - along, 20.0);
   ASSERT_TRUE(late);
-  take_path(std::move(*late), along, own, here_.road, here_.scene);
+  change_path(std::move(*late), along, own, here_.road, here_.scene, here_.traffic);
   here_.move(own, end - 15.0);
   here_.add("car", {"WC", "CE", "EL"}, end - 14.5, 0, 0, -1, "WC_1");
   here_.update();
@@ -370,7 +370,7 @@ double wait_at_gate(RoadScene& here, std::size_t row) {
   for (double room = 40.0; room > 0.0; room -= 1.0) {
     auto late = stay_in_lane(here.model.road, here.path(row), along, room, 20.0);
     if (!late) continue;
-    take_path(std::move(*late), along, row, here.road, here.scene);
+    change_path(std::move(*late), along, row, here.road, here.scene, here.traffic);
     break;
   }
   const PathStretch* change = first_change(here, row);

@@ -44,7 +44,7 @@ class BackingTest : public ::testing::Test {
         here_.scene.steering[row] = body->steering;
       }
       update_held(kDt, here_.scene, row);
-      update_backing(here_.view(), here_.geometry, kDt, here_.traffic, row);
+      update_backing(here_.view(), here_.geometry, kDt, workers_, next_, here_.traffic);
       gave_way_ = gave_way_ || here_.traffic.gives_way_left[row] > 0.0;
       farthest = std::max(farthest, (from - here_.scene.position[row]).dot(forward));
       fastest_ = std::max(fastest_, here_.scene.velocity[row].norm());
@@ -60,13 +60,14 @@ class BackingTest : public ::testing::Test {
     here_.scene.context[row].foe = here_.scene.id[foe].value;
   }
 
-  void update(std::size_t row) {
+  void update() {
     prepare_tick(here_.model, here_.scene, workers_, here_.geometry);
-    update_backing(here_.view(), here_.geometry, kDt, here_.traffic, row);
+    update_backing(here_.view(), here_.geometry, kDt, workers_, next_, here_.traffic);
   }
 
   RoadScene here_{net()};
   Workers workers_;
+  std::vector<Backing> next_;
   double fastest_ = 0;
   bool gave_way_ = false;
 };
@@ -111,10 +112,10 @@ TEST_F(BackingTest, NobodyBacksOutOrGivesWayOnceItsGapIsThere) {
     here_.traffic.gate[own] = gate;
     here_.traffic.backing_left[own] = 0.0;
     here_.traffic.gives_way_left[own] = 10.0;
-    update(own);
+    update();
     const double gives_way = here_.traffic.gives_way_left[own];
     here_.traffic.backing_left[own] = 5.0;
-    update(own);
+    update();
     return std::pair(gives_way > 0.0, here_.traffic.backing_left[own] > 0.0);
   };
   EXPECT_EQ(left(101.0), std::pair(true, true)) << "it waits for one";
@@ -191,9 +192,9 @@ TEST_F(BackingTest, AQueueMakesRoomOneAfterTheOther) {
     here_.scene.context[row].reason = LimitReason::Leader;
     here_.scene.context[row].foe = static_cast<std::int64_t>(row) - 1;
   }
-  update(second);
+  update();
   EXPECT_GT(here_.traffic.backing_left[second], 0.0);
-  update(third);
+  update();
   EXPECT_GT(here_.traffic.backing_left[third], 0.0);
 }
 
@@ -205,7 +206,7 @@ TEST_F(BackingTest, NobodyMakesRoomForWhoCanRollBack) {
   here_.scene.context[second].active = true;
   here_.scene.context[second].reason = LimitReason::Leader;
   here_.scene.context[second].foe = 0;
-  update(second);
+  update();
   EXPECT_EQ(here_.traffic.backing_left[second], 0.0);
 }
 
@@ -224,27 +225,27 @@ TEST_F(BackingTest, WhoStandsAcrossTheWayOfSomebodyWedgedStepsBack) {
   here_.scene.held = {{30.0}, {30.0}, {30.0}};
   waits(own, behind);
   waits(behind, wedged);
-  update(own);
+  update();
   EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "for nobody who isn't wedged";
   here_.scene.held[wedged].wedge_left = 10.0;
-  update(own);
+  update();
   EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "nor at once: the light may just have changed";
   here_.scene.held[wedged].blocked = 10.0;
   waits(behind, own);
-  update(own);
+  update();
   EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "nor for whom it doesn't wait";
   waits(behind, wedged);
-  update(own);
+  update();
   EXPECT_GT(here_.traffic.backing_left[own], 0.0);
   EXPECT_GT(here_.traffic.gives_way_left[own], here_.traffic.backing_left[own]);
   // not in front of a red light, nor before it has stood for long
   here_.traffic.backing_left[own] = here_.traffic.gives_way_left[own] = 0.0;
   here_.scene.held[own].standing = 10.0;
-  update(own);
+  update();
   EXPECT_EQ(here_.traffic.backing_left[own], 0.0);
   here_.scene.held[own].standing = 30.0;
   here_.scene.context[own].at_red = true;
-  update(own);
+  update();
   EXPECT_EQ(here_.traffic.backing_left[own], 0.0);
 }
 
@@ -263,10 +264,10 @@ TEST_F(BackingTest, WhoStandsBeforeSomebodyWedgedAndWaitsForAnotherStepsBack) {
   here_.scene.held = {{30.0}, {30.0}, {30.0}};
   here_.scene.held[wedged].wedge_left = here_.scene.held[wedged].blocked = 10.0;
   waits(own, waited_for);
-  update(own);
+  update();
   EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "the bus may go on any time";
   here_.scene.held[waited_for].wedge_left = 10.0;
-  update(own);
+  update();
   EXPECT_GT(here_.traffic.backing_left[own], 0.0);
 }
 
@@ -281,16 +282,16 @@ TEST_F(BackingTest, WhoGivesWayRollsBackFurtherForWhomItStillHolds) {
                                  (0.9 + 2.25 + 0.5) * direction_of(here_.scene.heading[wedged]);
   here_.traffic.gives_way_left[own] = 4.0;
   here_.scene.held[wedged].wedge_left = 10.0;
-  update(own);
+  update();
   EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "the other may be about to go";
   here_.scene.held[wedged].blocked = 4.0;
-  update(own);
+  update();
   EXPECT_GT(here_.traffic.backing_left[own], 0.0);
   EXPECT_GT(here_.traffic.gives_way_left[own], here_.traffic.backing_left[own]);
   here_.traffic.backing_left[own] = 0.0;
   here_.traffic.gives_way_left[own] = 4.0;
   here_.scene.position[wedged] -= 3.0 * direction_of(here_.scene.heading[wedged]);
-  update(own);
+  update();
   EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "not for who has room";
 }
 
@@ -337,7 +338,7 @@ TEST_F(BackingTest, GivingWayEndsOnceNobodyNeedsIt) {
     here_.traffic.waiting_time[other] = their_wait;
     here_.scene.context[other].active = true;
     here_.scene.context[other].foe = their_foe;
-    update(own);
+    update();
     return here_.traffic.gives_way_left[own] > 0.0;
   };
   EXPECT_TRUE(gives_way_after(8.0, 20.0, -1));
