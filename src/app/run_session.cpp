@@ -217,7 +217,7 @@ class Observers {
     const AgentName name = name_of();
     collisions_.add(scene, types);
     flow_.add(scene, types, sim_.road);
-    rules_.add(scene, types, sim_.road);
+    rules_.add(scene, types, sim_.road, *sim_.workers);
     smoothness_.add(scene, types);
     trajectories_.add(scene, types, name);
     if (predictor_) predictor_->observe(scene, &types);
