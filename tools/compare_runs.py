@@ -43,6 +43,9 @@ def main():
             folders[name, int(agents)][control][seed] = file.parent
         except (ValueError, KeyError):
             print(f"{file}: not a run of tools/measure.sh, left out", file=sys.stderr)
+    versions = {run.get("metrics_version") for both in runs.values() for control in both.values() for run in control}
+    if len(versions) > 1:
+        print("the runs were measured by different definitions (metrics_version): their figures can't be compared", file=sys.stderr)
     columns = ["map", "agents", "seeds", "arrived", "travel time", "colliding pairs (deep)", "pairs per agent-hour", "stuck", "red lights", "wrong way s",
                "sidewalk s", "mean speed m/s", "accel p95", "jerk p95", "real-time factor"]
     print("| " + " | ".join(columns) + " |")
