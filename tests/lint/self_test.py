@@ -15,6 +15,7 @@ sumogamma_module(geometry DEPENDS base)
 sumogamma_module(osm DEPENDS geometry)
 sumogamma_module(sumo DEPENDS geometry)
 sumogamma_program(town app DEPENDS sumo)
+sumogamma_embed(io kReplayPageJs replay/a.js replay/b.js)
 """
 UNFINISHED = "TO" + "DO"
 MACHINE = "/wo" + "rk/main"
@@ -25,6 +26,8 @@ GOOD = {
     "src/osm/reader.cpp": "#include <osmium/io/any_input.hpp>\n",
     "src/sumo/libsumo_backend.cpp": "#include <libsumo/libsumo.h>\n",
     "src/app/main.cpp": '#include "base/units.h"\n#include "geometry/vec2.h"\n\nint main() { return 0; }\n',
+    "src/io/replay/a.js": "const one = await 1;\nif (!one) return;\n",
+    "src/io/replay/b.js": "const two = one + 1;\n",
     "tools/hello.sh": "#!/usr/bin/env bash\nset -euo pipefail\necho hello\n",
 }
 # lint, file and what is put there, what the lint must say
@@ -48,6 +51,9 @@ FAULTS = [
     ("format", "src/base/units.h", "int  f( int x ){return x ;}\n", "src/base/units.h:1: not as clang-format-14"),
     ("scripts", "tools/hello.sh", "#!/usr/bin/env bash\nrm $1\n", "SC2086"),
     ("scripts", "tools/hello.sh", "#!/usr/bin/env bash\nif true; then\n", "syntax error"),
+    ("page", "src/io/replay/a.js", "const one = 1;\nconst two = ;\n", "SyntaxError"),
+    ("page", "src/io/replay/b.js", "const one = 2;\n", "'one' has already been declared"),
+    ("page", "src/io/replay/forgotten.js", "const three = 3;\n", "not embedded"),
     ("scripts", "tools/not_executable.sh", "#!/usr/bin/env bash\necho hello\n", "needs its executable bit"),
 ]
 
@@ -73,7 +79,7 @@ def run(lint, files):
 
 def main():
     complaints = []
-    for lint in ("layers", "words", "format", "scripts"):
+    for lint in ("layers", "words", "format", "scripts", "page"):
         code, said = run(lint, GOOD)
         if code not in (0, 77):
             complaints.append(f"{lint} complains about a good project:\n{said}")
