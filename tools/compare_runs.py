@@ -40,6 +40,9 @@ def main():
     for (name, agents, seed, control), results, folder in read_runs(sys.argv[1], 4):
         runs[name, int(agents)][control].append(results)
         folders[name, int(agents)][control][seed] = folder
+    versions = {run.get("metrics_version") for both in runs.values() for control in both.values() for run in control}
+    if len(versions) > 1:
+        print("the runs were measured by different definitions (metrics_version): their figures can't be compared", file=sys.stderr)
     columns = ["map", "agents", "seeds", "arrived", "travel time", "colliding pairs (deep)", "pairs per agent-hour", "stuck", "red lights", "wrong way s",
                "sidewalk s", "mean speed m/s", "accel p95", "jerk p95", "real-time factor"]
     print("| " + " | ".join(columns) + " |")

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import tempfile
 
-LINTS = ("layers", "words", "format", "scripts", "functions", "traffic")
+LINTS = ("layers", "words", "format", "scripts", "functions", "traffic", "page")
 HERE = os.path.dirname(os.path.abspath(__file__))
 MODULES = """
 sumogamma_module(base)
@@ -18,6 +18,7 @@ sumogamma_module(traffic DEPENDS model)
 sumogamma_module(osm DEPENDS geometry)
 sumogamma_module(sumo DEPENDS geometry)
 sumogamma_program(town app DEPENDS sumo)
+sumogamma_embed(io kReplayPageJs replay/a.js replay/b.js)
 """
 UNFINISHED = "TO" + "DO"
 MACHINE = "/wo" + "rk/main"
@@ -50,6 +51,8 @@ GOOD = {
     "src/traffic/parameters.h": "inline constexpr double kGap = 4.0;  ///< [s]\n",
     "src/traffic/patience.cpp": READER + WRITER,
     "src/traffic/rules/gaps.cpp": READER,
+    "src/io/replay/a.js": "const one = await 1;\nif (!one) return;\n",
+    "src/io/replay/b.js": "const two = one + 1;\n",
     "tools/hello.sh": "#!/usr/bin/env bash\nset -euo pipefail\necho hello\n",
 }
 # lint, file and what is put there, what the lint must say (None: nothing)
@@ -86,6 +89,9 @@ FAULTS = [
     ("format", "src/base/units.h", "int  f( int x ){return x ;}\n", "src/base/units.h:1: not as clang-format-14"),
     ("scripts", "tools/hello.sh", "#!/usr/bin/env bash\nrm $1\n", "SC2086"),
     ("scripts", "tools/hello.sh", "#!/usr/bin/env bash\nif true; then\n", "syntax error"),
+    ("page", "src/io/replay/a.js", "const one = 1;\nconst two = ;\n", "SyntaxError"),
+    ("page", "src/io/replay/b.js", "const one = 2;\n", "'one' has already been declared"),
+    ("page", "src/io/replay/forgotten.js", "const three = 3;\n", "not embedded"),
     ("scripts", "tools/not_executable.sh", "#!/usr/bin/env bash\necho hello\n", "needs its executable bit"),
 ]
 
