@@ -166,6 +166,15 @@ std::vector<RunColumn> read_runs(std::span<const std::filesystem::path> folders)
   return runs;
 }
 
+bool same_metrics(std::span<const RunColumn> runs) {
+  const auto version = [](const RunColumn& run) {
+    const RunColumn::Value* value = find_value(run, "metrics_version");
+    return value ? value->text : std::string();
+  };
+  return std::all_of(runs.begin(), runs.end(),
+                     [&](const RunColumn& run) { return version(run) == version(runs.front()); });
+}
+
 std::string report_markdown(std::span<const RunColumn> runs) {
   std::string text = "| key |", rule = "|---|";
   for (const RunColumn& run : runs) {

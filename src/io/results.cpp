@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/output_file.h"
+#include "study/metrics_version.h"
 
 namespace sumogamma {
 
@@ -249,6 +250,7 @@ std::string results_json(const RunResults& results) {
   const CouplingResult& coupling = results.coupling;
   const Json json = {{"sumo_version", results.sumo_version},
                      {"sumo_gamma_version", results.sumo_gamma_version},
+                     {"metrics_version", kMetricsVersion},
                      {"scenario", results.scenario},
                      {"seed", results.clock.seed},
                      {"step", results.clock.step},

@@ -144,12 +144,13 @@ std::map<std::string, int> signal_offsets(const RoadNetwork& road,
   for (int round = 0; better && round < kRounds; ++round) {
     better = false;
     for (auto& [name, offset] : offsets) {
+      const std::vector<const Passage*>& here = at[name];
       auto cost_here = [&] {
         double sum = 0.0;
-        for (const Passage* passage : at[name]) sum += cost(*passage, offsets);
+        for (const Passage* passage : here) sum += cost(*passage, offsets);
         return sum;
       };
-      const int cycle = static_cast<int>(at[name].front()->waits.size());
+      const int cycle = static_cast<int>(here.front()->waits.size());
       double least = cost_here();
       int best = offset;
       for (offset = 0; offset < cycle; ++offset) {

@@ -174,16 +174,6 @@ LaneHit LaneLocator::measure(const Entry& entry, const Vec2& point) const {
   return hit;
 }
 
-void LaneLocator::find_containing(const Vec2& point, std::vector<LaneHit>& hits) const {
-  hits.clear();
-  const std::size_t cell = cell_at(point);
-  if (cell >= columns_ * lines_) return;
-  for (std::uint32_t k = entry_begin_[cell]; k < entry_begin_[cell + 1]; ++k) {
-    const LaneHit hit = measure(entries_[k], point);
-    if (hit.distance <= 0.0) hits.push_back(hit);
-  }
-}
-
 bool LaneLocator::on_junction(const Vec2& point) const {
   const std::size_t cell = cell_at(point);
   if (cell >= columns_ * lines_) return false;

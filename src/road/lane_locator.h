@@ -46,7 +46,22 @@ class LaneLocator {
 
   /// All lanes that contain the point, in order of id, into `hits` (cleared first). No allocation
   /// once warm.
-  void find_containing(const Vec2& point, std::vector<LaneHit>& hits) const;
+  void find_containing(const Vec2& point, std::vector<LaneHit>& hits) const {
+    find_containing(
+        point, [](LaneId) { return true; }, hits);
+  }
+  /// Likewise those of them for which wanted(LaneId) holds.
+  template <typename Wanted>
+  void find_containing(const Vec2& point, Wanted&& wanted, std::vector<LaneHit>& hits) const {
+    hits.clear();
+    const std::size_t cell = cell_at(point);
+    if (cell >= columns_ * lines_) return;
+    for (std::uint32_t k = entry_begin_[cell]; k < entry_begin_[cell + 1]; ++k) {
+      if (!wanted(entries_[k].lane)) continue;
+      const LaneHit hit = measure(entries_[k], point);
+      if (hit.distance <= 0.0) hits.push_back(hit);
+    }
+  }
 
   /// True where a junction's outline contains the point.
   bool on_junction(const Vec2& point) const;

@@ -328,6 +328,9 @@ void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
 }
 
 void SumoWorld::insert_pending(Scene& scene, RoadState& road) {
+  life_cycle_.waiting = pending_.size();
+  if (pending_.empty()) return;
+  ghosts_.rebuild(scene.position);
   // in order of departure; one that finds no room holds up only those who start at its place,
   // people no more than those who would stand on the same metre
   std::set<std::pair<LaneId, int>> full;
@@ -387,25 +390,25 @@ AgentState SumoWorld::newcomer(const Pending& pending, const Path& path, AgentId
 }
 
 bool SumoWorld::insert(Pending& pending, Scene& scene, RoadState& road) {
-  if (insert_on(pending, pending.path, scene, road)) return true;
+  if (insert_on(pending, pending.path, pending.blocker, scene, road)) return true;
   if (!pending.path->trip) return false;
-  if (!pending.looked_besides) {
-    pending.looked_besides = true;
-    pending.besides = paths_besides(model_, pending.details, pending.type, *pending.path);
-  }
-  for (const auto& path : pending.besides)
-    if (insert_on(pending, path, scene, road)) return true;
+  if (!std::exchange(pending.looked_besides, true))
+    for (auto& path : paths_besides(model_, pending.details, pending.type, *pending.path))
+      pending.besides.push_back({std::move(path), {}});
+  for (Pending::Beside& beside : pending.besides)
+    if (insert_on(pending, beside.path, beside.blocker, scene, road)) return true;
   return false;
 }
 
 bool SumoWorld::insert_on(const Pending& pending, const std::shared_ptr<const Path>& path,
-                          Scene& scene, RoadState& road) {
+                          std::optional<AgentId>& blocker, Scene& scene, RoadState& road) {
   const SumoAgentDetails& details = pending.details;
   const AgentId id{static_cast<std::uint32_t>(known_.size())};
   AgentState agent = newcomer(pending, *path, id);
   const PathStretch& stretch = path->stretches.front();
   const Ground ground{stretch.lane, stretch.lane_from,
                       elevation_at(model_.road.lane(stretch.lane), stretch.lane_from)};
+  const EntryView view{model_, road, scene, ghosts_};
   std::optional<double> speed;
   if (details.is_person) {
     const Vec2 left = left_of(path->line.direction_at(0.0)), middle = path->line.point_at(0.0);
@@ -422,11 +425,11 @@ bool SumoWorld::insert_on(const Pending& pending, const std::shared_ptr<const Pa
     if (places.empty()) places.push_back(0.0);
     for (const double offset : places) {
       put_at(offset);
-      speed = entry_speed(model_, *path, agent, ground, road, scene);
+      speed = entry_speed(view, *path, agent, ground, blocker);
       if (speed) break;
     }
   } else {
-    speed = entry_speed(model_, *path, agent, ground, road, scene);
+    speed = entry_speed(view, *path, agent, ground, blocker);
   }
   if (!speed) return false;
   agent.speed = *speed;

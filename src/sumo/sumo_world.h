@@ -97,8 +97,13 @@ class SumoWorld : public World {
   struct Pending {
     SumoAgentDetails details;
     AgentTypeId type{};
-    std::shared_ptr<const Path> path;                  ///< from the lane that SUMO chose
-    std::vector<std::shared_ptr<const Path>> besides;  ///< from the lanes beside it, once needed
+    std::shared_ptr<const Path> path;  ///< from the lane that SUMO chose
+    std::optional<AgentId> blocker;    ///< who was last in the way there
+    struct Beside {
+      std::shared_ptr<const Path> path;
+      std::optional<AgentId> blocker;
+    };
+    std::vector<Beside> besides;  ///< from the lanes beside it, once needed
     bool looked_besides = false;
     bool resumes = false;      ///< SUMO has it for a while: ours as soon as it moves on
     bool off_lane = false;     ///< SUMO has been told that it waits
@@ -221,8 +226,8 @@ class SumoWorld : public World {
   double inner_side(const Lane& lane) const;
 
   bool insert(Pending& pending, Scene& scene, RoadState& road);
-  bool insert_on(const Pending& pending, const std::shared_ptr<const Path>& path, Scene& scene,
-                 RoadState& road);
+  bool insert_on(const Pending& pending, const std::shared_ptr<const Path>& path,
+                 std::optional<AgentId>& blocker, Scene& scene, RoadState& road);
   /// The agent as it would stand at the start of `path`.
   AgentState newcomer(const Pending& pending, const Path& path, AgentId id) const;
   AgentId register_agent(const SumoAgentDetails& details, bool external, AgentTypeId type);

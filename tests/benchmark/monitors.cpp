@@ -54,11 +54,12 @@ void rules_flow_smoothness(benchmark::State& state) {
   const LaneLocator locator(net);
   RoadState road;
   road.signal_states = {"Gr"};
+  Workers workers;
   RuleMonitor rules(0.05, net, locator);
   FlowMonitor flow(0.05, net);
   SmoothnessMonitor smoothness(0.05);
   for (auto _ : state) {
-    rules.add(scene, types, road);
+    rules.add(scene, types, road, workers);
     flow.add(scene, types, road);
     smoothness.add(scene, types);
   }
