@@ -4,8 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "traffic/recovery/reversing.h"
 
 namespace sumogamma {
 namespace {
@@ -40,6 +45,43 @@ TEST(RoadTraffic, GivesTheSameBitsForAnyNumberOfThreads) {
       EXPECT_EQ(run_hash(many), hash) << threads;
     }
   }
+}
+
+/// What each row remembers after `order` has gone through the scene.
+std::vector<std::pair<double, double>> backing_after(const Simulation& sim,
+                                                     const std::vector<std::size_t>& order) {
+  Scene scene = sim.scene;
+  for (const std::size_t row : order) update_backing(sim.model, sim.geometry, sim.dt, scene, row);
+  std::vector<std::pair<double, double>> remembered;
+  for (std::size_t row = 0; row < scene.size(); ++row)
+    remembered.emplace_back(scene.backing_left[row], scene.gives_way_left[row]);
+  return remembered;
+}
+
+// Fails: update_backing writes backing_left and gives_way_left of a row while those that come after
+// it read them (makes_room of their leader, is_made_way_for of those around). So who makes room for
+// somebody does at once where that one has the smaller id, and a tick later where not.
+TEST(RoadTraffic, DISABLED_WhoBacksOutDoesNotDependOnTheOrderOfRows) {
+  int backing = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    SCOPED_TRACE(seed);
+    RoadTraffic traffic("two_way_stop", seed, kAgents, 1);
+    for (int k = 0; k < 3 * kTicks; ++k) {
+      traffic.step();
+      const Scene& scene = traffic.sim.scene;
+      std::vector<std::size_t> order(scene.size());
+      std::iota(order.begin(), order.end(), 0u);
+      const auto forwards = backing_after(traffic.sim, order);
+      std::reverse(order.begin(), order.end());
+      const auto backwards = backing_after(traffic.sim, order);
+      for (std::size_t row = 0; row < scene.size(); ++row) {
+        backing += forwards[row].first > 0.0;
+        EXPECT_EQ(forwards[row], backwards[row])
+            << "tick " << scene.tick << ", agent " << scene.id[row].value;
+      }
+    }
+  }
+  EXPECT_GT(backing, 0) << "nobody backs out";
 }
 
 }  // namespace
