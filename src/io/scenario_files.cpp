@@ -1,20 +1,21 @@
 #include "io/scenario_files.h"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <pugixml.hpp>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "io/output_file.h"
 
 namespace sumogamma {
 namespace {
 
 std::string plain(double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.10g", value);
   // a TOML float needs a point
-  const std::string result = text;
+  const std::string result = number_text(value);
   return result.find_first_of(".e") == std::string::npos ? result + ".0" : result;
 }
 
@@ -30,9 +31,8 @@ std::string toml_string(const std::string& text) {
 }
 
 std::string toml_text(const ScenarioFiles& scenario, const AgentTypeTable& types) {
-  char box[128];
-  std::snprintf(box, sizeof box, "%.7f,%.7f,%.7f,%.7f", scenario.west, scenario.south,
-                scenario.east, scenario.north);
+  const std::string box = fmt::format("{:.7f},{:.7f},{:.7f},{:.7f}", scenario.west, scenario.south,
+                                      scenario.east, scenario.north);
   std::ostringstream text;
   text << "# Made by sumo-gamma import; every key has a default, and run --set KEY=VALUE overrides "
           "any.\n"
