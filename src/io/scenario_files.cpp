@@ -68,9 +68,12 @@ void write_sumocfg(const std::filesystem::path& file, const ScenarioFiles& scena
     for (const auto& [key, value] : options)
       node.append_child(key).append_attribute("value") = value.c_str();
   };
+  // for each ghost that it is told of SUMO looks through all departures that it has read ahead:
+  // these stand in order of time, so that few will do
   section("input", {{"net-file", "net.net.xml"},
                     {"route-files", "demand.rou.xml"},
-                    {"additional-files", "obstacles.add.xml"}});
+                    {"additional-files", "obstacles.add.xml"},
+                    {"route-steps", "20"}});
   section("time", {{"begin", "0"}, {"end", plain(scenario.duration)}});
   section("report",
           {{"xml-validation", "never"}, {"xml-validation.net", "never"}, {"no-step-log", "true"}});
