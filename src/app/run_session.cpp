@@ -7,13 +7,13 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
 #include "app/progress.h"
 #include "app/run_observers.h"
 #include "app/run_plan.h"
 #include "base/error.h"
+#include "base/print.h"
 #include "io/output_folder.h"
 #include "io/results.h"
 #include "model/kinematic_set.h"
@@ -162,8 +162,8 @@ std::unique_ptr<SumoBackend> start_backend(const RunPlan& plan, const RoadNetwor
   start.port = plan.options.remote_port;
   start.on_listening = [&](int port) {
     if (plan.options.clients > 1)
-      std::fprintf(stderr, "run: SUMO waits at 127.0.0.1:%d for %d more TraCI client%s\n", port,
-                   plan.options.clients - 1, plan.options.clients > 2 ? "s" : "");
+      print(stderr, "run: SUMO waits at 127.0.0.1:{} for {} more TraCI client{}\n", port,
+            plan.options.clients - 1, plan.options.clients > 2 ? "s" : "");
   };
   const bool connects = !plan.options.connect.empty();
   if (connects) set_host_and_port(plan.options.connect, start);
@@ -232,8 +232,7 @@ bool failed(const RunOptions& options, const RunResults& results) {
                                 : what == "stuck"          ? results.flow.stuck_agents
                                                            : results.agents.removed.size();
     if (count == 0) continue;
-    std::fprintf(stderr, "sumo-gamma: --fail-on %s: happened %llu times\n", what.c_str(),
-                 static_cast<unsigned long long>(count));
+    print(stderr, "sumo-gamma: --fail-on {}: happened {} times\n", what, count);
     failed = true;
   }
   return failed;
@@ -254,10 +253,9 @@ std::string run_ticks(const RunPlan& plan, Simulation& sim, SumoWorld& world,
     sim.times.record += seconds_since(recording);
     if (progress.due()) {
       const double simulated = static_cast<double>(tick_index + 1) * plan.clock.step;
-      char detail[96];
-      std::snprintf(detail, sizeof detail, "%.0f s simulated, %zu agents, %.1f x real time",
-                    simulated, sim.scene.size(), simulated / std::max(seconds_since(start), 1e-6));
-      progress.update(simulated, detail);
+      progress.update(simulated, fmt::format("{:.0f} s simulated, {} agents, {:.1f} x real time",
+                                             simulated, sim.scene.size(),
+                                             simulated / std::max(seconds_since(start), 1e-6)));
     }
     if (world.finished()) break;
   }
@@ -271,7 +269,7 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   const OutputFolder folder(options.output, options.force);
   ConvertedNetwork converted;
   converted.make(plan);
-  if (!common.quiet) std::fprintf(stderr, "run: reading %s\n", plan.input.network.string().c_str());
+  if (!common.quiet) print(stderr, "run: reading {}\n", plan.input.network.string());
   for (const NotFollowed& item : plan.inventory.not_followed) spdlog::warn("{}", describe(item));
   const std::unique_ptr<Simulation> sim = make_simulation(plan, common.threads);
   RunResults results;
@@ -279,7 +277,7 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
       start_backend(plan, sim->model.road, results.backend);
   converted.keep();
   settle_begin(backend->time(), plan);
-  if (!common.quiet) std::fprintf(stderr, "run: %s\n", describe(plan).c_str());
+  if (!common.quiet) print(stderr, "run: {}\n", describe(plan));
 
   SumoWorld world(sim->model, *backend, world_options_of(plan));
   RunObservers observers(plan, *sim, world);
@@ -314,8 +312,7 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   if (!failure.empty())
     throw SumoError("SUMO", failure + "; what ran until then is in " + options.output.string());
   print_results_table(stdout, results);
-  if (options.replay)
-    std::printf("replay: %s\n", (options.output / "replay.html").string().c_str());
+  if (options.replay) print(stdout, "replay: {}\n", (options.output / "replay.html").string());
   if (results.ended == "interrupted") return kExitInterrupted;
   return failed(options, results) ? kExitNotHeld : kExitDone;
 }

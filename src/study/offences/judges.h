@@ -102,13 +102,22 @@ struct AtStopLine {
   bool could_go = false;  ///< it hardly moves, and all the lane's links show red
 };
 
+/// The links for vehicles behind a lane's stop line that have a signal.
+struct StopLineLights {
+  LaneId lane = kNoLane;
+  std::size_t links = 0;
+  std::vector<ConnectionId> red;  ///< those that show red
+
+  bool all_red() const { return red.size() == links; }
+};
+
 /// What one worker found, in order of rows, and its scratch.
 struct RuleWork {
   std::vector<Found> found;
   std::vector<AtStopLine> at_stop_lines;
 
   std::vector<LaneHit> hits;
-  std::vector<ConnectionId> red_links, red_beside;
+  StopLineLights lights, lights_beside;
 };
 
 /// Judges one agent by one rule: reads the view and the agent's memory, writes its own part of that

@@ -83,19 +83,18 @@ std::optional<AtLine> front_at_line(const RuleView& view, std::size_t row, LaneI
   return at;
 }
 
-/// The links of a lane with signals that show red into `red`; returns how many it has for vehicles.
-std::size_t find_red_links(const RuleView& view, const Lane& lane, std::vector<ConnectionId>& red) {
+void read_lights(const RuleView& view, LaneId lane, StopLineLights& lights) {
   const RoadNetwork& network = view.roads.network;
-  std::size_t links = 0;
-  red.clear();
-  for (const ConnectionId id : lane.outgoing) {
+  lights.lane = lane;
+  lights.links = 0;
+  lights.red.clear();
+  for (const ConnectionId id : network.lane(lane).outgoing) {
     const Connection& connection = network.connection(id);
     if (connection.signal == kNoSignal || !for_vehicles(network.lane(connection.to))) continue;
-    ++links;
+    ++lights.links;
     // who got green at the outer signal clears the junction
-    if (connection.storage == 0.0 && was_and_is_red(view, id)) red.push_back(id);
+    if (connection.storage == 0.0 && was_and_is_red(view, id)) lights.red.push_back(id);
   }
-  return links;
 }
 
 void run_red(const RuleView& view, std::size_t row, const StopLineMemory& memory, const Vec2& place,
@@ -107,33 +106,32 @@ void run_red(const RuleView& view, std::size_t row, const StopLineMemory& memory
   work.found.push_back({agent, Finding::RedLightRun, place, link});
 }
 
-/// A front has passed the line of `passed`, whose red links are in work.red_links. Who drives
-/// between two lanes goes by the light of either.
-void pass_line(const RuleView& view, std::size_t row, LaneId passed, std::size_t links,
-               const Vec2& front, double offset, StopLineMemory& memory, RuleWork& work) {
+/// Who drives between two lanes goes by the light of either: those of the lane beside take the
+/// place of work.lights where they let it go.
+void choose_lights(const RuleView& view, std::size_t row, double offset, RuleWork& work) {
   const RoadNetwork& network = view.roads.network;
-  const Lane& lane = network.lane(passed);
+  const Lane& lane = network.lane(work.lights.lane);
   const double width = type_of(view.types, view.scene.type[row]).width;
   const double over = std::abs(offset) + 0.5 * width - 0.5 * lane.width;
   const LaneId beside = lane_beside(network, lane, offset);
-  if (work.red_links.size() == links && over > 0 && beside != kNoLane) {
-    const std::size_t others = find_red_links(view, network.lane(beside), work.red_beside);
-    if (work.red_beside.size() < others) {
-      passed = beside;
-      links = others;
-      work.red_links = work.red_beside;
-    }
-  }
-  memory.was_red = work.red_links;
-  const bool all_red = memory.was_red.size() == links;
+  if (!work.lights.all_red() || over <= 0 || beside == kNoLane) return;
+  read_lights(view, beside, work.lights_beside);
+  if (!work.lights_beside.all_red()) std::swap(work.lights, work.lights_beside);
+}
+
+/// A front has passed a stop line with work.lights at `place`.
+void pass_line(const RuleView& view, std::size_t row, const Vec2& place, StopLineMemory& memory,
+               RuleWork& work) {
+  const StopLineLights& lights = work.lights;
   work.found.push_back({.row = static_cast<std::uint32_t>(row), .what = Finding::SignalPassed});
-  if (!memory.was_red.empty() && all_red)
-    run_red(view, row, memory, front, memory.was_red.front(), work);
+  if (!lights.red.empty() && lights.all_red())
+    run_red(view, row, memory, place, lights.red.front(), work);
   memory.red_met = kNoEdge;
-  if (memory.was_red.empty() || all_red) return;
-  memory.passed = passed;
+  memory.was_red = lights.red;
+  if (lights.red.empty() || lights.all_red()) return;
+  memory.passed = lights.lane;
   memory.passed_at = view.scene.time;
-  memory.passed_place = front;
+  memory.passed_place = place;
 }
 
 }  // namespace
@@ -160,13 +158,14 @@ void judge_stop_line(const RuleView& view, std::size_t row, RuleMemory& memory, 
   for (const LaneHit& hit : work.hits) {
     const auto at = front_at_line(view, row, hit.lane, front);
     if (!at) continue;
-    const std::size_t links = find_red_links(view, network.lane(hit.lane), work.red_links);
+    read_lights(view, hit.lane, work.lights);
     if (at->past > 0) {
-      pass_line(view, row, hit.lane, links, front.now, at->now.y(), own, work);
+      choose_lights(view, row, at->now.y(), work);
+      pass_line(view, row, front.now, own, work);
       return;
     }
     if (at->now.x() > 0) own.short_of = hit.lane;
-    const bool could_go = work.red_links.size() == links && view.scene.speed[row] < kMeetsBelow;
+    const bool could_go = work.lights.all_red() && view.scene.speed[row] < kMeetsBelow;
     work.at_stop_lines.push_back({hit.lane, static_cast<std::uint32_t>(row), at->past, at->now.y(),
                                   0.5 * type_of(view.types, view.scene.type[row]).width, could_go});
   }
