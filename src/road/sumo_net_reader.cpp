@@ -18,6 +18,7 @@
 #include "base/error.h"
 #include "road/inner_signals.h"
 #include "road/junction_room.h"
+#include "road/lane_crossings.h"
 #include "road/overpasses.h"
 #include "road/stop_lines.h"
 
@@ -550,6 +551,7 @@ RoadNetwork read_sumo_net(const std::filesystem::path& file) {
   find_inner_signals(network);
   set_junction_rooms(network);
   find_overpasses(network);
+  find_lane_crossings(network);
   return network;
 }
 
