@@ -540,16 +540,16 @@ double elevation_at(const Lane& lane, double along) {
   return lane.elevation[i] + t * (lane.elevation[i + 1] - lane.elevation[i]);
 }
 
-RoadNetwork read_sumo_net(const std::filesystem::path& file) {
+RoadNetwork read_sumo_net(const std::filesystem::path& file, Workers& workers) {
   pugi::xml_document document;
   const pugi::xml_node root = load_document(file, document);
   if (std::string_view(root.name()) != "net")
     throw Error(file.string(),
                 "root element is <" + std::string(root.name()) + ">, expected <net>");
   RoadNetwork network = NetBuilder(file, root).build();
-  set_back_stop_lines(network);
+  set_back_stop_lines(network, workers);
   find_inner_signals(network);
-  set_junction_rooms(network);
+  set_junction_rooms(network, workers);
   find_overpasses(network);
   find_lane_crossings(network);
   return network;
