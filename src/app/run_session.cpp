@@ -66,11 +66,11 @@ std::unique_ptr<Simulation> make_simulation(const RunPlan& plan, unsigned thread
   sim->model.options = plan.config.model;
   sim->model.options.step = plan.clock.step;
   sim->model.kinematics = build_kinematic_tables(sim->model.types, *sim->workers);
-  sim->model.road = read_sumo_net(plan.input.network);
+  sim->model.road = read_sumo_net(plan.input.network, *sim->workers);
   read_all_obstacles(plan, sim->model.road);
   sim->model.obstacles = ObstacleIndex(sim->model.road.obstacles);
-  sim->model.conflicts = build_conflict_table(sim->model.road);
-  sim->model.swept_ways = find_swept_ways(sim->model.road, sim->model.conflicts);
+  sim->model.conflicts = build_conflict_table(sim->model.road, *sim->workers);
+  sim->model.swept_ways = find_swept_ways(sim->model.road, sim->model.conflicts, *sim->workers);
   sim->model.options.keep_left = sim->model.road.left_hand;
   return sim;
 }

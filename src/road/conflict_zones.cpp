@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "road/path_profile.h"
+#include "road/path_pieces.h"
+#include "road/smoothing.h"
 
 namespace sumogamma {
 
@@ -250,9 +251,14 @@ std::optional<ConflictZone> zone_for(const ConflictZone& zone, bool one_is_wide)
   return narrow;
 }
 
-ConflictTable build_conflict_table(const RoadNetwork& network) {
+ConflictTable build_conflict_table(const RoadNetwork& network, Workers& workers) {
   ConflictTable table(network.connections.size());
-  for (const Junction& junction : network.junctions) add_conflicts(network, junction, table);
+  // every link belongs to one junction
+  workers.for_each_range(network.junctions.size(),
+                         [&](std::size_t, std::size_t begin, std::size_t end) {
+                           for (std::size_t i = begin; i < end; ++i)
+                             add_conflicts(network, network.junctions[i], table);
+                         });
   return table;
 }
 

@@ -57,6 +57,12 @@ VehicleClassMask vehicle_class_from_name(std::string_view name);
 
 enum class LaneKind : std::uint8_t { Normal, Internal, Crossing, WalkingArea };
 
+/// Where the centerline of a lane crosses that of another.
+struct LaneCrossing {
+  LaneId other = kNoLane;
+  bool apart = false;  ///< one lies a storey above the other there
+};
+
 /// A lane of any kind; immutable after reading.
 struct Lane {
   std::string name;
@@ -82,9 +88,10 @@ struct Lane {
       kNoLane;  ///< neighbour with the next lower index on the same edge (towards the kerb)
   LaneId opposite = kNoLane;  ///< nearest lane of the opposite direction, where the network says so
   bool has_overpass = false;  ///< its edge crosses another, or itself, above or below it
-  JunctionId junction = kNoJunction;   ///< of internal lanes, crossings and walking areas
-  std::vector<ConnectionId> outgoing;  ///< connections that start here
-  std::vector<ConnectionId> incoming;  ///< connections that end here
+  JunctionId junction = kNoJunction;    ///< of internal lanes, crossings and walking areas
+  std::vector<ConnectionId> outgoing;   ///< connections that start here
+  std::vector<ConnectionId> incoming;   ///< connections that end here
+  std::vector<LaneCrossing> crossings;  ///< by the other lane (find_lane_crossings())
 };
 
 /// Height of the lane `along` its centerline [m], interpolated; 0 in a flat network.
@@ -125,6 +132,12 @@ struct RightOfWay {
   bool may_stop_inside = false;  ///< SUMO's cont: may wait on the junction
 };
 
+/// A junction near another and the way there along a lane of it [m].
+struct JunctionNeighbour {
+  JunctionId junction = kNoJunction;
+  double way = 0;
+};
+
 struct Junction {
   std::string name;
   std::string type;  ///< priority, traffic_light, right_before_left, allway_stop, dead_end, ...
@@ -134,6 +147,9 @@ struct Junction {
   std::vector<ConnectionId>
       links;  ///< by request index; kNoConnection for an index without a connection
   bool in_roundabout = false;
+  /// In the order of the links; the same again where a later link has a shorter way
+  /// (find_lane_crossings()).
+  std::vector<JunctionNeighbour> neighbours;
 };
 
 struct SignalPhase {

@@ -18,6 +18,7 @@
 #include "base/error.h"
 #include "road/inner_signals.h"
 #include "road/junction_room.h"
+#include "road/lane_crossings.h"
 #include "road/overpasses.h"
 #include "road/stop_lines.h"
 
@@ -539,17 +540,18 @@ double elevation_at(const Lane& lane, double along) {
   return lane.elevation[i] + t * (lane.elevation[i + 1] - lane.elevation[i]);
 }
 
-RoadNetwork read_sumo_net(const std::filesystem::path& file) {
+RoadNetwork read_sumo_net(const std::filesystem::path& file, Workers& workers) {
   pugi::xml_document document;
   const pugi::xml_node root = load_document(file, document);
   if (std::string_view(root.name()) != "net")
     throw Error(file.string(),
                 "root element is <" + std::string(root.name()) + ">, expected <net>");
   RoadNetwork network = NetBuilder(file, root).build();
-  set_back_stop_lines(network);
+  set_back_stop_lines(network, workers);
   find_inner_signals(network);
-  set_junction_rooms(network);
+  set_junction_rooms(network, workers);
   find_overpasses(network);
+  find_lane_crossings(network);
   return network;
 }
 

@@ -5,13 +5,18 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel.h"
 #include "road/road_network.h"
 
 namespace sumogamma {
 
-/// Reads a SUMO network (.net.xml, or gzipped .net.xml.gz).
+/// Reads a SUMO network (.net.xml, or gzipped .net.xml.gz), with the help of workers.
 /// Throws Error naming the file where it is missing, unreadable, not a network, or inconsistent.
-RoadNetwork read_sumo_net(const std::filesystem::path& file);
+RoadNetwork read_sumo_net(const std::filesystem::path& file, Workers& workers);
+inline RoadNetwork read_sumo_net(const std::filesystem::path& file) {
+  Workers alone;
+  return read_sumo_net(file, alone);
+}
 
 /// Appends the polygons of a SUMO additional file (<poly>) as obstacles: type "building*" and
 /// "furniture*" closed, "barrier*" open chains, anything else ignored. Throws Error as above.

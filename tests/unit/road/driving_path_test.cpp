@@ -7,7 +7,9 @@
 #include "base/units.h"
 #include "road/lane_locator.h"
 #include "road/path.h"
-#include "road/path_profile.h"
+#include "road/path_pieces.h"
+#include "road/smoothing.h"
+#include "road/speed_profile.h"
 #include "support/plain_net.h"
 #include "support/small_net.h"
 

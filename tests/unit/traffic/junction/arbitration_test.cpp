@@ -4,7 +4,7 @@
 
 #include "model/context.h"
 #include "model/gamma_velocity.h"
-#include "road/path_profile.h"
+#include "road/path_pieces.h"
 #include "support/road_scene.h"
 #include "support/small_net.h"
 #include "traffic/longitudinal/merging.h"

@@ -4,16 +4,6 @@
 
 namespace sumogamma {
 
-/// Fills path.speed_profile from lane limits and curvature (v^2 kappa <= lateral acceleration),
-/// then brakes backwards with the comfortable deceleration, by ramps. Curvature is the mean turning
-/// over the way that the steering takes, so that a map's kinks are spread as drivers do.
-void compute_speed_profile(const PathRequest& request, Path& path);
-
-/// Rounds the corners of a driving path: a box filter along it, as wide as the turning radius asks
-/// for, or the length of a long body, so that a body which can't turn on the spot cuts a corner
-/// like a driver does instead of overshooting it. Places along the path are carried over.
-void round_corners(const Cornering& cornering, Path& path);
-
 /// Width of the lanes beside `lane` on the inner or outer side, as far as `counts(Lane)` holds [m].
 template <typename Counts>
 double width_beside(const RoadNetwork& network, const Lane& lane, bool inner, Counts&& counts) {
