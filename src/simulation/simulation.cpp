@@ -73,12 +73,13 @@ void tick(Simulation& sim, World& world) {
   Scene& scene = sim.scene;
   sim.workspaces.resize(sim.workers->count());
   sim.commands.resize(rows);
-  update_traffic(sim.model, sim.road, scene, sim.dt, *sim.workers, sim.geometry, sim.traffic);
+  const TrafficTick traffic{sim.model, sim.geometry, *sim.workers,      sim.dt,
+                            sim.road,  scene,        sim.traffic.state, sim.traffic.approaches};
+  update_traffic(traffic, sim.traffic);
   clock.end(sim.times.context);
 
   // everyone reads the same frozen scene and writes only its own command
-  const TrafficView view{sim.model,         sim.road,          scene,
-                         sim.traffic.state, sim.geometry.grid, sim.traffic.approaches};
+  const TrafficView view = traffic.view();
   sim.workers->for_each_range(rows, [&](std::size_t worker, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       if (scene.control[row] != Control::Gamma) continue;
@@ -100,7 +101,7 @@ void tick(Simulation& sim, World& world) {
     apply(sim.commands[row], sim.dt, scene, row);
     ++sim.times.agent_steps;
   }
-  remember_tick(sim.model, sim.road, scene, sim.dt, *sim.workers, sim.geometry, sim.traffic);
+  remember_tick(traffic, sim.traffic);
   ++scene.tick;
   scene.time += sim.dt;
   clock.end(sim.times.track);

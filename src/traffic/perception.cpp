@@ -49,14 +49,14 @@ void look_around(const TrafficView& view, std::size_t row, double reach, double 
             [](const RoadUser& a, const RoadUser& b) { return a.row < b.row; });
 }
 
-void look_at_walls(const Model& model, const Path& path, const Scene& scene, std::size_t row,
-                   double reach, double aside, Surroundings& around) {
+void look_at_walls(const TrafficView& view, const Path& path, std::size_t row, double reach,
+                   double aside, Surroundings& around) {
   constexpr double kPiece = 0.5;  // [m]
   around.walls.clear();
-  if (model.obstacles.empty()) return;
-  model.obstacles.find_near(scene.position[row], reach, around.sides);
+  if (view.model.obstacles.empty()) return;
+  view.model.obstacles.find_near(view.scene.position[row], reach, around.sides);
   for (const std::uint32_t index : around.sides) {
-    const ObstacleIndex::Side& side = model.obstacles.side(index);
+    const ObstacleIndex::Side& side = view.model.obstacles.side(index);
     const Vec2 whole = side.to - side.from;
     const int pieces = std::max(1, static_cast<int>(std::ceil(whole.norm() / kPiece)));
     PolylinePosition last;

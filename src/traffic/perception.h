@@ -41,8 +41,8 @@ void look_around(const TrafficView& view, std::size_t row, double reach, double 
 
 /// Fills around.walls, after look_around, with what is solid within `reach` [m] of a row and within
 /// `aside` of its path, in pieces of half a metre.
-void look_at_walls(const Model& model, const Path& path, const Scene& scene, std::size_t row,
-                   double reach, double aside, Surroundings& around);
+void look_at_walls(const TrafficView& view, const Path& path, std::size_t row, double reach,
+                   double aside, Surroundings& around);
 
 /// Adds to around.walls, after look_at_walls, where a row that has been held up for long is about
 /// to get onto a red crossing that it doesn't wait for (RoadContext::to_red): who walked along

@@ -10,33 +10,31 @@
 
 namespace sumogamma {
 
-void update_traffic(const Model& model, RoadState& road, Scene& scene, double dt, Workers& workers,
-                    TickGeometry& geometry, Traffic& traffic) {
-  const TrafficTick tick{model, geometry.grid, workers,       dt,
-                         road,  scene,         traffic.state, traffic.approaches};
-  match_rows(scene, road, traffic.state);
-  workers.for_each_range(scene.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+void update_traffic(const TrafficTick& tick, Traffic& traffic) {
+  Scene& scene = tick.scene;
+  match_rows(scene, tick.road, tick.traffic);
+  tick.workers.for_each_range(scene.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       const double before = scene.path_along[row];
-      locate_on_path(model.road, road, scene, row);
-      note_progress(before, dt, scene, traffic.state, row);
+      locate_on_path(tick.model.road, tick.road, scene, row);
+      note_progress(before, tick.dt, scene, tick.traffic, row);
     }
   });
   find_ways_back(tick);
-  prepare_tick(model, scene, workers, geometry);
+  prepare_tick(tick.model, scene, tick.workers, tick.geometry);
   choose_lanes(tick, traffic.lanes);
-  if (model.options.take_detours) traffic.detours += take_detours(tick);
+  if (tick.model.options.take_detours) traffic.detours += take_detours(tick);
   update_road_contexts(tick);
 }
 
-void remember_tick(const Model& model, const RoadState& road, Scene& scene, double dt,
-                   Workers& workers, const TickGeometry& geometry, Traffic& traffic) {
-  const TrafficView view{model, road, scene, traffic.state, geometry.grid, traffic.approaches};
+void remember_tick(const TrafficTick& tick, Traffic& traffic) {
+  Scene& scene = tick.scene;
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    count_waiting(dt, type_of(model.types, scene.type[row]).kinematics, scene, traffic.state, row);
-    update_held(dt, scene, row);
+    const Kinematics kinematics = type_of(tick.model.types, scene.type[row]).kinematics;
+    count_waiting(tick.dt, kinematics, scene, tick.traffic, row);
+    update_held(tick.dt, scene, row);
   }
-  update_backing(view, geometry, dt, workers, traffic.backing, traffic.state);
+  update_backing(tick.view(), tick.geometry, tick.dt, tick.workers, traffic.backing, tick.traffic);
 }
 
 }  // namespace sumogamma

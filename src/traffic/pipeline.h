@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/tick_geometry.h"
 #include "traffic/lateral/lane_choice.h"
 #include "traffic/recovery/reversing.h"
 
@@ -22,12 +21,10 @@ struct Traffic {
 
 /// The folder's own tick, before anybody's velocity is chosen: where everybody is on its path, who
 /// has lost its way, lanes and places in them, other routes, and then one RoadContext a row. Fills
-/// `geometry` on the way. dt [s].
-void update_traffic(const Model& model, RoadState& road, Scene& scene, double dt, Workers& workers,
-                    TickGeometry& geometry, Traffic& traffic);
+/// tick.geometry on the way. `tick` writes into `traffic`.
+void update_traffic(const TrafficTick& tick, Traffic& traffic);
 
-/// What the rules remember of a tick, once everybody has moved. dt [s].
-void remember_tick(const Model& model, const RoadState& road, Scene& scene, double dt,
-                   Workers& workers, const TickGeometry& geometry, Traffic& traffic);
+/// What the rules remember of a tick, once everybody has moved.
+void remember_tick(const TrafficTick& tick, Traffic& traffic);
 
 }  // namespace sumogamma

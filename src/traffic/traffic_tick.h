@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/parallel.h"
+#include "model/tick_geometry.h"
 #include "traffic/traffic_view.h"
 
 namespace sumogamma {
@@ -8,7 +9,7 @@ namespace sumogamma {
 /// What a tick of the rules reads and writes.
 struct TrafficTick {
   const Model& model;
-  const SpatialGrid& grid;
+  TickGeometry& geometry;
   Workers& workers;
   double dt;  ///< [s]
   RoadState& road;
@@ -16,7 +17,7 @@ struct TrafficTick {
   TrafficState& traffic;
   ApproachTable& approaches;
 
-  TrafficView view() const { return {model, road, scene, traffic, grid, approaches}; }
+  TrafficView view() const { return {model, road, scene, traffic, geometry.grid, approaches}; }
 };
 
 }  // namespace sumogamma

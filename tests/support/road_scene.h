@@ -110,7 +110,7 @@ class RoadScene {
   const RoadContext& context(std::size_t row) const { return scene.context[row]; }
   TrafficView view() const { return {model, road, scene, traffic, geometry.grid, approaches}; }
   TrafficTick tick(Workers& workers, double dt = 0.05) {
-    return {model, geometry.grid, workers, dt, road, scene, traffic, approaches};
+    return {model, geometry, workers, dt, road, scene, traffic, approaches};
   }
   /// Front of a row past a link's stop line [m].
   double past_line(std::size_t row, std::size_t link = 0) const {

@@ -111,76 +111,106 @@ bool is_caught(const TrafficView& view, const Course& course, double half_width,
          view.model.obstacles.is_between(position - side, goal - side);
 }
 
+/// Room beyond the boundaries of the own direction, to pass others there [m].
+Sides room_over(const TrafficView& view, const Course& course) {
+  const double over = view.traffic.overtaking_room[course.row];
+  if (course.path.walking) return {over, over};
+  return view.model.road.left_hand ? Sides{0.0, over} : Sides{over, 0.0};
+}
+
+/// Where the body means to be beside its path at its sub-goal [m].
+double offset_ahead(const TrafficView& view, const Course& course, const Sides& over,
+                    double half_width) {
+  const PathStretch& target = course.path.stretch_at(course.along + look_ahead(course));
+  return std::clamp(view.traffic.lateral_aim[course.row],
+                    -std::max(target.room_right + over.right - half_width - 0.1, 0.0),
+                    std::max(target.room_left + over.left - half_width - 0.1, 0.0));
+}
+
+/// On foot. Inside a sharp corner the place beside the path would be where a slow walker is
+/// already: it would stay there for ever.
+void aim_on_foot(const TrafficView& view, const Course& course, double offset, double half_width,
+                 RoadContext& context) {
+  const Polyline& line = course.path.line;
+  const double ahead = course.along + look_ahead(course);
+  const Vec2 direction = line.direction_at(ahead);
+  const double turn = direction.dot(line.direction_at(course.along));
+  const double kept = std::clamp(2.0 * turn, 0.0, 1.0);
+  const Vec2 middle = line.point_at(ahead) + std::max(0.0, ahead - line.length()) * direction;
+  context.sub_goal = middle + kept * offset * left_of(direction);
+  if (is_caught(view, course, half_width, context.sub_goal))
+    context.sub_goal = line.point_at(course.along + kStepAhead);
+  const Vec2 chord = middle - line.point_at(course.along);
+  context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : direction;
+}
+
+/// On wheels, returns the offset at the sub-goal with what a bend makes of it [m]. The sub-goal
+/// lies ahead in the path's own coordinates: aimed at straight, it would cut every bend by the
+/// look-ahead squared over twice the radius, which is metres for a bus.
+double aim_on_wheels(const TrafficView& view, const Course& course, double offset,
+                     RoadContext& context) {
+  const double curvature = curvature_of(course);
+  const double there =
+      inside_of(course, curvature, offset) + lean_of(course, curvature, view.model.road.left_hand);
+  context.tangent = direction_to_steer(course, curvature);
+  context.bend = bend_of(course, view.scene.heading[course.row]);
+  context.sub_goal = view.scene.position[course.row] + look_ahead(course) * context.tangent +
+                     (there - course.offset) * left_of(context.tangent);
+  return there;
+}
+
+/// To the edges of its carriageway, of which there is none amid a junction.
+void set_edges(const TrafficView& view, const Course& course, const Sides& room,
+               RoadContext& context) {
+  constexpr double kSoon = 1.5;  // [m]
+  const LaneId soon = course.path.stretch_at(course.along + kSoon).lane;
+  if (view.model.road.lane(soon).kind == LaneKind::Internal) return;
+  const Vec2 heading = to_body(direction_of(view.scene.heading[course.row]), context.tangent);
+  const double to_turn = (1.0 - heading.x()) / tightest_bend(course.type);
+  context.edge_left = room.left - course.offset - (heading.y() > 0.0 ? to_turn : 0.0);
+  context.edge_right = room.right + course.offset - (heading.y() < 0.0 ? to_turn : 0.0);
+}
+
+/// differs from the paper: who drives keeps to its lane, not just to its carriageway, but for where
+/// it means to pass (`offset`); whoever is in the way is slowed down for, not swerved around.
+Sides corridor_of(const TrafficView& view, const Course& course, const Sides& room, double offset,
+                  double half_width, double extent) {
+  const PathStretch& here = course.path.stretch_at(course.along);
+  const Lane& lane = view.model.road.lane(here.lane);
+  const double corridor = std::max(0.5 * lane.width, half_width + 0.3) +
+                          (lane.kind == LaneKind::Internal || here.changing ? 0.6 : 0.0);
+  // a lane is no wall: at a snail's pace it may be left, so that two who are wedged side by side
+  // find a way on
+  const double drift = kDrift * course.type.horizon + extent;
+  // who filters or overtakes turns out of its lane within a few metres
+  const bool overtakes = view.traffic.overtaking_room[course.row] > 0.0;
+  const double spare = overtakes ? 2.0 : is_narrow(course.type.width) ? 1.2 : 0.4;
+  const double beside = half_width + spare;
+  return {std::min(room.left, std::max({corridor, beside + offset, course.offset + drift})),
+          std::min(room.right, std::max({corridor, beside - offset, drift - course.offset}))};
+}
+
 }  // namespace
 
 void set_geometry(const TrafficView& view, const Course& course, RoadContext& context) {
-  const Model& model = view.model;
   const Scene& scene = view.scene;
-  const TrafficState& traffic = view.traffic;
-  const Polyline& line = course.path.line;
-  const double ahead = course.along + look_ahead(course);
-  const double beyond = std::max(0.0, ahead - line.length());
-  const Vec2 direction = line.direction_at(ahead);
-  const PathStretch& target = course.path.stretch_at(ahead);
   const double half_width =
       half_extent(scene, course.row, left_of(direction_of(scene.heading[course.row])));
-  const double over = traffic.overtaking_room[course.row];
-  const bool walks = course.path.walking;
-  const double over_left = !walks && model.road.left_hand ? 0.0 : over;
-  const double over_right = walks ? over : over - over_left;
-  double offset = std::clamp(traffic.lateral_aim[course.row],
-                             -std::max(target.room_right + over_right - half_width - 0.1, 0.0),
-                             std::max(target.room_left + over_left - half_width - 0.1, 0.0));
-  if (course.path.walking) {
-    // inside a sharp corner the place beside the path would be where a slow walker is already: it
-    // would stay there for ever
-    const double turn = direction.dot(line.direction_at(course.along));
-    const double kept = std::clamp(2.0 * turn, 0.0, 1.0);
-    const Vec2 middle = line.point_at(ahead) + beyond * direction;
-    context.sub_goal = middle + kept * offset * left_of(direction);
-    if (is_caught(view, course, half_width, context.sub_goal))
-      context.sub_goal = line.point_at(course.along + kStepAhead);
-    const Vec2 chord = middle - line.point_at(course.along);
-    context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : direction;
-  } else {
-    // the sub-goal lies ahead in the path's own coordinates: aimed at straight, it would cut every
-    // bend by the look-ahead squared over twice the radius, which is metres for a bus
-    const double curvature = curvature_of(course);
-    offset =
-        inside_of(course, curvature, offset) + lean_of(course, curvature, model.road.left_hand);
-    context.tangent = direction_to_steer(course, curvature);
-    context.bend = bend_of(course, scene.heading[course.row]);
-    context.sub_goal = scene.position[course.row] + look_ahead(course) * context.tangent +
-                       (offset - course.offset) * left_of(context.tangent);
-  }
+  const Sides over = room_over(view, course);
+  double offset = offset_ahead(view, course, over, half_width);
+  if (course.path.walking)
+    aim_on_foot(view, course, offset, half_width, context);
+  else
+    offset = aim_on_wheels(view, course, offset, context);
   const PathStretch& here = course.path.stretch_at(course.along);
   const double extent = half_extent(scene, course.row, left_of(context.tangent));
-  double left = here.room_left + over_left, right = here.room_right + over_right;
+  Sides room{here.room_left + over.left, here.room_right + over.right};
   if (!course.path.walking) {
-    constexpr double kSoon = 1.5;  // amid a junction there is no carriageway to keep to [m]
-    const LaneId soon = course.path.stretch_at(course.along + kSoon).lane;
-    if (model.road.lane(soon).kind != LaneKind::Internal) {
-      const Vec2 heading = to_body(direction_of(scene.heading[course.row]), context.tangent);
-      const double to_turn = (1.0 - heading.x()) / tightest_bend(course.type);
-      context.edge_left = left - course.offset - (heading.y() > 0.0 ? to_turn : 0.0);
-      context.edge_right = right + course.offset - (heading.y() < 0.0 ? to_turn : 0.0);
-    }
-    // differs from the paper: who drives keeps to its lane, not just to its carriageway, but for
-    // where it means to pass; whoever is in the way is slowed down for, not swerved around
-    const Lane& lane = model.road.lane(here.lane);
-    const double corridor = std::max(0.5 * lane.width, half_width + 0.3) +
-                            (lane.kind == LaneKind::Internal || here.changing ? 0.6 : 0.0);
-    // a lane is no wall: at a snail's pace it may be left, so that two who are wedged side by side
-    // find a way on
-    const double drift = kDrift * course.type.horizon + extent;
-    // who filters or overtakes turns out of its lane within a few metres
-    const double spare = over > 0.0 ? 2.0 : is_narrow(course.type.width) ? 1.2 : 0.4;
-    const double beside = half_width + spare;
-    left = std::min(left, std::max({corridor, beside + offset, course.offset + drift}));
-    right = std::min(right, std::max({corridor, beside - offset, drift - course.offset}));
+    set_edges(view, course, room, context);
+    room = corridor_of(view, course, room, offset, half_width, extent);
   }
-  context.room_left = left - course.offset - extent;
-  context.room_right = right + course.offset - extent;
+  context.room_left = room.left - course.offset - extent;
+  context.room_right = room.right + course.offset - extent;
 }
 
 }  // namespace sumogamma

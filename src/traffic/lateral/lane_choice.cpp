@@ -191,7 +191,7 @@ void look_about(const TrafficView& view, const Path& path, std::size_t row, Lane
   LaneIntent& intent = work.intents[row];
   if (path.walking) {
     look_around(view, row, kSidewalk, kAside, around);
-    look_at_walls(view.model, path, scene, row, kWalls, kAside, around);
+    look_at_walls(view, path, row, kWalls, kAside, around);
     look_at_red_crossings(view, path, row, around);
     const double place = walking_place(view, path, around, row);
     traffic.passing_offset[row] = place;

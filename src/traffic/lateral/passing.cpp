@@ -301,81 +301,114 @@ bool stands_beside_lane(const TrafficView& view, std::size_t other, LaneId lane,
          traffic.merge_to[other] != lane && scene.lane[other].lane != lane;
 }
 
-double passing_offset(const TrafficView& view, const Path& path, const Surroundings& around,
-                      std::size_t row) {
-  const Model& model = view.model;
-  const RoadState& road = view.road;
-  const Scene& scene = view.scene;
-  const TrafficState& traffic = view.traffic;
-  const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
-  const PathStretch& here = path.stretch_at(around.along);
-  const double half = around.half_width;
-  const double over = traffic.overtaking_room[row];
-  const double over_left = model.road.left_hand ? 0.0 : over, over_right = over - over_left;
-  const Sides sides = sides_of(model.road, path, around);
-  double most_left = farthest_left(sides.left + over_left, half);
-  double most_right = farthest_right(sides.right + over_right, half);
-  keep_to_turning_side(model.road, path, around, most_left, most_right);
-  if (over == 0.0) keep_to_light(model.road, path, around, most_left, most_right);
-  // what a junction has beside its lanes is for who has to get past, and for bodies that swing
-  const Lane& lane = model.road.lane(here.lane);
-  const double on_lane =
-      std::clamp(scene.manners[row].path_offset, std::min(most_right + lane.beside_right, 0.0),
-                 std::max(most_left - lane.beside_left, 0.0));
-  keep_to_exit(model.road, path, around, most_left, most_right);
-  const double liked = std::clamp(on_lane, most_right, most_left);
-  const bool narrow = is_narrow(2.0 * half);
-  const Filtering rider{model,      road,
-                        scene,      around,
-                        free_speed, turning_side(model.road, path, around.along, around.speed)};
-  const auto hope = [&](double offset, double margin) {
-    return narrow ? filtering_hope(rider, offset, margin)
-                  : hoped_speed(around, offset, free_speed, margin);
-  };
-  const double margin = 0.15;
-  double best = liked;
-  const double as_liked = hope(liked, margin);
-  double most = as_liked;
-  // what was begun is gone on with unless something is clearly better
-  const double present = traffic.passing_offset[row];
-  if (std::abs(present - liked) > 0.2 && present <= most_left && present >= most_right) {
-    const double hoped = hope(present, 0.8 * margin);
-    if (hoped > most + 0.3 || (narrow && most < kQueue)) {
-      best = present;
-      most = std::max(most, hoped);
-    }
-  }
-  if (most > 0.8 * free_speed) return best;
-  if (!narrow && over == 0.0) {
-    const auto place = place_beside_tails(view, here.lane, around, liked);
-    if (place && hope(*place, margin) > as_liked + kSmallGain) return *place;
-  }
+namespace {
 
-  // wide vehicles keep to their lane where ways cross
-  if (!narrow && is_near_junction(path, around)) return liked;
-  const double inner_side = model.road.left_hand ? -1.0 : 1.0;
-  const double base = most;
-  const double gap_wanted = over > 0.0 ? kOvertakingGap : side_gap(narrow, around.speed);
+/// Between which places beside its path a body may be, and where it likes to be there [m].
+struct Places {
+  double most_left = 0, most_right = 0, liked = 0;
+};
+
+/// `over`: room over the middle of the road [m].
+Places places_of(const TrafficView& view, const Path& path, const Surroundings& around,
+                 std::size_t row, double over) {
+  const RoadNetwork& network = view.model.road;
+  const double half = around.half_width;
+  const double over_left = network.left_hand ? 0.0 : over, over_right = over - over_left;
+  const Sides sides = sides_of(network, path, around);
+  Places places;
+  places.most_left = farthest_left(sides.left + over_left, half);
+  places.most_right = farthest_right(sides.right + over_right, half);
+  keep_to_turning_side(network, path, around, places.most_left, places.most_right);
+  if (over == 0.0) keep_to_light(network, path, around, places.most_left, places.most_right);
+  // what a junction has beside its lanes is for who has to get past, and for bodies that swing
+  const Lane& lane = network.lane(path.stretch_at(around.along).lane);
+  const double on_lane = std::clamp(view.scene.manners[row].path_offset,
+                                    std::min(places.most_right + lane.beside_right, 0.0),
+                                    std::max(places.most_left - lane.beside_left, 0.0));
+  keep_to_exit(network, path, around, places.most_left, places.most_right);
+  places.liked = std::clamp(on_lane, places.most_right, places.most_left);
+  return places;
+}
+
+/// Somebody who looks for a place to pass.
+struct Passer {
+  const Surroundings& around;
+  Filtering rider;
+  bool narrow;
+  double over;  ///< room over the middle of the road [m]
+
+  /// See hoped_speed.
+  double hope(double offset, double margin) const {
+    return narrow ? filtering_hope(rider, offset, margin)
+                  : hoped_speed(around, offset, rider.free_speed, margin);
+  }
+};
+
+/// A place, and the speed that can be hoped for there [m/s].
+struct Hope {
+  double place = 0, speed = 0;
+};
+
+/// The best place beside anybody who is in the way, if it is worth it. Only who is in the way is
+/// passed, and not by changing lanes; wide vehicles pass narrow ones alone, on the inner side.
+double pass_somebody(const Passer& passer, const Places& places, double inner_side, Hope best) {
+  const Surroundings& around = passer.around;
+  const bool narrow = passer.narrow;
+  const double half = around.half_width;
+  const double worth = best.speed + (narrow ? kSmallGain : kGain);
+  const double gap_wanted = passer.over > 0.0 ? kOvertakingGap : side_gap(narrow, around.speed);
   for (const RoadUser& user : around.users) {
     if ((!user.aligned && !user.on_foot) || !may_be_passed(around, user)) continue;
     if (!narrow && user.half_width > 0.5 * kNarrow) continue;
-    // only who is in the way is passed, and not by changing lanes
-    if (std::abs(user.offset - liked) > user.half_width + half + gap_wanted) continue;
+    if (std::abs(user.offset - places.liked) > user.half_width + half + gap_wanted) continue;
     for (const double side : {inner_side, -inner_side}) {
       if (!narrow && side != inner_side) continue;
       const double offset =
-          narrow ? std::clamp(place_beside(around, user, side), most_right, most_left)
+          narrow ? std::clamp(place_beside(around, user, side), places.most_right, places.most_left)
                  : user.offset + side * (user.half_width + half + gap_wanted);
-      if (offset > most_left || offset < most_right || std::abs(offset) > kFarthest + over)
+      if (offset > places.most_left || offset < places.most_right ||
+          std::abs(offset) > kFarthest + passer.over)
         continue;
-      const double hoped = hope(offset, narrow ? kLeast : 0.9 * gap_wanted);
-      if (hoped > std::max(most, base + (narrow ? kSmallGain : kGain))) {
-        best = offset;
-        most = hoped;
-      }
+      const double hoped = passer.hope(offset, narrow ? kLeast : 0.9 * gap_wanted);
+      if (hoped > std::max(best.speed, worth)) best = {offset, hoped};
     }
   }
-  return best;
+  return best.place;
+}
+
+}  // namespace
+
+double passing_offset(const TrafficView& view, const Path& path, const Surroundings& around,
+                      std::size_t row) {
+  constexpr double kMargin = 0.15;  // [m]
+  const RoadNetwork& network = view.model.road;
+  const double over = view.traffic.overtaking_room[row];
+  const Places places = places_of(view, path, around, row, over);
+  const double free_speed =
+      std::min(path.profile_at(around.along), view.scene.preferred_speed[row]);
+  const bool narrow = is_narrow(2.0 * around.half_width);
+  const int turns = turning_side(network, path, around.along, around.speed);
+  const Passer passer{
+      around, {view.model, view.road, view.scene, around, free_speed, turns}, narrow, over};
+  const double as_liked = passer.hope(places.liked, kMargin);
+  Hope best{places.liked, as_liked};
+  // what was begun is gone on with unless something is clearly better
+  const double present = view.traffic.passing_offset[row];
+  if (std::abs(present - places.liked) > 0.2 && present <= places.most_left &&
+      present >= places.most_right) {
+    const double hoped = passer.hope(present, 0.8 * kMargin);
+    if (hoped > best.speed + 0.3 || (narrow && best.speed < kQueue))
+      best = {present, std::max(best.speed, hoped)};
+  }
+  if (best.speed > 0.8 * free_speed) return best.place;
+  if (!narrow && over == 0.0) {
+    const LaneId lane = path.stretch_at(around.along).lane;
+    const auto place = place_beside_tails(view, lane, around, places.liked);
+    if (place && passer.hope(*place, kMargin) > as_liked + kSmallGain) return *place;
+  }
+  // wide vehicles keep to their lane where ways cross
+  if (!narrow && is_near_junction(path, around)) return places.liked;
+  return pass_somebody(passer, places, network.left_hand ? -1.0 : 1.0, best);
 }
 
 }  // namespace sumogamma

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "scene/extent.h"
 #include "scene/storey.h"
@@ -157,6 +158,199 @@ void cap_passing(double speed, std::int64_t id, DrivingAhead& ahead) {
   ahead.passed = id;
 }
 
+/// A driver's own side of its look ahead.
+struct Own {
+  const TrafficView& view;
+  std::size_t row;
+  const Path& path;
+  const AgentType& type;
+  double along, offset;  ///< of the middle on its path, and beside it [m]
+  Vec2 tangent, forward;
+  double half_length, half_width;  ///< [m]
+  double speed;                    ///< [m/s]
+  double aim, wanted;  ///< where beside its path it is on its way to, and means to be [m]
+  double margin;       ///< kept to the sides [m]
+  bool narrow, overtakes;
+  bool returns;  ///< it gives up overtaking: falls back behind whoever it was about to pass
+  bool taken;    ///< somebody is beside it where it means to be
+};
+
+Own own_side(const TrafficView& view, const Path& path, std::size_t row) {
+  const Scene& scene = view.scene;
+  const AgentType& type = type_of(view.model.types, scene.type[row]);
+  const double along = scene.path_along[row];
+  const Vec2 tangent = path.line.direction_at(along);
+  const Vec2 forward = direction_of(scene.heading[row]);
+  const double offset = cross(tangent, scene.position[row] - path.line.point_at(along));
+  const double wanted = view.traffic.passing_offset[row];
+  const bool narrow = is_narrow(type.width);
+  const bool overtakes = view.traffic.overtaking_room[row] > 0.0;
+  return {view,
+          row,
+          path,
+          type,
+          along,
+          offset,
+          tangent,
+          forward,
+          half_extent(scene, row, tangent),
+          half_extent(scene, row, left_of(forward)),
+          scene.speed[row],
+          view.traffic.lateral_aim[row],
+          wanted,
+          kept_aside(type, scene.speed[row]),
+          narrow,
+          overtakes,
+          !narrow && !overtakes && std::abs(offset - wanted) > kFarAside,
+          narrow && scene.held[row].standing < kTakenFor &&
+              is_way_aside_taken(view, path, row, offset)};
+}
+
+/// Somebody on a driver's way, as it sees it.
+struct Seen {
+  std::size_t other = 0;
+  PolylinePosition place;  ///< on the driver's path
+  Vec2 direction;          ///< of the path there
+  double half_width = 0;   ///< across it [m]
+  double rear = 0;         ///< along it [m]
+  double gap = 0;          ///< from the own front to the rear [m]
+  double speed = 0;        ///< along the path, >= 0 [m/s]
+  double sides = 0;        ///< of both bodies [m]
+  double clearance = 0;    ///< between them where the driver means to be [m]
+  bool on_foot = false, aligned = false;
+  bool passes = false;  ///< the driver means to pass it
+  double front() const { return 2.0 * place.along - rear; }
+};
+
+/// Is somebody ahead? Of two abreast just one is: close together the one with its nose ahead.
+bool is_ahead(const Own& own, std::size_t other, double along) {
+  const Scene& scene = own.view.scene;
+  const bool close = near_each_other(scene, own.row, other);
+  const double ahead_by = close ? nose_lead(scene, own.row, other) : along - own.along;
+  const bool both_narrow =
+      own.narrow && is_narrow(type_of(own.view.model.types, scene.type[other]).width);
+  const double abreast = close || both_narrow ? kNoseAhead : kAbreast;
+  return ahead_by >= (scene.id[other] < scene.id[own.row] ? -abreast : abreast);
+}
+
+/// Where somebody is on the driver's way; none where it isn't ahead there.
+std::optional<Seen> see(const Own& own, std::size_t other, double reach) {
+  const Scene& scene = own.view.scene;
+  if (other == own.row || on_other_storey(own.view.model.road, scene, own.row, other))
+    return std::nullopt;
+  // cheap rejection: well behind
+  const double beyond = (scene.position[other] - scene.position[own.row]).dot(own.tangent);
+  if (beyond < -reach * 0.3 - 10.0) return std::nullopt;
+  Seen seen;
+  seen.other = other;
+  seen.place =
+      own.path.line.project(scene.position[other], own.along - 2.0 * kAbreast, own.along + reach);
+  // who is narrow and waits for a gap from the far side of the lane beside is seen, too
+  if (seen.place.distance > own.half_width + scene.footprint[other].radius + own.margin &&
+      (seen.place.distance > kLaneBeside ||
+       !changes_into_way(own.view, own.row, other, seen.place.along)))
+    return std::nullopt;
+  if (!is_ahead(own, other, seen.place.along)) return std::nullopt;
+  seen.direction = own.path.line.direction_at(seen.place.along);
+  seen.half_width = half_extent(scene, other, left_of(seen.direction));
+  seen.rear = seen.place.along - half_extent(scene, other, seen.direction);
+  seen.gap = seen.rear - own.along - own.half_length;
+  seen.speed = std::max(0.0, scene.velocity[other].dot(seen.direction));
+  seen.sides = own.half_width + seen.half_width;
+  seen.clearance = std::abs(seen.place.offset - own.aim) - seen.sides;
+  seen.on_foot =
+      type_of(own.view.model.types, scene.type[other]).kinematics == Kinematics::Holonomic;
+  seen.aligned = seen.direction.dot(direction_of(scene.heading[other])) > 0.5;
+  // a narrow vehicle that means to pass is about to leave whoever is ahead of it now
+  const bool clear_aside = seen.aligned && !seen.on_foot && seen.clearance > own.margin &&
+                           (seen.place.offset - own.aim) * (seen.place.offset - own.offset) >= 0.0;
+  seen.passes = clear_aside &&
+                (own.narrow || (own.overtakes && is_narrow(2.0 * seen.half_width)) ||
+                 stands_beside_lane(own.view, other, own.path.stretch_at(seen.place.along).lane,
+                                    seen.place.offset));
+  return seen;
+}
+
+/// Caps the speed at which the driver goes by somebody whom it passes, or lets into a gap for which
+/// both make.
+void pass(const Own& own, const Seen& seen, DrivingAhead& ahead) {
+  const Scene& scene = own.view.scene;
+  const std::int64_t id = scene.id[seen.other].value;
+  if (seen.passes) {
+    const double reach_aside =
+        seen.gap < 0.0 ? half_extent(scene, own.row, left_of(own.tangent)) : own.half_width;
+    const double apart = own.offset - seen.place.offset;
+    const Passed passed{seen.gap,
+                        std::abs(apart) - seen.half_width - reach_aside,
+                        seen.clearance,
+                        std::copysign(1.0, apart) * cross(own.tangent, own.forward),
+                        seen.speed,
+                        own.taken,
+                        own.narrow ? Manner{} : kOvertaking};
+    cap_passing(passing_speed(passed, own.type), id, ahead);
+    if (own.narrow && seen.gap > 0.0 && passed.aside() > 0.0)
+      ahead.turning_way = std::min(ahead.turning_way, seen.gap);
+  }
+  // two narrow ones make for the same gap: who is behind lets the other in
+  if (own.narrow && seen.aligned && !seen.on_foot && is_narrow(2.0 * seen.half_width) &&
+      scene.held[seen.other].standing < kHesitates &&
+      std::abs(aim_beside(own.view, seen.other, seen.place.offset) - own.aim) < seen.sides)
+    cap_passing(std::max(0.0, scene.speed[seen.other] + kCloses * (seen.gap - own.type.min_gap)),
+                id, ahead);
+}
+
+/// Is somebody clear of what the driver's body sweeps? It drifts to where it means to be beside its
+/// path: near ahead its own offset counts. Whoever is beside already, or waits at the kerb, is
+/// passed as close as it comes.
+bool is_clear_of_way(const Own& own, const Seen& seen) {
+  const double blend = std::clamp(1.0 - (seen.place.along - own.along) / 15.0, 0.0, 1.0);
+  const double swept = blend * own.offset + (1.0 - blend) * own.aim;
+  const bool at_kerb = waits_at_kerb(own.view.model, own.view.scene, seen.other);
+  const double kept = at_kerb ? -0.35 : seen.gap < 0.0 ? 0.02 : own.margin;
+  const bool comes_back =
+      own.returns && seen.gap > 0.0 && std::abs(seen.place.offset - own.wanted) - seen.sides < kept;
+  return std::abs(seen.place.offset - swept) > seen.sides + kept && !comes_back;
+}
+
+/// Somebody beside the driver's way who has to get into it.
+void see_merging(const Own& own, const Seen& seen, DrivingAhead& ahead) {
+  const TrafficState& traffic = own.view.traffic;
+  const bool halted = own.view.scene.held[seen.other].standing > kHesitates;
+  // who stands amid its change is passed like anybody else
+  if (!changes_into_way(own.view, own.row, seen.other, seen.place.along) || (seen.passes && halted))
+    return;
+  const bool on_its_way = is_changing(own.view, seen.other);
+  // two abreast want each other's lane: of them, too, who is ahead goes first, unless it has to
+  // wait for this one to get out of its way
+  const double own_front = own.along + own.half_length;
+  const bool waits = halted && std::isfinite(traffic.gate[seen.other]) && seen.rear < own_front;
+  const LaneId merge_to = traffic.merge_to[own.row];
+  const bool swaps =
+      !waits && merge_to != kNoLane && merge_to == own.view.scene.lane[seen.other].lane;
+  const double front = seen.front(), nose_from = front - nose_room(front - seen.rear);
+  // who is on its way already and has its middle ahead needs the room beside it, too
+  const bool behind = on_its_way || swaps || seen.rear > own_front + 1.0;
+  // from here on
+  const double kept_free = behind ? seen.rear : nose_from - kHaltsBefore + own.type.min_gap;
+  if (behind ||
+      lets_nose_in(own.view, own.row, seen.other, nose_from - own.along - own.half_length))
+    note_merging({kept_free, front, seen.speed,
+                  static_cast<std::int64_t>(own.view.scene.id[seen.other].value), seen.other},
+                 on_its_way || swaps, ahead);
+}
+
+/// Is somebody in the way a leader? Two vehicles across each other's way would wait for ever as
+/// such: that is for right of way and avoidance. Somebody on foot is waited for, once near; who
+/// waits in the way for long waits for this very vehicle as well as not: who crawls goes round as
+/// close as avoidance lets it, and has the other step back.
+bool is_followed(const Own& own, const Seen& seen) {
+  if (seen.passes || seen.gap < -own.half_length) return false;
+  if (!seen.aligned && (!seen.on_foot || seen.gap > 2.0 * own.speed + 3.0)) return false;
+  return !(seen.on_foot && own.speed < kCrawl &&
+           (own.view.scene.held[seen.other].standing > kPatience ||
+            shuffles_before(own.view, own.row, seen.other)));
+}
+
 }  // namespace
 
 double nose_room(double length) {
@@ -165,136 +359,23 @@ double nose_room(double length) {
 }
 
 Leader find_leader(const TrafficView& view, std::size_t row, double reach, DrivingAhead& ahead) {
-  const Model& model = view.model;
-  const RoadState& road = view.road;
-  const Scene& scene = view.scene;
-  const TrafficState& traffic = view.traffic;
-  const SpatialGrid& grid = view.grid;
   Leader leader;
-  const Path* path = road.path(scene.path[row]);
+  const Scene& scene = view.scene;
+  const Path* path = view.road.path(scene.path[row]);
   if (path == nullptr) return leader;
-  const AgentType& type = type_of(model.types, scene.type[row]);
-  const double along = scene.path_along[row];
-  const Vec2 tangent = path->line.direction_at(along);
-  const Vec2 position = scene.position[row];
-  const double own_half_length = half_extent(scene, row, tangent);
-  const Vec2 forward = direction_of(scene.heading[row]);
-  const double own_half_width = half_extent(scene, row, left_of(forward));
-  const double own_offset = cross(tangent, position - path->line.point_at(along));
-  const double speed = scene.speed[row];
-  const double aim = traffic.lateral_aim[row];
-  const bool narrow = is_narrow(type.width);
-  const bool overtakes = traffic.overtaking_room[row] > 0.0;
-  // who gives up overtaking falls back behind whoever it was about to pass
-  const double wanted = traffic.passing_offset[row];
-  const bool returns = !narrow && !overtakes && std::abs(own_offset - wanted) > kFarAside;
-  const double margin = kept_aside(type, speed);
-  ahead.seen_to = along + reach;
-
-  const bool taken = narrow && scene.held[row].standing < kTakenFor &&
-                     is_way_aside_taken(view, *path, row, own_offset);
-
-  grid.visit_within(position, reach, [&](std::size_t other, double) {
-    if (other == row || on_other_storey(model.road, scene, row, other)) return;
-    // cheap rejection: well behind
-    if ((scene.position[other] - position).dot(tangent) < -reach * 0.3 - 10.0) return;
-    const PolylinePosition place =
-        path->line.project(scene.position[other], along - 2.0 * kAbreast, along + reach);
-    // who is narrow and waits for a gap from the far side of the lane beside is seen, too
-    if (place.distance > own_half_width + scene.footprint[other].radius + margin &&
-        (place.distance > kLaneBeside || !changes_into_way(view, row, other, place.along)))
-      return;
-    // of two abreast just one is ahead: close together the one with its nose ahead
-    const bool close = near_each_other(scene, row, other);
-    const double ahead_by = close ? nose_lead(scene, row, other) : place.along - along;
-    const double abreast =
-        close || (narrow && is_narrow(type_of(model.types, scene.type[other]).width)) ? kNoseAhead
-                                                                                      : kAbreast;
-    if (ahead_by < (scene.id[other] < scene.id[row] ? -abreast : abreast)) return;
-    const Vec2 direction = path->line.direction_at(place.along);
-    const double half_width = half_extent(scene, other, left_of(direction));
-    // the body drifts to where it means to be beside its path: near ahead its own offset counts
-    const double blend = std::clamp(1.0 - (place.along - along) / 15.0, 0.0, 1.0);
-    const double swept = blend * own_offset + (1.0 - blend) * aim;
-    const double rear = place.along - half_extent(scene, other, direction);
-    const double gap = rear - along - own_half_length;
-    // whoever is beside already, or waits at the kerb, is passed as close as it comes
-    const bool at_kerb = waits_at_kerb(model, scene, other);
-    const double kept = at_kerb ? -0.35 : gap < 0.0 ? 0.02 : margin;
-    const bool on_foot =
-        type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic;
-    const bool aligned = direction.dot(direction_of(scene.heading[other])) > 0.5;
-    const double sides = own_half_width + half_width;
-    // a narrow vehicle that means to pass is about to leave whoever is ahead of it now
-    const double clearance = std::abs(place.offset - aim) - sides;
-    const bool clear_aside = aligned && !on_foot && clearance > margin &&
-                             (place.offset - aim) * (place.offset - own_offset) >= 0.0;
-    const bool passes =
-        clear_aside &&
-        (narrow || (overtakes && is_narrow(2.0 * half_width)) ||
-         stands_beside_lane(view, other, path->stretch_at(place.along).lane, place.offset));
-    if (passes) {
-      const double reach_aside =
-          gap < 0.0 ? half_extent(scene, row, left_of(tangent)) : own_half_width;
-      const double apart = own_offset - place.offset;
-      const Passed passed{gap,
-                          std::abs(apart) - half_width - reach_aside,
-                          clearance,
-                          std::copysign(1.0, apart) * cross(tangent, forward),
-                          std::max(0.0, scene.velocity[other].dot(direction)),
-                          taken,
-                          narrow ? Manner{} : kOvertaking};
-      cap_passing(passing_speed(passed, type), scene.id[other].value, ahead);
-      if (narrow && gap > 0.0 && passed.aside() > 0.0)
-        ahead.turning_way = std::min(ahead.turning_way, gap);
-    }
-    // two narrow ones make for the same gap: who is behind lets the other in
-    if (narrow && aligned && !on_foot && is_narrow(2.0 * half_width) &&
-        scene.held[other].standing < kHesitates &&
-        std::abs(aim_beside(view, other, place.offset) - aim) < sides)
-      cap_passing(std::max(0.0, scene.speed[other] + kCloses * (gap - type.min_gap)),
-                  scene.id[other].value, ahead);
-    const bool comes_back = returns && gap > 0.0 && std::abs(place.offset - wanted) - sides < kept;
-    if (std::abs(place.offset - swept) > sides + kept && !comes_back) {
-      const bool merges = changes_into_way(view, row, other, place.along);
-      const bool halted = scene.held[other].standing > kHesitates;
-      // who stands amid its change is passed like anybody else
-      if (!merges || (passes && halted)) return;
-      const bool on_its_way = is_changing(view, other);
-      // two abreast want each other's lane: of them, too, who is ahead goes first, unless it has to
-      // wait for this one to get out of its way
-      const bool waits =
-          halted && std::isfinite(traffic.gate[other]) && rear < along + own_half_length;
-      const bool swaps = !waits && traffic.merge_to[row] != kNoLane &&
-                         traffic.merge_to[row] == scene.lane[other].lane;
-      const double front = 2.0 * place.along - rear;
-      const double nose_from = front - nose_room(front - rear);
-      // who is on its way already and has its middle ahead needs the room beside it, too
-      const bool behind = on_its_way || swaps || rear > along + own_half_length + 1.0;
-      const double kept_free =
-          behind ? rear : nose_from - kHaltsBefore + type.min_gap;  // from here on
-      if (behind || lets_nose_in(view, row, other, nose_from - along - own_half_length))
-        note_merging({kept_free, front, std::max(0.0, scene.velocity[other].dot(direction)),
-                      static_cast<std::int64_t>(scene.id[other].value), other},
-                     on_its_way || swaps, ahead);
-      return;
-    }
-    if (passes || gap < -own_half_length) return;
-    const Vec2 velocity = scene.velocity[other];
-    const double other_speed = std::max(0.0, velocity.dot(direction));
-    // two vehicles across each other's way would wait for ever as leaders: that is for right of way
-    // and avoidance. Somebody on foot in the way is waited for, once near
-    if (!aligned && (!on_foot || gap > 2.0 * speed + 3.0)) return;
-    // somebody on foot who waits in the way for long waits for this very vehicle as well as not:
-    // who crawls goes round as close as avoidance lets it, and has the other step back
-    if (on_foot && speed < kCrawl &&
-        (scene.held[other].standing > kPatience || shuffles_before(view, row, other)))
-      return;
-    if (!on_foot)
-      ahead.add({rear, 2.0 * place.along - rear, other_speed, scene.id[other].value, other});
-    if (gap < leader.gap || (gap == leader.gap && scene.id[other].value < leader.id))
-      leader = {gap, other_speed, scene.acceleration[other].dot(direction), rear,
-                scene.id[other].value};
+  const Own own = own_side(view, *path, row);
+  ahead.seen_to = own.along + reach;
+  view.grid.visit_within(scene.position[row], reach, [&](std::size_t other, double) {
+    const auto seen = see(own, other, reach);
+    if (!seen) return;
+    pass(own, *seen, ahead);
+    if (is_clear_of_way(own, *seen)) return see_merging(own, *seen, ahead);
+    if (!is_followed(own, *seen)) return;
+    const std::int64_t id = scene.id[other].value;
+    if (!seen->on_foot) ahead.add({seen->rear, seen->front(), seen->speed, id, other});
+    if (seen->gap < leader.gap || (seen->gap == leader.gap && id < leader.id))
+      leader = {seen->gap, seen->speed, scene.acceleration[other].dot(seen->direction), seen->rear,
+                id};
   });
   return leader;
 }

@@ -64,7 +64,7 @@ class WalkingPlaceTest : public ::testing::Test {
   double place_of(std::size_t row) {
     here_.update();
     look_around(here_.view(), row, 8, 2.5, around_);
-    look_at_walls(here_.model, here_.path(row), here_.scene, row, 4, 2.5, around_);
+    look_at_walls(here_.view(), here_.path(row), row, 4, 2.5, around_);
     return walking_place(here_.view(), here_.path(row), around_, row);
   }
   RoadScene here_{sidewalk()};
@@ -87,7 +87,7 @@ TEST_F(WalkingPlaceTest, WhoIsHeldUpByTheTipOfARedCrossingGoesRoundIt) {
     here_.scene.context[own].reason = reason;
     here_.scene.context[own].to_red[0] = {0.1, -0.1};
     look_around(here_.view(), own, 8, 2.5, around_);
-    look_at_walls(here_.model, here_.path(own), here_.scene, own, 4, 2.5, around_);
+    look_at_walls(here_.view(), here_.path(own), own, 4, 2.5, around_);
     look_at_red_crossings(here_.view(), here_.path(own), own, around_);
     return walking_place(here_.view(), here_.path(own), around_, own);
   };
