@@ -15,7 +15,8 @@ constexpr double kBack = 0.9;             // [m], likewise
 
 bool leads_back(const RoadNetwork& road, ConnectionId id) {
   const Connection& turn = road.connection(id);
-  if (turn.via == kNoLane || turn.direction == 't' || !is_driven(road, id)) return false;
+  if (turn.via == kNoLane || turn.direction == TurnDirection::Turnaround || !is_driven(road, id))
+    return false;
   const std::vector<Vec2>&lane = road.lane(turn.from).centerline.points(),
         &way = road.lane(turn.via).centerline.points();
   if (lane.size() < 2 || way.size() < 2) return false;

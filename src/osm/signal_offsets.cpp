@@ -57,7 +57,7 @@ double weight_of(const RoadNetwork& road, const Connection& link) {
   const auto is_path = [&](LaneId lane) {
     return (road.lane(lane).allowed & ~vehicle_class::kOnFootOrBicycle) == 0;
   };
-  return (link.direction == 's' ? 1.0 : kTurning) *
+  return (link.direction == TurnDirection::Straight ? 1.0 : kTurning) *
          (is_path(link.from) == is_path(link.to) ? 1.0 : kFew);
 }
 
@@ -66,7 +66,9 @@ std::vector<Passage> close_passages(const RoadNetwork& road,
   std::map<std::string, const SignalProgram*> by_name;
   for (const SignalProgram& program : programs) by_name[program.name] = &program;
   auto program_of = [&](const Connection& link) -> const SignalProgram* {
-    if (link.signal == kNoSignal || link.signal_link < 0 || link.direction == 't') return nullptr;
+    if (link.signal == kNoSignal || link.signal_link < 0 ||
+        link.direction == TurnDirection::Turnaround)
+      return nullptr;
     const auto found = by_name.find(road.signals[index_of(link.signal)].name);
     return found == by_name.end() ? nullptr : found->second;
   };

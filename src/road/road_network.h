@@ -107,6 +107,32 @@ struct Edge {
   std::vector<EdgeId> crossing_edges;  ///< of a crossing: the edges that it crosses
 };
 
+/// Where a link leads, seen from its begin.
+enum class TurnDirection : std::uint8_t {
+  Straight,
+  Left,
+  Right,
+  PartlyLeft,
+  PartlyRight,
+  Turnaround
+};
+
+/// Who goes first over a link that no signal governs.
+enum class LinkPriority : std::uint8_t {
+  Major,
+  Minor,
+  Equal,  ///< right before left
+  Stop,
+  AllWayStop,
+  Zipper,
+  Other,  ///< signalled, switched off, or the end of the road
+};
+
+/// Has everybody to halt at the line of such a link?
+inline bool halts_first(LinkPriority priority) {
+  return priority == LinkPriority::Stop || priority == LinkPriority::AllWayStop;
+}
+
 /// A link from lane to lane over a junction.
 struct Connection {
   LaneId from = kNoLane, to = kNoLane;
@@ -119,10 +145,8 @@ struct Connection {
   double storage =
       0;  ///< of an inner signal: way from the stop lines of the signals before it, over
           ///< their junction and the road behind it, else 0 [m] (find_inner_signals())
-  char direction = 's';  ///< SUMO's dir: s straight, l left, r right, t turn-around, L partially
-                         ///< left, R partially right
-  char state = 'M';  ///< SUMO's static state: M major, m minor, = equal, s stop, w all-way stop,
-                     ///< o/O off, Z zipper
+  TurnDirection direction = TurnDirection::Straight;
+  LinkPriority priority = LinkPriority::Major;  ///< without a signal
 };
 
 /// One row of a junction's right-of-way matrix (SUMO page Networks/SUMO_Road_Networks#requests).

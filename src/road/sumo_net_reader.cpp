@@ -21,6 +21,7 @@
 #include "road/lane_crossings.h"
 #include "road/overpasses.h"
 #include "road/stop_lines.h"
+#include "road/sumo_letters.h"
 
 namespace sumogamma {
 namespace {
@@ -368,8 +369,8 @@ class NetBuilder {
     }
     const std::string_view direction = node.attribute("dir").value(),
                            state = node.attribute("state").value();
-    if (!direction.empty()) connection.direction = direction.front();
-    if (!state.empty()) connection.state = state.front();
+    if (!direction.empty()) connection.direction = direction_from_letter(direction.front());
+    if (!state.empty()) connection.priority = priority_from_letter(state.front());
     const ConnectionId id{static_cast<int>(net_.connections.size())};
     net_.lanes[index_of(connection.from)].outgoing.push_back(id);
     net_.lanes[index_of(connection.to)].incoming.push_back(id);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "road/path.h"
+#include "road/sumo_letters.h"
 #include "scene/road_context.h"
 
 namespace sumogamma {
@@ -22,14 +23,13 @@ struct RoadState {
   const Path* path(PathId id) const {
     return id == kNoPath ? nullptr : paths[static_cast<std::size_t>(id)].get();
   }
-  /// The letter that a link shows now: 'O' (unsignalled) where it has no signal or its state isn't
-  /// known yet.
-  char signal(const Connection& connection) const {
-    if (connection.signal == kNoSignal || connection.signal_link < 0) return 'O';
+  /// What a link shows now: None where it has no signal or its state isn't known yet.
+  Light signal(const Connection& connection) const {
+    if (connection.signal == kNoSignal || connection.signal_link < 0) return Light::None;
     const std::size_t index = index_of(connection.signal);
     const auto link = static_cast<std::size_t>(connection.signal_link);
-    if (index >= signal_states.size() || link >= signal_states[index].size()) return 'O';
-    return signal_states[index][link];
+    if (index >= signal_states.size() || link >= signal_states[index].size()) return Light::None;
+    return light_from_letter(signal_states[index][link]);
   }
 };
 
@@ -48,12 +48,13 @@ inline double amber_until(const RoadState& road, const Connection& connection) {
                : std::numeric_limits<double>::infinity();
 }
 
-inline bool is_red(char signal) { return signal == 'r' || signal == 'u'; }
-inline bool is_amber(char signal) { return signal == 'y' || signal == 'Y'; }
+inline bool is_red(Light light) { return light == Light::Red; }
+inline bool is_amber(Light light) { return light == Light::Amber; }
 
-/// Does nobody who crosses a link now go first there? `signal`: what it shows, 'O' without one.
-inline bool has_right_of_way(const Connection& connection, char signal) {
-  return signal == 'G' || (signal == 'O' && connection.state == 'M');
+/// Does nobody who crosses a link now go first there? `light`: what it shows.
+inline bool has_right_of_way(const Connection& connection, Light light) {
+  return light == Light::GreenFirst ||
+         (light == Light::None && connection.priority == LinkPriority::Major);
 }
 
 }  // namespace sumogamma

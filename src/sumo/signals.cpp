@@ -21,7 +21,8 @@ void show_signals(const std::vector<SignalId>& order, const SumoStep& step, doub
     if (road.signal_states[signal] == step.signal_states[i]) continue;
     road.signal_states[signal] = step.signal_states[i];
     road.signal_since[signal] = now;
-    if (std::any_of(step.signal_states[i].begin(), step.signal_states[i].end(), is_amber))
+    if (std::any_of(step.signal_states[i].begin(), step.signal_states[i].end(),
+                    [](char letter) { return is_amber(light_from_letter(letter)); }))
       road.amber_until[signal] = backend.next_switch(i);
   }
 }

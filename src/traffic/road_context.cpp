@@ -27,7 +27,8 @@ void note_halt(const TrafficView& view, const Course& course, TrafficState& traf
     const Connection& connection = road.connection(link.connection);
     const ConnectionId halted_for =
         halt_counts_for(road, course.path, link, 2.0 * course.half_length);
-    const bool has_priority = connection.state == 'M' && connection.signal == kNoSignal;
+    const bool has_priority =
+        connection.priority == LinkPriority::Major && connection.signal == kNoSignal;
     if (has_priority && halted_for == link.connection) continue;
     if (traffic.halted_for[course.row] != halted_for) {
       traffic.halted_for[course.row] = halted_for;

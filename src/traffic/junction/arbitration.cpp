@@ -32,7 +32,7 @@ LinkDuty duty_of(const TrafficView& view, const Traveller& traveller, const Path
   const bool stops_short = traveller.front < link.halt &&
                            stops_at_ease(traveller.speed, link.halt - traveller.front, type);
   const double halt = stops_short ? link.halt : link.stop_line;
-  const char signal = view.road.signal(view.model.road.connection(link.connection));
+  const Light signal = view.road.signal(view.model.road.connection(link.connection));
   const double drawn = is_amber(signal) ? drawn_line(view, traveller, link) : halt;
   return {halt - kStopMargin, signal_duty(view, traveller, link, halt, drawn)};
 }
@@ -43,9 +43,9 @@ bool has_to_halt_first(const TrafficView& view, const Traveller& traveller, cons
   const Connection& connection = view.model.road.connection(link.connection);
   const Path& path = *view.road.path(view.scene.path[traveller.row]);
   const bool stop_sign =
-      (connection.state == 's' || connection.state == 'w') && view.road.signal(connection) == 'O';
-  const bool halts_first = stop_sign || (at_red && !path.walking && connection.storage == 0.0);
-  return halts_first && link.stop_line - traveller.front > -0.2 &&
+      halts_first(connection.priority) && view.road.signal(connection) == Light::None;
+  const bool has_to_halt = stop_sign || (at_red && !path.walking && connection.storage == 0.0);
+  return has_to_halt && link.stop_line - traveller.front > -0.2 &&
          view.traffic.halted_for[traveller.row] !=
              halt_counts_for(view.model.road, path, link, traveller.length);
 }
@@ -124,7 +124,8 @@ LinkDecision decide_link(const TrafficView& view, const Traveller& traveller,
   if (has_to_halt_first(view, traveller, link, at_red))
     decision = {true, duty.stop_at, at_red ? LimitReason::Signal : LimitReason::Yield, -1};
 
-  const bool free_green = view.road.signal(model.road.connection(link.connection)) == 'G';
+  const bool free_green =
+      view.road.signal(model.road.connection(link.connection)) == Light::GreenFirst;
   for (ConflictZone zone : model.conflicts[index_of(link.connection)]) {
     if (runs_together(model, link.connection, zone.foe)) continue;
     if (free_green) zone.yields = false;

@@ -18,7 +18,7 @@ constexpr double kLongWait = 60.0;  // [s]
 /// it.
 bool is_ignored_by(const Encounter& e) {
   return is_on_foot(e, e.subject.row) && e.subject.front < e.link.stop_line && !e.foe.stands &&
-         e.road.signal(e.own_link) == 'O' &&
+         e.road.signal(e.own_link) == Light::None &&
          !lets_people_go(e.model, e.scene, e.foe.row, e.link.connection);
 }
 

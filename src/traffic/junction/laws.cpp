@@ -44,7 +44,7 @@ Answer red_light(const Encounter& e) {
 /// stepped onto it.
 Answer disregard(const Encounter& e) {
   return free_if(!e.foe_inside && e.zone.foe_is_crossing && e.foe.front < 0.0 &&
-                 is_on_foot(e, e.foe.row) && e.road.signal(e.foe_link) == 'O' &&
+                 is_on_foot(e, e.foe.row) && e.road.signal(e.foe_link) == Light::None &&
                  !lets_people_go(e.model, e.scene, e.subject.row, e.zone.foe));
 }
 
@@ -78,8 +78,7 @@ Answer has_passed(const Encounter& e) { return free_if(e.theirs.begin == Occupat
 
 /// Does the subject still wait to join a lane on which the foe comes without having to halt?
 bool turns_in(const Encounter& e) {
-  const bool halts_first = e.foe_link.state == 's' || e.foe_link.state == 'w';
-  return e.foe_link.to == e.own_link.to && !halts_first && !is_past_line(e);
+  return e.foe_link.to == e.own_link.to && !halts_first(e.foe_link.priority) && !is_past_line(e);
 }
 
 /// Imposed braking of who comes along the lane that the link leads into, if the subject goes first
@@ -135,7 +134,7 @@ Answer lets_past(const Encounter& e) {
 
 /// All-way stop: who has halted goes in the order in which they came.
 Answer all_way_stop(const Encounter& e) {
-  if (e.foe_inside || e.own_link.state != 'w') return std::nullopt;
+  if (e.foe_inside || e.own_link.priority != LinkPriority::AllWayStop) return std::nullopt;
   if (is_past_line(e) || !e.foe.has_halted) return Verdict::Free;
   const double own = e.approaches.waiting(e.subject.row).halted_at, their = e.foe_waits.halted_at;
   return blocks_if(their < own ||
@@ -146,8 +145,9 @@ Answer all_way_stop(const Encounter& e) {
 /// finishes, whoever of the two would go first at the line. Nobody is caught on the junction.
 Answer begun_crossing(const Encounter& e) {
   const auto minor = [&](const Connection& c) {
-    return (c.state == 'm' || c.state == 's' || c.state == '=') && e.road.signal(c) == 'O' &&
-           e.model.road.lane(c.to).kind != LaneKind::Crossing;
+    return (c.priority == LinkPriority::Minor || c.priority == LinkPriority::Stop ||
+            c.priority == LinkPriority::Equal) &&
+           e.road.signal(c) == Light::None && e.model.road.lane(c.to).kind != LaneKind::Crossing;
   };
   if (!minor(e.own_link) || !minor(e.foe_link)) return std::nullopt;
   const auto has_begun = [](double past, double speed) { return past > 0.3 && speed > 0.5; };

@@ -26,7 +26,7 @@ bool has_had_enough(const TrafficView& view, std::size_t row, ConnectionId its) 
   const double enough = view.scene.speed[row] > kCreeps ? kSetOut : kLong;
   return view.traffic.waiting_time[row] > enough ||
          (has_waited_since_it_came(view, row, its, kSinceItCame) &&
-          view.road.signal(view.model.road.connection(its)) == 'O');
+          view.road.signal(view.model.road.connection(its)) == Light::None);
 }
 
 /// Has somebody on wheels stood at its line, or on the junction behind it, for long?
@@ -45,7 +45,7 @@ bool has_missed_green(const TrafficView& view, std::size_t row, ConnectionId its
   if (link.signal == kNoSignal || !has_waited_since_it_came(view, row, its, kCycle) ||
       is_on_foot(view, row) || type_of(view.model.types, view.scene.type[row]).max_speed > kCyclist)
     return false;
-  const char signal = view.road.signal(link);
+  const Light signal = view.road.signal(link);
   const double since = view.scene.time - signal_since(view.road, link, view.scene.time);
   return front > 0.0 || (!is_red(signal) && !is_amber(signal) && since < kBegins);
 }
@@ -90,7 +90,7 @@ bool steps_out(const Encounter& e) {
 bool lets_step_out(const Encounter& e) {
   constexpr double kAtKerb = 2.0;  // [m]
   return has_had_enough(e, e.foe.row, e.zone.foe) && e.foe.front > -kAtKerb &&
-         e.road.signal(e.foe_link) == 'O' &&
+         e.road.signal(e.foe_link) == Light::None &&
          lets_people_go(e.model, e.scene, e.subject.row, e.zone.foe) && halts_for_long_wait(e);
 }
 

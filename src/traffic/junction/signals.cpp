@@ -71,7 +71,7 @@ SignalDuty duty_at_red(const TrafficView& view, const Traveller& traveller, cons
 SignalDuty signal_duty(const TrafficView& view, const Traveller& traveller, const PathLink& link,
                        double halt, double drawn) {
   const Connection& connection = view.model.road.connection(link.connection);
-  const char signal = view.road.signal(connection);
+  const Light signal = view.road.signal(connection);
   // on foot one halts within a step, though it be with a foot on the crossing
   const double reserve = is_on_foot(view, traveller.row) ? -0.45 : 0.2;  // [m]
   const double needed = deceleration_to_stop(traveller.speed, halt - traveller.front - reserve);

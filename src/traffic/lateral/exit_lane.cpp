@@ -15,7 +15,7 @@ LaneId free_entry(const Model& model, const RoadState& road, const LaneQueues& q
       link->end - kEntryReach < std::max(front, link->stop_line))
     return kNoLane;
   const Connection& connection = model.road.connection(link->connection);
-  const char signal = road.signal(connection);
+  const Light signal = road.signal(connection);
   if (link->stop_line > front && (is_red(signal) || is_amber(signal))) return kNoLane;
   const Lane& own = model.road.lane(connection.to);
   const bool keeps = path.stretch_at(link->end + 0.1).lane == connection.to;

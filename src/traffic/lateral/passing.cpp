@@ -35,12 +35,12 @@ bool is_near_junction(const Path& path, const Surroundings& around) {
 /// The side to which a link turns: 1 left, -1 right, 0 neither.
 int side_of_turn(const RoadNetwork& network, const PathLink& link) {
   switch (network.connection(link.connection).direction) {
-    case 'l':
-    case 'L':
-    case 't':
+    case TurnDirection::Left:
+    case TurnDirection::PartlyLeft:
+    case TurnDirection::Turnaround:
       return 1;
-    case 'r':
-    case 'R':
+    case TurnDirection::Right:
+    case TurnDirection::PartlyRight:
       return -1;
     default:
       return 0;

@@ -106,7 +106,7 @@ TEST_F(Crossroads, StraightOnKeepsTheLane) {
   const Lane& target = right().lane(right().lane_by_name.at("CE_1"));
   EXPECT_NEAR((path.line.point_at(path.links[0].end) - target.centerline.points().front()).norm(),
               0.0, 1e-6);
-  EXPECT_EQ(right().connection(path.links[0].connection).direction, 's');
+  EXPECT_EQ(right().connection(path.links[0].connection).direction, TurnDirection::Straight);
 }
 
 TEST_F(Crossroads, ATurnThatNeedsTheOtherLaneChangesBeforeTheStopLine) {

@@ -901,8 +901,8 @@ TEST(JunctionsThatFollowClosely, AHaltBeforeTheFirstCountsForTheStopSignOfTheSec
   RoadScene here(two_junctions(8, "priority"));
   const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
   auto path = std::make_shared<Path>(here.path(own));
-  here.model.road.connections[index_of(path->links[0].connection)].state = 'M';
-  here.model.road.connections[index_of(path->links[1].connection)].state = 's';
+  here.model.road.connections[index_of(path->links[0].connection)].priority = LinkPriority::Major;
+  here.model.road.connections[index_of(path->links[1].connection)].priority = LinkPriority::Stop;
   path->links[1].halt = path->links[0].stop_line + 0.5;
   here.road.paths[static_cast<std::size_t>(here.scene.path[own])] = path;
   here.move(own, path->links[1].halt - 0.7 - 2.25);
@@ -922,7 +922,7 @@ TEST(JunctionsThatFollowClosely, AHaltBeforeAZebraCountsForTheStopSignThatLeaves
     const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
     const std::vector<PathLink> links = here.path(own).links;
     here.model.road.connections[index_of(links.at(0).connection)].state = state;
-    here.model.road.connections[index_of(links.at(1).connection)].state = 's';
+    here.model.road.connections[index_of(links.at(1).connection)].priority = LinkPriority::Stop;
     here.move(own, links[0].halt - 0.6 - 2.25);
     here.update();
     EXPECT_EQ(here.context(own).reason, LimitReason::Yield);
@@ -1420,7 +1420,7 @@ TEST_F(PriorityTest, WhoHasBackedOutLetsTheOthersPast) {
 TEST_F(PriorityTest, AStopSignIsHaltedAt) {
   RoadNetwork network = net();
   for (Connection& connection : network.connections)
-    if (connection.state == 'm') connection.state = 's';
+    if (connection.priority == LinkPriority::Minor) connection.priority = LinkPriority::Stop;
   RoadScene here(network);
   const std::size_t own = here.add("car", {"SC", "CN"}, 0, 8);
   const double line = here.path(own).links.front().stop_line;
