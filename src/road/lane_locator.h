@@ -82,8 +82,9 @@ class LaneLocator {
 
     /// May some of the ground be `reach` [m] or less away?
     bool is_within(const Vec2& place, double reach) const {
-      return place.x() >= left - reach && place.x() <= right + reach &&
-             place.y() >= bottom - reach && place.y() <= top + reach;
+      const double x = place.x(), y = place.y();
+      return x >= double{left} - reach && x <= double{right} + reach &&
+             y >= double{bottom} - reach && y <= double{top} + reach;
     }
   };
   /// Part of a lane within a cell: segments first..last of its centreline, or a walking area's

@@ -29,7 +29,7 @@ ConnectionId halt_counts_for(const RoadNetwork& road, const Path& path, const Pa
     clear = next->end;
     const Connection& connection = road.connection(next->connection);
     if (connection.signal != kNoSignal) break;
-    if halts_first (connection.priority) counts = next->connection;
+    if (halts_first(connection.priority)) counts = next->connection;
   }
   return counts;
 }

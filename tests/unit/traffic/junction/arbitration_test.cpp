@@ -916,12 +916,13 @@ TEST(JunctionsThatFollowClosely, AHaltBeforeTheFirstCountsForTheStopSignOfTheSec
 // In Santa Maria everybody waited for a minute before an empty zebra: there was no room between it
 // and the stop sign behind it, at which the halt before the zebra didn't count.
 TEST(JunctionsThatFollowClosely, AHaltBeforeAZebraCountsForTheStopSignThatLeavesNoRoomBehindIt) {
-  for (const char state : {'M', 'm', 's'}) {
-    SCOPED_TRACE(state);
+  for (const LinkPriority priority :
+       {LinkPriority::Major, LinkPriority::Minor, LinkPriority::Stop}) {
+    SCOPED_TRACE(static_cast<int>(priority));
     RoadScene here(two_junctions(8, "priority"));
     const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
     const std::vector<PathLink> links = here.path(own).links;
-    here.model.road.connections[index_of(links.at(0).connection)].state = state;
+    here.model.road.connections[index_of(links.at(0).connection)].priority = priority;
     here.model.road.connections[index_of(links.at(1).connection)].priority = LinkPriority::Stop;
     here.move(own, links[0].halt - 0.6 - 2.25);
     here.update();
