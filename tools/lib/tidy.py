@@ -96,10 +96,14 @@ def main(folder, which):
     chosen, words = choose(which, sorted(path for path in paths if path.startswith("src/")))
     print(f"{words}: {len(chosen)}", flush=True)
     end = time.monotonic() + limit
+    results, found = [], set()
     with multiprocessing.pool.ThreadPool(int(os.environ.get("JOBS", os.cpu_count()))) as pool:
-        results = pool.map(lambda source: look_at(source, folder, end), chosen, chunksize=1)
-    found = sorted({line for _, complaints in results for line in complaints or []})
-    print("\n".join(found + [f"clang-tidy: {len(found)} complaints"]))
+        for source, complaints in pool.imap(lambda source: look_at(source, folder, end), chosen):
+            results.append((source, complaints))
+            for line in sorted(set(complaints or []) - found):  # a header's are found with every source that includes it
+                print(line, flush=True)
+            found.update(complaints or [])
+    print(f"clang-tidy: {len(found)} complaints")
     write_results(results, os.path.join(folder, "tests.xml"))
     sys.exit(1 if found else 0)
 
