@@ -45,8 +45,8 @@ void look_at_walls(const TrafficView& view, const Path& path, std::size_t row, d
                    double aside, Surroundings& around);
 
 /// Adds to around.walls, after look_at_walls, where a row that has been held up for long is about
-/// to get onto a red crossing that it doesn't wait for (RoadContext::to_red): who walked along
-/// beside the tip of one pressed on against it, for as long as it was red.
+/// to get onto a red crossing that it doesn't wait for (RoadContext::to_red): who walks along
+/// beside the tip of one presses on against it else, for as long as it is red.
 void look_at_red_crossings(const TrafficView& view, const Path& path, std::size_t row,
                            Surroundings& around);
 

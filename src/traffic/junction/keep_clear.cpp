@@ -106,8 +106,8 @@ LinkDecision decide_exit(const TrafficView& view, DrivingAhead& ahead, const Cou
   constexpr double kStarts = 0.8;    // likewise of who follows those who drive [m/s]
   constexpr double kClosedUp = 1.0;  // [m]
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  // all of the road that the link leads into: with the few metres that following needs a queue of
-  // 60 m looked as if it went on
+  // all of the road that the link leads into: the few metres that following needs don't tell
+  // whether a long queue goes on
   see_queue(view, course.row, end_of_road(course, link), ahead);
   if (ahead.count == 0) return {};
   const auto begin = ahead.vehicles.begin(), end = begin + static_cast<std::ptrdiff_t>(ahead.count);

@@ -27,7 +27,7 @@ bool goes_first(const Encounter& e);
 bool lets_go_first(const Encounter& e);
 
 /// Has a foe on wheels with the right of way stood for so long for others in the area that the
-/// subject lets it come next, from its line? One after the other went in there before it.
+/// subject lets it come next, from its line? Else one after the other goes in there before it.
 bool is_starved_by(const Encounter& e);
 
 }  // namespace sumogamma

@@ -64,7 +64,7 @@ Vec2 direction_to_steer(const Course& course, double curvature) {
   const double to_steer = 0.1 + 0.5 * type.max_steering / type.max_steering_rate;  // [s]
   // as fast as it will be there: who brakes for a corner with the preview of its speed now cuts it.
   // Long bodies less so: those that begin it late swing out behind it. Nor two-wheelers: in the
-  // hooks of cycle paths bicycles came out on the other lane
+  // hooks of cycle paths bicycles would come out on the other lane
   const double there = course.path.profile_at(course.along + 0.4 + to_steer * course.speed);
   const double share = is_narrow(type.width)                  ? 0.0
                        : 2.0 * course.half_length > kLongBody ? 0.5

@@ -32,7 +32,7 @@ struct LaneChoiceWork {
 /// criterion of MOBIL, Kesting et al. 2007) and leads on along the trip; its path is made again.
 /// Who meets somebody slow and narrow passes within the lane where there is room, and narrow
 /// vehicles pass between queues. Each agent looks again a few times a second. Sets
-/// TrafficState::lateral_aim of every row with a driving path.
+/// TrafficState::lateral_aim of every row with a path.
 void choose_lanes(const TrafficTick& tick, LaneChoiceWork& work);
 
 /// A row no longer has to change lanes, as its new path leads on from where it is.

@@ -164,7 +164,7 @@ void leave_room_behind(const Driver& driver, StopPoints& found) {
   found.points.push_back(point);
 }
 
-/// Some way before its gate: who rolled over it by a hair had begun its change, whoever was beside.
+/// Some way before its gate: who rolls over it by a hair begins its change, whoever is beside.
 void wait_at_gate(const Driver& driver, StopPoints& found) {
   constexpr double kBefore = 0.3;  // [m]
   const double gate = driver.view.traffic.gate[driver.course.row];

@@ -216,7 +216,7 @@ bool lets_somebody_go(const TrafficView& view, const TickGeometry& geometry, std
 
 /// One that rolls back goes on with it for its time, unless it moves on, and then lets the others
 /// go first. Who finds no gap to change lanes and comes up against somebody behind gives way from
-/// there. Not for other reasons: with those, too, a large junction locked up in one run of eight.
+/// there. Not for other reasons: that may lock up a large junction.
 Backing go_on_backing(const Scene& scene, std::size_t row, double dt, Backing now) {
   const bool moved_on = scene.speed[row] > kPace;
   const double standing = scene.held[row].standing;

@@ -180,7 +180,7 @@ void set_walker_limit(const TrafficView& view, const Course& course, RoadContext
     context.allowed_speed = std::min(beyond / 0.7, 1.0);
     context.reason = decision.reason;
     context.foe = decision.foe;
-    // and no further on, whoever comes back behind: at the kerb one who turned round was pressed on
+    // and no further on, whoever comes back behind: at the kerb who turns round is pressed on
     if (decision.reason == LimitReason::Signal)
       context.to_red.back() = kLeastWay * course.path.line.direction_at(link.stop_line);
     return;
