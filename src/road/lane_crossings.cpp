@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -99,7 +100,8 @@ void add_crossing(const RunsOfLane& one, const RunsOfLane& other, RoadNetwork& n
   network.lanes[index_of(one.lane)].crossings.push_back({other.lane, apart});
 }
 
-void find_crossings(RoadNetwork& network) {
+/// Lanes with their runs, in order of the left sides of their boxes.
+std::vector<RunsOfLane> all_runs(const RoadNetwork& network) {
   std::vector<RunsOfLane> lanes;
   for (std::size_t i = 0; i < network.lanes.size(); ++i) {
     RunsOfLane lane = runs_of(network, LaneId(static_cast<int>(i)));
@@ -108,16 +110,33 @@ void find_crossings(RoadNetwork& network) {
   std::sort(lanes.begin(), lanes.end(), [](const RunsOfLane& a, const RunsOfLane& b) {
     return a.box.lower.x() < b.box.lower.x();
   });
-  for (auto one = lanes.begin(); one != lanes.end(); ++one)
-    for (auto other = one; other != lanes.end() && other->box.lower.x() <= one->box.upper.x();
-         ++other) {
-      if (!one->box.meets(other->box)) continue;
-      add_crossing(*one, *other, network);
-      if (other != one) add_crossing(*other, *one, network);
+  return lanes;
+}
+
+/// By lane of all_runs(): those whose boxes meet its own, itself included.
+std::vector<std::vector<std::uint32_t>> lanes_near(const std::vector<RunsOfLane>& lanes) {
+  std::vector<std::vector<std::uint32_t>> near(lanes.size());
+  for (std::uint32_t one = 0; one < lanes.size(); ++one)
+    for (std::uint32_t other = one;
+         other < lanes.size() && lanes[other].box.lower.x() <= lanes[one].box.upper.x(); ++other) {
+      if (!lanes[one].box.meets(lanes[other].box)) continue;
+      near[one].push_back(other);
+      if (other != one) near[other].push_back(one);
     }
-  for (Lane& lane : network.lanes)
-    std::sort(lane.crossings.begin(), lane.crossings.end(),
-              [](const LaneCrossing& a, const LaneCrossing& b) { return a.other < b.other; });
+  return near;
+}
+
+void find_crossings(RoadNetwork& network, Workers& workers) {
+  const std::vector<RunsOfLane> lanes = all_runs(network);
+  const auto near = lanes_near(lanes);
+  workers.for_each_range(lanes.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t one = begin; one < end; ++one) {
+      for (const std::uint32_t other : near[one]) add_crossing(lanes[one], lanes[other], network);
+      auto& crossings = network.lanes[index_of(lanes[one].lane)].crossings;
+      std::sort(crossings.begin(), crossings.end(),
+                [](const LaneCrossing& a, const LaneCrossing& b) { return a.other < b.other; });
+    }
+  });
 }
 
 /// Adds a neighbour, unless a way to it that isn't longer is known. Whoever searches takes the
@@ -154,11 +173,11 @@ bool has_storeys(const RoadNetwork& network) {
                      [](const Lane& lane) { return !lane.elevation.empty(); });
 }
 
-void find_lane_crossings(RoadNetwork& network) {
+void find_lane_crossings(RoadNetwork& network, Workers& workers) {
   for (Lane& lane : network.lanes) lane.crossings.clear();
   for (Junction& junction : network.junctions) junction.neighbours.clear();
   if (!has_storeys(network)) return;
-  find_crossings(network);
+  find_crossings(network, workers);
   find_neighbours(network);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/parallel.h"
 #include "road/road_network.h"
 
 namespace sumogamma {
@@ -24,7 +25,11 @@ inline bool layers_differ(const RoadNetwork& network, LaneId a, LaneId b) {
 /// Fills Lane::crossings and Junction::neighbours, from which it is told who is above whom (see
 /// scene/storey.h); empty where the network has no storeys. Lanes reach 1 m beyond their ends for
 /// it, as there may be a gap between one and the next. Expects layers, elevations and overpasses.
-void find_lane_crossings(RoadNetwork& network);
+void find_lane_crossings(RoadNetwork& network, Workers& workers);
+inline void find_lane_crossings(RoadNetwork& network) {
+  Workers alone;
+  find_lane_crossings(network, alone);
+}
 
 /// The crossing of a lane with another; nullptr where their centerlines don't cross.
 const LaneCrossing* crossing_with(const Lane& lane, LaneId other);

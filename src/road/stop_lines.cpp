@@ -22,17 +22,28 @@ constexpr double kAfter = 10.0;     ///< of the road turned into that is looked 
 struct Way {
   Polyline link, after;
   double width = 0;
+  Vec2 lower = Vec2::Constant(std::numeric_limits<double>::infinity()),
+       upper = -lower;  ///< corners of a box about all that is near to it [m]
 };
 
 Way way_through(const RoadNetwork& network, ConnectionId id) {
   const Lane& to = network.lane(network.connection(id).to);
   std::vector<Vec2> after;
   append_span(to.centerline, 0.0, std::min(kAfter, to.centerline.length()), after);
-  return {link_geometry(network, id), Polyline(std::move(after)), to.width};
+  Way way{link_geometry(network, id), Polyline(std::move(after)), to.width};
+  const Vec2 margin = Vec2::Constant(kRoom + 1e-6);
+  for (const Polyline* line : {&way.link, &way.after})
+    for (const Vec2& point : line->points()) {
+      way.lower = way.lower.cwiseMin(point - margin);
+      way.upper = way.upper.cwiseMax(point + margin);
+    }
+  return way;
 }
 
 /// Is a place on a lane so near to a way that who waits there is in the way?
 bool is_near(const Vec2& place, const Lane& lane, const Way& way) {
+  if ((place.array() < way.lower.array()).any() || (place.array() > way.upper.array()).any())
+    return false;
   const double beside = std::min(kRoom, kRoomOfWidth * 0.5 * (lane.width + way.width));
   return way.after.project(place).distance < beside ||
          way.link.project(place).distance < std::min(kRoom, std::max(beside, kRoomToTurn));

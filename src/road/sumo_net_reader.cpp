@@ -552,7 +552,7 @@ RoadNetwork read_sumo_net(const std::filesystem::path& file, Workers& workers) {
   find_inner_signals(network);
   set_junction_rooms(network, workers);
   find_overpasses(network);
-  find_lane_crossings(network);
+  find_lane_crossings(network, workers);
   return network;
 }
 

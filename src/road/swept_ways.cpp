@@ -109,8 +109,12 @@ std::optional<SweptWay> swept_part(const Sweep& sweep, double length, const WayO
     if ((place.array() < sweep.low.array()).any() || (place.array() > sweep.high.array()).any())
       continue;
     const OrientedBox slice{place, direction, {0.5 * kPace, half_width}};
+    const double reach = slice.half.norm() + 1e-6;
     for (std::size_t k = 0; k < sweep.bodies.size(); ++k) {
       const OrientedBox& body = sweep.bodies[k];
+      // seen from the body, is the slice off it by more than it reaches to any side?
+      const Vec2 seen = to_body(place - body.center, body.forward);
+      if (((seen.cwiseAbs() - body.half).array() > reach).any()) continue;
       if ((body.center - place).norm() > length || separation(slice, body) > 0.0) continue;
       const double middle = sweep.first + static_cast<double>(k) * kPace;
       first = part ? std::min(first, middle) : middle;
