@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "model/stopping_guard.h"
+#include "scene/extent.h"
 #include "support/road_scene.h"
 #include "traffic/patience.h"
 
@@ -42,8 +43,10 @@ Pair draw_pair(RoadScene& here, std::uint64_t seed) {
   return {first, stand(other)};
 }
 
+/// By right of way, or for the room in which a long body turns.
 bool waits_for(const RoadScene& here, std::size_t row, std::size_t other) {
-  return here.context(row).reason == LimitReason::Yield &&
+  const LimitReason reason = here.context(row).reason;
+  return (reason == LimitReason::Yield || reason == LimitReason::TurningRoom) &&
          here.context(row).foe == static_cast<std::int64_t>(here.scene.id[other].value);
 }
 
@@ -61,16 +64,20 @@ void stand_for(RoadScene& here, double duration) {
   }
 }
 
-/// May both start, though their ways have an area in common in which they would be at a time?
+/// Do their ways cross in an area in which both would be at a time? Where they come together in a
+/// lane the second follows the first.
 bool would_meet(const RoadScene& here, const Pair& pair) {
   const ConnectionId own = here.path(pair.first).links.front().connection;
   const ConnectionId their = here.path(pair.second).links.front().connection;
+  const RoadNetwork& network = here.model.road;
+  if (network.connection(own).to == network.connection(their).to) return false;
+  const bool wide = is_wide(here.scene, pair.first) || is_wide(here.scene, pair.second);
   for (const ConflictZone& zone : here.model.conflicts[index_of(own)]) {
     if (zone.foe != their) continue;
-    const auto narrow = zone_for(zone, false);
-    if (!narrow) continue;
-    const Occupation ours = here.occupation_of(pair.first, narrow->begin, narrow->end);
-    const Occupation theirs = here.occupation_of(pair.second, narrow->foe_begin, narrow->foe_end);
+    const auto area = zone_for(zone, wide);
+    if (!area) continue;
+    const Occupation ours = here.occupation_of(pair.first, area->begin, area->end);
+    const Occupation theirs = here.occupation_of(pair.second, area->foe_begin, area->foe_end);
     if (ours.begin < theirs.end && theirs.begin < ours.end) return true;
   }
   return false;
@@ -92,7 +99,14 @@ TEST_P(Encounters, OfTwoAtTheirLinesOneGoesFirst) {
     EXPECT_FALSE(first_waits && second_waits) << "both wait";
     if (!would_meet(here, pair)) continue;
     ++met;
-    EXPECT_TRUE(first_waits || second_waits) << "both go";
+    const auto way = [&](std::size_t row) {
+      const Connection& link = network.connection(here.path(row).links.front().connection);
+      return network.lane(link.from).name + " to " + network.lane(link.to).name;
+    };
+    EXPECT_TRUE(first_waits || second_waits)
+        << "both go: " << type_of(here.model.types, here.scene.type[pair.first]).name << " from "
+        << way(pair.first) << ", " << type_of(here.model.types, here.scene.type[pair.second]).name
+        << " from " << way(pair.second);
   }
   EXPECT_GT(met, 10);
 }
