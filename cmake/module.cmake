@@ -1,4 +1,4 @@
-# One static library a folder of src/. Sources are globbed, so a new file needs no list to be edited.
+# One static library a folder of src/ with its subfolders. Sources are globbed, so a new file needs no list to be edited.
 
 add_library(sumogamma_options INTERFACE)
 # -ffp-contract=off: the same bits with and without FMA hardware (house rule: determinism)
@@ -15,12 +15,11 @@ endif()
 target_include_directories(sumogamma_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
 target_link_libraries(sumogamma_options INTERFACE Eigen3::Eigen Threads::Threads)
 
-# sumogamma_module(NAME [DEPENDS MODULE...]): src/NAME/*.cpp becomes sumogamma_NAME. External libraries of a
+# sumogamma_module(NAME [DEPENDS MODULE...]): src/NAME/**/*.cpp becomes sumogamma_NAME. External libraries of a
 # module stand in cmake/dependencies.cmake as SUMOGAMMA_LIBS_<NAME>.
 function(sumogamma_module name)
   cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp
-    ${PROJECT_SOURCE_DIR}/src/${name}/*/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
   list(TRANSFORM ARG_DEPENDS PREPEND sumogamma_)
   if(sources)
     add_library(sumogamma_${name} STATIC ${sources})

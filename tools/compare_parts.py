@@ -7,10 +7,12 @@ One row a map, one column a part; sums over the seeds that all parts have. A pai
 type and one of the two is of a type that it drives. The bound is the mean of none's and all's pairs and a tenth more.
 """
 import csv
-import json
-import pathlib
+import os
 import sys
 from collections import defaultdict
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
+from runs import read_runs  # noqa: E402
 
 PARTS = ["none", "all", "cars", "light", "wheels", "half", "region", "circle"]
 DRIVEN = {"cars": {"car"}, "light": {"bicycle", "pedestrian", "motorcycle"},
@@ -41,12 +43,8 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     found = defaultdict(dict)
-    for file in sorted(pathlib.Path(sys.argv[1]).glob("*/results.json")):
-        try:
-            name, seed, part = file.parent.name.rsplit("-", 2)
-            found[name][seed, part] = (json.loads(file.read_text()), file.parent)
-        except ValueError:
-            print(f"{file}: not a run of tools/measure_parts.sh, left out", file=sys.stderr)
+    for (name, seed, part), results, folder in read_runs(sys.argv[1], 3):
+        found[name][seed, part] = (results, folder)
     print("| map (seeds) | " + " | ".join(PARTS) + " | bound |")
     print("|---" * (len(PARTS) + 2) + "|")
     for name, runs in sorted(found.items()):

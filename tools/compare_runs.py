@@ -4,14 +4,15 @@
     tools/compare_runs.py OUT        OUT: what tools/measure.sh wrote
 
 One row a map and number of agents: sums over the seeds, or means where a mean is asked for. GAMMA's figure stands first, plain SUMO's
-(--control none) second. Travel time is the ratio over those who
-arrived in both runs of a seed.
+(--control none) second. Travel time is the ratio over those who arrived in both runs of a seed.
 """
 import csv
-import json
-import pathlib
+import os
 import sys
 from collections import defaultdict
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
+from runs import read_runs  # noqa: E402
 
 
 def travel_times(run):
@@ -36,13 +37,12 @@ def main():
         sys.exit(__doc__)
     runs = defaultdict(lambda: {"all": [], "none": []})
     folders = defaultdict(lambda: {"all": {}, "none": {}})
-    for file in sorted(pathlib.Path(sys.argv[1]).glob("*/results.json")):
-        try:
-            name, agents, seed, control = file.parent.name.rsplit("-", 3)
-            runs[name, int(agents)][control].append(json.loads(file.read_text()))
-            folders[name, int(agents)][control][seed] = file.parent
-        except (ValueError, KeyError):
-            print(f"{file}: not a run of tools/measure.sh, left out", file=sys.stderr)
+    for (name, agents, seed, control), results, folder in read_runs(sys.argv[1], 4):
+        runs[name, int(agents)][control].append(results)
+        folders[name, int(agents)][control][seed] = folder
+    versions = {run.get("metrics_version") for both in runs.values() for control in both.values() for run in control}
+    if len(versions) > 1:
+        print("the runs were measured by different definitions (metrics_version): their figures can't be compared", file=sys.stderr)
     columns = ["map", "agents", "seeds", "arrived", "travel time", "colliding pairs (deep)", "pairs per agent-hour", "stuck", "red lights", "wrong way s",
                "sidewalk s", "mean speed m/s", "accel p95", "jerk p95", "real-time factor"]
     print("| " + " | ".join(columns) + " |")

@@ -3,18 +3,17 @@
 #   tools/measure_parts.sh OUT MAP...      OUT: folder for scenarios and runs; MAP: .osm or .osm.pbf files
 # Goes on where it was stopped: imports and runs that OUT has are kept. Another program needs another OUT.
 # Environment: PROGRAM (build/release/sumo-gamma), AGENTS (100), SEEDS ("101 102 103 104 105"), DURATION (300 s),
-# PARTS ("none all cars light wheels half region circle").
+# PARTS ("none all cars light wheels half region circle"), JOBS (1): runs at once.
 set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/lib/measuring.sh"
 if (($# < 2)); then
-  sed -n '2,6s/^# \{0,1\}//p' "$0" >&2
+  usage_of "$0"
   exit 2
 fi
-project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-program=${PROGRAM:-$project/build/release/sumo-gamma}
 out=$1
 agents=${AGENTS:-100}
 shift
-mkdir -p "$out/maps"
+begin_measuring "$out"
 # the middle half of the network, either way
 middle() {
   sed -n 's/.*convBoundary="\([^"]*\)".*/\1/p' "$1/net.net.xml" | head -1 |
@@ -24,7 +23,7 @@ for map in "$@"; do
   name=$(basename "$map")
   name=${name%%.*}
   scenario=$out/maps/$name
-  [[ -f $scenario/scenario.toml ]] || "$program" import "$map" -o "$scenario" --agents "$agents" --quiet > "$scenario.txt"
+  import_once "$map" "$scenario" "$agents"
   for seed in ${SEEDS:-101 102 103 104 105}; do
     for part in ${PARTS:-none all cars light wheels half region circle}; do
       case $part in
@@ -40,13 +39,10 @@ for map in "$@"; do
           exit 2
           ;;
       esac
-      run=$name-$seed-$part
-      grep -q '"ended": "done"' "$out/$run/results.json" 2> /dev/null && continue
-      echo "$run" >&2
-      "$program" run "$scenario" -o "$out/$run" --force --agents "$agents" --duration "${DURATION:-300}" --step 0.05 \
-        --seed "$seed" --threads 1 "${who[@]}" --quiet --log error > "$out/$run.txt" 2>&1 ||
-        echo "$run: $(tail -1 "$out/$run.txt")" >&2
+      in_parallel run_once "$out/$name-$seed-$part" "$scenario" --agents "$agents" --duration "${DURATION:-300}" \
+        --seed "$seed" --threads 1 "${who[@]}"
     done
   done
 done
+wait
 "$project/tools/compare_parts.py" "$out"

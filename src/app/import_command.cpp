@@ -12,6 +12,7 @@
 
 #include "app/command.h"
 #include "base/error.h"
+#include "base/print.h"
 #include "base/staged_folder.h"
 #include "base/subprocess.h"
 #include "demand/demand.h"
@@ -82,26 +83,27 @@ osm::Side parse_side(const std::string& text) {
 void print_summary(const osm::BuildResult& built, const DemandReport& demand,
                    const std::string& folder) {
   const auto count = [&](const char* name) { return static_cast<long>(built.built.at(name)); };
-  std::printf(
-      "%s: %ld edges, %ld lanes, %ld signals, %ld crossings, %ld buildings, traffic on the %s\n",
-      folder.c_str(), count("edges"), count("lanes"), count("signals"), count("crossings"),
-      built.obstacles.at("buildings") + built.obstacles.at("buildings_cut"),
-      built.left_hand ? "left" : "right");
+  print(stdout,
+        "{}: {} edges, {} lanes, {} signals, {} crossings, {} buildings, traffic on the {}\n",
+        folder, count("edges"), count("lanes"), count("signals"), count("crossings"),
+        built.obstacles.at("buildings") + built.obstacles.at("buildings_cut"),
+        built.left_hand ? "left" : "right");
   for (const DemandByType& type : demand.types) {
     if (type.problem.empty())
-      std::printf("  %-12s %5ld departures, mean trip %.0f m, %.0f s\n", type.type.c_str(),
-                  type.departures, type.mean_length, type.mean_duration);
+      print(stdout, "  {:<12} {:5} departures, mean trip {:.0f} m, {:.0f} s\n", type.type,
+            type.departures, type.mean_length, type.mean_duration);
     else
-      std::printf("  %-12s left out: %s\n", type.type.c_str(), type.problem.c_str());
+      print(stdout, "  {:<12} left out: {}\n", type.type, type.problem);
   }
   if (demand.busiest_load > 1)
-    std::printf(
-        "  warning: so many agents are more than these roads carry: %.1f times as many as lane %s "
-        "lets out; expect queues, ask for fewer agents or import more of the city\n",
-        demand.busiest_load, demand.busiest_lane.c_str());
+    print(stdout,
+          "  warning: so many agents are more than these roads carry: {:.1f} times as many as lane "
+          "{} "
+          "lets out; expect queues, ask for fewer agents or import more of the city\n",
+          demand.busiest_load, demand.busiest_lane);
   for (const auto& [kind, issue] : built.log.issues())
     if (issue.severity == osm::Severity::Warning)
-      std::printf("  warning: %s (%ld)\n", issue.what.c_str(), issue.count);
+      print(stdout, "  warning: {} ({})\n", issue.what, issue.count);
 }
 
 /// Ends an import that was interrupted within two seconds, wherever it is: it looks for that itself
@@ -189,9 +191,7 @@ int run_import(const ImportOptions& options, const CommonOptions& common) {
   osm::check_names(build.without);
   build.should_stop = interrupted;
   if (!common.quiet)
-    build.progress = [](const std::string& text) {
-      std::fprintf(stderr, "import: %s\n", text.c_str());
-    };
+    build.progress = [](const std::string& text) { print(stderr, "import: {}\n", text); };
 
   StagedFolder folder(options.folder, options.force);
   build.folder = folder.path();

@@ -15,6 +15,7 @@
 #include "app/command.h"
 #include "app/validators.h"
 #include "base/error.h"
+#include "base/print.h"
 
 namespace sumogamma {
 namespace {
@@ -41,8 +42,7 @@ void install_signal_handlers() {
 int flush_output(int code) {
   std::cout.flush();
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return code;
-  std::fprintf(stderr, "sumo-gamma: standard output: can't be written (%s)\n",
-               std::strerror(errno));
+  print(stderr, "sumo-gamma: standard output: can't be written ({})\n", std::strerror(errno));
   return code == kExitDone ? kExitBadInput : code;
 }
 
@@ -63,7 +63,7 @@ std::string without_long_numbers(const std::string& text) {
 }
 
 int fail(const std::exception& error, int code) {
-  std::fprintf(stderr, "sumo-gamma: %s\n", without_long_numbers(error.what()).c_str());
+  print(stderr, "sumo-gamma: {}\n", without_long_numbers(error.what()));
   return code;
 }
 }  // namespace
@@ -104,8 +104,7 @@ int run_program(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
-    std::fprintf(stderr, "sumo-gamma: %s; see sumo-gamma --help\n",
-                 without_long_numbers(error.what()).c_str());
+    print(stderr, "sumo-gamma: {}; see sumo-gamma --help\n", without_long_numbers(error.what()));
     return kExitBadInput;
   }
   common.seed_given = seed->count() > 0;

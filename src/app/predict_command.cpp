@@ -11,6 +11,7 @@
 #include "app/command.h"
 #include "app/validators.h"
 #include "base/error.h"
+#include "base/print.h"
 #include "prediction/methods.h"
 #include "prediction/plot.h"
 #include "prediction/report.h"
@@ -84,7 +85,7 @@ int run(const PredictOptions& options, const CommonOptions& common) {
   PredictorParameters parameters = parameters_from(common);
   if (options.list_parameters) {
     for (const NamedParameter& parameter : named_parameters(parameters))
-      std::printf("predict.%s=%.10g\n", parameter.name.c_str(), *parameter.value);
+      print(stdout, "predict.{}={:.10g}\n", parameter.name, *parameter.value);
     return kExitDone;
   }
   if (options.files.empty())
@@ -106,14 +107,14 @@ int run(const PredictOptions& options, const CommonOptions& common) {
     const TrackSet seen = options.noise > 0 ? with_noise(truth, options.noise, common.seed) : truth;
     for (const std::string& name : names) {
       if (interrupted()) return kExitInterrupted;
-      if (!common.quiet) std::fprintf(stderr, "%s: %s\n", truth.name.c_str(), name.c_str());
+      if (!common.quiet) print(stderr, "{}: {}\n", truth.name, name);
       evaluations.push_back(evaluate(make_method(name, settings, truth), seen, truth, protocol));
     }
   }
   if (!options.plots.empty())
     for (const std::string& file : options.files)
       write_plots(options.plots, read_track_set(file), protocol, settings);
-  std::printf("%s", to_table(evaluations, protocol, common.seed).c_str());
+  print(stdout, "{}", to_table(evaluations, protocol, common.seed));
   if (options.json.empty()) return kExitDone;
   nlohmann::ordered_json json = {{"protocol", std::string(1, protocol.letter)},
                                  {"seed", common.seed},

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "base/print.h"
+
 namespace sumogamma {
 
 using Clock = std::chrono::steady_clock;
@@ -32,14 +34,11 @@ void Progress::update(double done, const std::string& detail) {
   if (terminal_) {
     constexpr int kWidth = 24;
     const int filled = static_cast<int>(share * kWidth);
-    std::fprintf(stderr, "\r\033[K%s [%s%s] %3.0f %%  %s", what_.c_str(),
-                 std::string(static_cast<std::size_t>(filled), '#').c_str(),
-                 std::string(static_cast<std::size_t>(kWidth - filled), '.').c_str(), 100.0 * share,
-                 detail.c_str());
+    print(stderr, "\r\033[K{} [{:#<{}}{:.<{}}] {:3.0f} %  {}", what_, "", filled, "",
+          kWidth - filled, 100.0 * share, detail);
     line_open_ = true;
   } else {
-    std::fprintf(stderr, "%s: %.0f of %.0f %s, %s\n", what_.c_str(), done, total_, unit_.c_str(),
-                 detail.c_str());
+    print(stderr, "{}: {:.0f} of {:.0f} {}, {}\n", what_, done, total_, unit_, detail);
   }
   std::fflush(stderr);
 }

@@ -6,6 +6,7 @@
 
 #include "app/command.h"
 #include "base/error.h"
+#include "base/print.h"
 #include "io/output_folder.h"
 #include "io/replay.h"
 
@@ -33,7 +34,7 @@ CommandRunner add_replay_command(CLI::App& parent) {
                     "holds no replay.bin, expected the output folder of `sumo-gamma run --replay`");
       require_page_name(page);
       write_replay_page(page, folder / "replay.bin");
-      if (!common.quiet) std::printf("%s\n", page.c_str());
+      if (!common.quiet) print(stdout, "{}\n", page.string());
     }
     return kExitDone;
   };

@@ -1,3 +1,5 @@
+#include <spdlog/spdlog.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -31,6 +33,10 @@ CommandRunner add_report_command(CLI::App& parent) {
                                                      options->folders.end());
     if (!options->output.empty()) require_page_name(options->output);
     const std::vector<RunColumn> runs = read_runs(folders);
+    if (!same_metrics(runs))
+      spdlog::warn(
+          "the runs were measured by different definitions (metrics_version): their figures can't "
+          "be compared");
     if (!options->output.empty()) write_file(options->output, report_html(runs));
     std::fputs((options->csv ? report_csv(runs) : report_markdown(runs)).c_str(), stdout);
     return kExitDone;

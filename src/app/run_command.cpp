@@ -4,84 +4,101 @@
 
 namespace sumogamma {
 
-CommandRunner add_run_command(CLI::App& parent) {
-  auto options = std::make_shared<RunOptions>();
-  CLI::App* command =
-      parent.add_subcommand("run", "drive a scenario: GAMMA moves the agents, SUMO does the rest");
+namespace {
+
+/// What is run, and who is driven.
+void add_scenario_options(CLI::App& command, RunOptions& options) {
   command
-      ->add_option("SCENARIO", options->scenario,
-                   "folder made by 'sumo-gamma import', or any .sumocfg")
+      .add_option("SCENARIO", options.scenario,
+                  "folder made by 'sumo-gamma import', or any .sumocfg")
       ->required();
   command
-      ->add_option("-o,--output", options->output,
-                   "folder for results.json, trajectories and replay")
+      .add_option("-o,--output", options.output, "folder for results.json, trajectories and replay")
       ->required();
-  command->add_option("--step", options->step, "step length [s]")->check(finite_number());
-  command->add_option("--duration", options->duration, "simulated time: seconds or h:m:s")
+  command.add_option("--step", options.step, "step length [s]")->check(finite_number());
+  command.add_option("--duration", options.duration, "simulated time: seconds or h:m:s")
       ->transform(time_span());
   command
-      ->add_option("--agents", options->agents,
-                   "agents to keep alive, people on foot included; at the most a tenth more")
+      .add_option("--agents", options.agents,
+                  "agents to keep alive, people on foot included; at the most a tenth more")
       ->check(whole_number(1, 1000000));
   command
-      ->add_option("--control", options->control,
-                   "who is driven by GAMMA: all, none, called (whom another client asks for), or "
-                   "agent types, vTypes, ids, patterns (bus*), a share (30%)")
+      .add_option("--control", options.control,
+                  "who is driven by GAMMA: all, none, called (whom another client asks for), or "
+                  "agent types, vTypes, ids, patterns (bus*), a share (30%)")
       ->delimiter(',');
   command
-      ->add_option("--region", options->region,
-                   "of these only who is in this box, or ring, of the network: X0,Y0,X1,Y1[,...] "
-                   "[m]; who leaves it is SUMO's again")
+      .add_option("--region", options.region,
+                  "of these only who is in this box, or ring, of the network: X0,Y0,X1,Y1[,...] "
+                  "[m]; who leaves it is SUMO's again")
       ->delimiter(',')
       ->expected(4, 1000)
       ->check(finite_number());
   command
-      ->add_option("--take", options->take,
-                   "a rule as under [[control]] in scenario.toml, such as 'who = [\"car\"], "
-                   "around = \"bus.1\", radius = 50, from = 60'; may be given several times")
+      .add_option("--take", options.take,
+                  "a rule as under [[control]] in scenario.toml, such as 'who = [\"car\"], "
+                  "around = \"bus.1\", radius = 50, from = 60'; may be given several times")
       ->take_all();
+}
+
+/// How people behave, and which SUMO moves with them.
+void add_sumo_options(CLI::App& command, RunOptions& options) {
   command
-      ->add_option("--backend", options->backend,
-                   "traci (SUMO as a child process) or libsumo (in process)")
+      .add_option("--backend", options.backend,
+                  "traci (SUMO as a child process) or libsumo (in process)")
       ->check(CLI::IsMember({"traci", "libsumo"}));
   command
-      ->add_option("--preset", options->preset,
-                   "how people behave: compliant (keep every rule) or observed (as recorded)")
+      .add_option("--preset", options.preset,
+                  "how people behave: compliant (keep every rule) or observed (as recorded)")
       ->check(CLI::IsMember({"compliant", "observed"}));
-  command->add_option("--connect", options->connect,
-                      "HOST:PORT of a SUMO or sumo-gui started with --remote-port");
+  command.add_option("--connect", options.connect,
+                     "HOST:PORT of a SUMO or sumo-gui started with --remote-port");
   command
-      ->add_option("--num-clients", options->clients,
-                   "TraCI clients that SUMO waits for, this run included")
+      .add_option("--num-clients", options.clients,
+                  "TraCI clients that SUMO waits for, this run included")
       ->check(whole_number(1, 100));
   command
-      ->add_option("--client-order", options->client_order,
-                   "place of this run among SUMO's TraCI clients: lower ones act first")
+      .add_option("--client-order", options.client_order,
+                  "place of this run among SUMO's TraCI clients: lower ones act first")
       ->check(whole_number(0, 1000000));
   command
-      ->add_option("--remote-port", options->remote_port,
-                   "port on which SUMO waits for further clients (default: any free one)")
+      .add_option("--remote-port", options.remote_port,
+                  "port on which SUMO waits for further clients (default: any free one)")
       ->check(whole_number(1, 65535));
-  command->add_flag("--convert", options->convert,
-                    "run on a copy of the network without the vehicle classes of a newer SUMO");
-  command->add_flag("--force", options->force, "replace what another run left in the folder");
-  command->add_option("--sumo-options", options->sumo_options,
-                      "further options for SUMO, in quotes");
-  command->add_flag("--gui", options->gui, "show the run in sumo-gui");
-  command->add_flag("--predict", options->predict,
-                    "predict everybody 4.8 s ahead and score it against what they then do");
-  command->add_flag("--replay", options->replay, "write replay.html");
+  command.add_flag("--convert", options.convert,
+                   "run on a copy of the network without the vehicle classes of a newer SUMO");
+  command.add_flag("--force", options.force, "replace what another run left in the folder");
+  command.add_option("--sumo-options", options.sumo_options, "further options for SUMO, in quotes");
+  command.add_flag("--gui", options.gui, "show the run in sumo-gui");
+}
+
+/// What is measured and written.
+void add_output_options(CLI::App& command, RunOptions& options) {
+  command.add_flag("--predict", options.predict,
+                   "predict everybody 4.8 s ahead and score it against what they then do");
+  command.add_flag("--replay", options.replay, "write replay.html");
   command
-      ->add_option("--trajectory-period", options->trajectory_period,
-                   "time between recorded trajectory points [s], 0: every step")
+      .add_option("--trajectory-period", options.trajectory_period,
+                  "time between recorded trajectory points [s], 0: every step")
       ->check(finite_number(0.0, 1e6))
       ->capture_default_str();
   command
-      ->add_option(
-          "--fail-on", options->fail_on,
+      .add_option(
+          "--fail-on", options.fail_on,
           "exit 1 where this happened: collision, deep-collision, red-light, stuck, removed")
       ->delimiter(',')
       ->check(CLI::IsMember({"collision", "deep-collision", "red-light", "stuck", "removed"}));
+}
+
+}  // namespace
+
+CommandRunner add_run_command(CLI::App& parent) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command =
+      parent.add_subcommand("run", "drive a scenario: GAMMA moves the agents, SUMO does the rest");
+  add_scenario_options(*command, *options);
+  add_sumo_options(*command, *options);
+  add_output_options(*command, *options);
   return [options](const CommonOptions& common) { return run_session(*options, common); };
 }
 

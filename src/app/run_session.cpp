@@ -7,22 +7,17 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
 #include "app/progress.h"
+#include "app/run_observers.h"
 #include "app/run_plan.h"
 #include "base/error.h"
-#include "base/hash.h"
-#include "io/output_file.h"
+#include "base/print.h"
 #include "io/output_folder.h"
-#include "io/replay.h"
 #include "io/results.h"
-#include "io/trajectories.h"
 #include "model/kinematic_set.h"
 #include "osm/obstacles.h"
-#include "prediction/live_predictor.h"
-#include "road/lane_locator.h"
 #include "road/sumo_net_reader.h"
 #include "simulation/simulation.h"
 #include "sumo/connect_check.h"
@@ -71,11 +66,11 @@ std::unique_ptr<Simulation> make_simulation(const RunPlan& plan, unsigned thread
   sim->model.options = plan.config.model;
   sim->model.options.step = plan.clock.step;
   sim->model.kinematics = build_kinematic_tables(sim->model.types, *sim->workers);
-  sim->model.road = read_sumo_net(plan.input.network);
+  sim->model.road = read_sumo_net(plan.input.network, *sim->workers);
   read_all_obstacles(plan, sim->model.road);
   sim->model.obstacles = ObstacleIndex(sim->model.road.obstacles);
-  sim->model.conflicts = build_conflict_table(sim->model.road);
-  sim->model.swept_ways = find_swept_ways(sim->model.road, sim->model.conflicts);
+  sim->model.conflicts = build_conflict_table(sim->model.road, *sim->workers);
+  sim->model.swept_ways = find_swept_ways(sim->model.road, sim->model.conflicts, *sim->workers);
   sim->model.options.keep_left = sim->model.road.left_hand;
   return sim;
 }
@@ -167,8 +162,8 @@ std::unique_ptr<SumoBackend> start_backend(const RunPlan& plan, const RoadNetwor
   start.port = plan.options.remote_port;
   start.on_listening = [&](int port) {
     if (plan.options.clients > 1)
-      std::fprintf(stderr, "run: SUMO waits at 127.0.0.1:%d for %d more TraCI client%s\n", port,
-                   plan.options.clients - 1, plan.options.clients > 2 ? "s" : "");
+      print(stderr, "run: SUMO waits at 127.0.0.1:{} for {} more TraCI client{}\n", port,
+            plan.options.clients - 1, plan.options.clients > 2 ? "s" : "");
   };
   const bool connects = !plan.options.connect.empty();
   if (connects) set_host_and_port(plan.options.connect, start);
@@ -188,112 +183,31 @@ std::unique_ptr<SumoBackend> start_backend(const RunPlan& plan, const RoadNetwor
   return backend;
 }
 
-/// Everything that watches a run and writes about it.
-class Observers {
- public:
-  Observers(const RunPlan& plan, const Simulation& sim, const SumoWorld& world)
-      : sim_(sim),
-        world_(world),
-        output_(plan.options.output),
-        locator_(sim.model.road),
-        collisions_(sim.dt, &sim.model.road),
-        flow_(sim.dt, sim.model.road),
-        rules_(sim.dt, sim.model.road, locator_),
-        smoothness_(sim.dt),
-        trajectories_(output_ / "trajectories.fcd.xml.gz", plan.options.trajectory_period, sim.dt,
-                      sim.model.road, &locator_) {
-    if (plan.options.predict)
-      predictor_ = std::make_unique<LivePredictor>(sim.model.types, live_predictor_parameters(),
-                                                   &sim.model.road);
-    if (plan.options.replay)
-      replay_ =
-          std::make_unique<ReplayRecorder>(output_ / "replay.bin", plan.input.name, sim.model.road,
-                                           sim.model.types, plan.options.replay_period);
-  }
+SumoWorldOptions world_options_of(const RunPlan& plan) {
+  SumoWorldOptions options;
+  options.control = plan.control;
+  options.max_vehicles = plan.control.any() ? plan.vehicles : 0;
+  options.seed = plan.clock.seed;
+  options.dt = plan.clock.step;
+  options.rerouter_edges = plan.inventory.rerouter_edges;
+  options.sign_lanes = plan.inventory.sign_lanes;
+  options.others_steer = !plan.options.connect.empty() || plan.options.clients > 1;
+  for (const auto& [key, where] : plan.config.given)
+    if (key.rfind("types.", 0) == 0) options.type_keys.insert(key);
+  return options;
+}
 
-  void add() {
-    const Scene& scene = sim_.scene;
-    const AgentTypeTable& types = sim_.model.types;
-    const AgentName name = name_of();
-    collisions_.add(scene, types);
-    flow_.add(scene, types, sim_.road);
-    rules_.add(scene, types, sim_.road);
-    smoothness_.add(scene, types);
-    trajectories_.add(scene, types, name);
-    if (predictor_) predictor_->observe(scene, &types);
-    if (replay_) {
-      replay_->add(scene, &sim_.road, name, &types);
-      for (; collisions_marked_ < collisions_.pairs().size(); ++collisions_marked_) {
-        const CollisionPair& pair = collisions_.pairs()[collisions_marked_];
-        replay_->add_event(ReplayEventKind::Collision, pair.since, pair.position, pair.a, pair.b);
-      }
-      for (const RedLightEvent& event : rules_.new_events())
-        replay_->add_event(ReplayEventKind::RedLight, event.time, event.position, event.id);
-      for (; stuck_marked_ < flow_.stuck().size(); ++stuck_marked_) {
-        const StuckAgent& stuck = flow_.stuck()[stuck_marked_];
-        replay_->add_event(ReplayEventKind::Stuck, scene.time, stuck.position, stuck.id);
-      }
-    }
-    hash_ = hash_state(scene, hash_);
-    const auto driven = static_cast<std::uint64_t>(
-        std::count(scene.control.begin(), scene.control.end(), Control::Gamma));
-    controlled_sum_ += driven;
-    controlled_peak_ = std::max(controlled_peak_, driven);
-    controlled_now_ = driven;
-    ++ticks_;
-  }
-
-  void fill(RunResults& results) const {
-    results.collisions = collisions_.result();
-    results.flow = flow_.result(sim_.model.types);
-    results.rules = rules_.result(sim_.model.types);
-    results.smoothness = smoothness_.result(sim_.model.types);
-    if (predictor_) results.prediction = {true, predictor_->score(), predictor_->scores()};
-    results.state_hash = hash_;
-    results.agents.controlled_now = controlled_now_;
-    results.agents.controlled_peak = controlled_peak_;
-    results.agents.controlled_mean =
-        ticks_ > 0 ? static_cast<double>(controlled_sum_) / static_cast<double>(ticks_) : 0.0;
-  }
-
-  /// Completes every file but results.json.
-  void close() {
-    trajectories_.close();
-    const AgentName name = name_of();
-    write_file(output_ / "stuck.csv",
-               stuck_csv(flow_.stuck(), sim_.model.types, sim_.model.road, name));
-    write_file(output_ / "held.csv",
-               stuck_csv(flow_.held(), sim_.model.types, sim_.model.road, name));
-    write_file(output_ / "trips.csv", trips_csv(world_.life_cycle().trips, sim_.model.types, name));
-    write_file(output_ / "collisions.csv",
-               collisions_csv(collisions_.pairs(), sim_.model.types, name));
-    write_file(output_ / "offences.csv", offences_csv(rules_.offences(), sim_.model.types, name));
-    if (replay_) {
-      replay_->close();
-      write_replay_page(output_ / "replay.html", output_ / "replay.bin");
-    }
-  }
-
- private:
-  AgentName name_of() const {
-    return [this](AgentId id) -> std::string_view { return world_.names()[id.value]; };
-  }
-
-  const Simulation& sim_;
-  const SumoWorld& world_;
-  std::filesystem::path output_;
-  LaneLocator locator_;
-  CollisionMonitor collisions_;
-  FlowMonitor flow_;
-  RuleMonitor rules_;
-  SmoothnessMonitor smoothness_;
-  TrajectoryWriter trajectories_;
-  std::unique_ptr<LivePredictor> predictor_;
-  std::unique_ptr<ReplayRecorder> replay_;
-  std::size_t stuck_marked_ = 0, collisions_marked_ = 0;
-  std::uint64_t hash_ = kFnvBasis, controlled_sum_ = 0, controlled_peak_ = 0, controlled_now_ = 0,
-                ticks_ = 0;
-};
+/// What was run.
+void fill_plan(const RunPlan& plan, const CommonOptions& common, RunResults& results) {
+  results.sumo_gamma_version = SUMOGAMMA_VERSION;
+  results.scenario = plan.input.name;
+  results.clock = plan.clock;
+  results.not_followed = plan.inventory.not_followed;
+  results.control = plan.control_text;
+  results.preset = name_of(plan.config.preset);
+  results.types = plan.config.types;
+  results.threads = common.threads;
+}
 
 void fill_timing(const PhaseTimes& times, double wall, double simulated, RunTiming& timing) {
   timing.wall_s = wall;
@@ -309,52 +223,6 @@ void fill_timing(const PhaseTimes& times, double wall, double simulated, RunTimi
       times.agent_steps > 0 ? 1e6 * times.model_cpu / static_cast<double>(times.agent_steps) : 0.0;
 }
 
-void fill_agents(const LifeCycle& life, const AgentTypeTable& types, AgentCounts& agents) {
-  for (const auto& [type, count] : life.by_type) {
-    AgentCounts::ByType& counts = agents.by_type[type];
-    counts.inserted = static_cast<std::uint64_t>(count.inserted);
-    counts.arrived = static_cast<std::uint64_t>(count.arrived);
-    agents.inserted += counts.inserted;
-    agents.arrived += counts.arrived;
-  }
-  for (const FinishedTrip& trip : life.trips) {
-    const double time = trip.arrived - trip.departed;
-    AgentCounts::ByType& counts = agents.by_type[type_of(types, trip.type).name];
-    counts.mean_travel_time += time / static_cast<double>(counts.arrived);
-    agents.mean_travel_time += time / static_cast<double>(agents.arrived);
-  }
-  const auto copy = [](const std::map<std::string, std::int64_t>& from, auto& to) {
-    for (const auto& [reason, count] : from) to[reason] = static_cast<std::uint64_t>(count);
-  };
-  copy(life.removed, agents.removed);
-  copy(life.left_to_sumo, agents.left_to_sumo);
-  agents.stops_served = static_cast<std::uint64_t>(life.stops_served);
-  agents.rides = static_cast<std::uint64_t>(life.rides);
-  agents.taken_over = static_cast<std::uint64_t>(life.taken_over);
-  agents.handed_back = static_cast<std::uint64_t>(life.handed_back);
-  agents.kept_on_foot = static_cast<std::uint64_t>(life.kept_on_foot);
-  agents.insertions_delayed = static_cast<std::uint64_t>(life.insertions_delayed);
-}
-
-Quantiles quantiles_of(std::vector<double> values) {
-  if (values.empty()) return {};
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-  };
-  return {at(0.5), at(0.95), values.back()};
-}
-
-HandBackResult summary_of(const std::vector<HandBack>& backs) {
-  const auto spread = [&](double HandBack::*figure) {
-    std::vector<double> values;
-    for (const HandBack& back : backs) values.push_back(back.*figure);
-    return quantiles_of(std::move(values));
-  };
-  return {backs.size(), spread(&HandBack::position), spread(&HandBack::heading),
-          spread(&HandBack::speed), spread(&HandBack::acceleration)};
-}
-
 bool failed(const RunOptions& options, const RunResults& results) {
   bool failed = false;
   for (const std::string& what : options.fail_on) {
@@ -364,16 +232,15 @@ bool failed(const RunOptions& options, const RunResults& results) {
                                 : what == "stuck"          ? results.flow.stuck_agents
                                                            : results.agents.removed.size();
     if (count == 0) continue;
-    std::fprintf(stderr, "sumo-gamma: --fail-on %s: happened %llu times\n", what.c_str(),
-                 static_cast<unsigned long long>(count));
+    print(stderr, "sumo-gamma: --fail-on {}: happened {} times\n", what, count);
     failed = true;
   }
   return failed;
 }
 
 /// Ticks until the duration is over, the user interrupts, or nothing is left. Returns how it ended.
-std::string run_ticks(const RunPlan& plan, Simulation& sim, SumoWorld& world, Observers& observers,
-                      bool quiet) {
+std::string run_ticks(const RunPlan& plan, Simulation& sim, SumoWorld& world,
+                      RunObservers& observers, bool quiet) {
   const double duration = plan.clock.end - plan.clock.begin;
   Progress progress("run", duration, "s", quiet);
   const auto ticks = static_cast<std::int64_t>(std::llround(duration / plan.clock.step));
@@ -386,10 +253,9 @@ std::string run_ticks(const RunPlan& plan, Simulation& sim, SumoWorld& world, Ob
     sim.times.record += seconds_since(recording);
     if (progress.due()) {
       const double simulated = static_cast<double>(tick_index + 1) * plan.clock.step;
-      char detail[96];
-      std::snprintf(detail, sizeof detail, "%.0f s simulated, %zu agents, %.1f x real time",
-                    simulated, sim.scene.size(), simulated / std::max(seconds_since(start), 1e-6));
-      progress.update(simulated, detail);
+      progress.update(simulated, fmt::format("{:.0f} s simulated, {} agents, {:.1f} x real time",
+                                             simulated, sim.scene.size(),
+                                             simulated / std::max(seconds_since(start), 1e-6)));
     }
     if (world.finished()) break;
   }
@@ -403,7 +269,7 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   const OutputFolder folder(options.output, options.force);
   ConvertedNetwork converted;
   converted.make(plan);
-  if (!common.quiet) std::fprintf(stderr, "run: reading %s\n", plan.input.network.string().c_str());
+  if (!common.quiet) print(stderr, "run: reading {}\n", plan.input.network.string());
   for (const NotFollowed& item : plan.inventory.not_followed) spdlog::warn("{}", describe(item));
   const std::unique_ptr<Simulation> sim = make_simulation(plan, common.threads);
   RunResults results;
@@ -411,24 +277,10 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
       start_backend(plan, sim->model.road, results.backend);
   converted.keep();
   settle_begin(backend->time(), plan);
-  if (!common.quiet) std::fprintf(stderr, "run: %s\n", describe(plan).c_str());
+  if (!common.quiet) print(stderr, "run: {}\n", describe(plan));
 
-  SumoWorldOptions world_options;
-  world_options.control = plan.control;
-  world_options.max_vehicles = plan.control.any() ? plan.vehicles : 0;
-  world_options.seed = plan.clock.seed;
-  world_options.dt = plan.clock.step;
-  world_options.rerouter_edges = plan.inventory.rerouter_edges;
-  world_options.sign_lanes = plan.inventory.sign_lanes;
-  world_options.others_steer = !plan.options.connect.empty() || plan.options.clients > 1;
-  for (const auto& [key, where] : plan.config.given)
-    if (key.rfind("types.", 0) == 0) world_options.type_keys.insert(key);
-  SumoWorld world(sim->model, *backend, world_options);
-  CouplingMonitor coupling;
-  world.coupling().compare = [&](const Vec2& written, const Vec2& reported) {
-    coupling.add(written, reported);
-  };
-  Observers observers(plan, *sim, world);
+  SumoWorld world(sim->model, *backend, world_options_of(plan));
+  RunObservers observers(plan, *sim, world);
 
   const Clock::time_point start = Clock::now();
   const double cpu_start = cpu_of(RUSAGE_SELF);
@@ -451,30 +303,16 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   }
   results.timing.cpu_s = cpu_of(RUSAGE_SELF) - cpu_start + cpu_of(RUSAGE_CHILDREN);
 
-  results.sumo_gamma_version = SUMOGAMMA_VERSION;
-  results.scenario = plan.input.name;
-  results.clock = plan.clock;
-  results.not_followed = plan.inventory.not_followed;
+  fill_plan(plan, common, results);
   results.duration = simulated;
-  results.control = plan.control_text;
-  results.preset = name_of(plan.config.preset);
-  results.types = plan.config.types;
-  results.threads = common.threads;
   observers.fill(results);
-  fill_agents(world.life_cycle(), sim->model.types, results.agents);
-  results.agents.detours = sim->detours;
-  results.coupling = coupling.result();
-  results.hand_back = summary_of(world.coupling().hand_backs);
-  results.teleports = static_cast<std::uint64_t>(world.coupling().teleports);
-  results.emergency_stops = static_cast<std::uint64_t>(world.coupling().emergency_stops);
   observers.close();
   write_results(options.output / "results.json", results);
 
   if (!failure.empty())
     throw SumoError("SUMO", failure + "; what ran until then is in " + options.output.string());
   print_results_table(stdout, results);
-  if (options.replay)
-    std::printf("replay: %s\n", (options.output / "replay.html").string().c_str());
+  if (options.replay) print(stdout, "replay: {}\n", (options.output / "replay.html").string());
   if (results.ended == "interrupted") return kExitInterrupted;
   return failed(options, results) ? kExitNotHeld : kExitDone;
 }

@@ -6,6 +6,7 @@
 #include "app/command.h"
 #include "app/validators.h"
 #include "base/error.h"
+#include "base/print.h"
 #include "io/config.h"
 #include "io/replay.h"
 #include "simulation/scene_run.h"
@@ -23,8 +24,7 @@ struct SceneOptions {
 };
 
 nlohmann::ordered_json to_json(const std::string& scene, const SceneReport& report) {
-  char hash[17];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(report.state_hash));
+  const std::string hash = fmt::format("{:016x}", report.state_hash);
   return {{"scene", scene},
           {"agents", report.agents},
           {"steps", report.steps},
@@ -72,7 +72,7 @@ int run(const SceneOptions& options, const CommonOptions& common) {
     recorder->close();
     write_replay_page(page, recording);
   }
-  std::printf("%s\n", to_json(file.name, report).dump(2).c_str());
+  print(stdout, "{}\n", to_json(file.name, report).dump(2));
   return kExitDone;
 }
 

@@ -13,6 +13,7 @@
 
 #include "app/command.h"
 #include "base/error.h"
+#include "base/print.h"
 #include "base/subprocess.h"
 
 namespace sumogamma {
@@ -36,8 +37,8 @@ std::string sumo_version() {
   }
 }
 
-void print(const char* name, const std::string& value) {
-  std::printf("%-14s %s\n", name, value.c_str());
+void print_line(const char* name, const std::string& value) {
+  print(stdout, "{:<14} {}\n", name, value);
 }
 
 template <typename... Numbers>
@@ -48,20 +49,21 @@ std::string dotted(Numbers... numbers) {
 }
 
 int run() {
-  print("sumo-gamma", std::string(SUMOGAMMA_VERSION) + " (commit " + SUMOGAMMA_COMMIT + ")");
-  print("SUMO", sumo_version());
-  print("compiler", __VERSION__);
-  print("Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
-  print("libosmium", LIBOSMIUM_VERSION_STRING);
-  print("PROJ", dotted(PROJ_VERSION_MAJOR, PROJ_VERSION_MINOR, PROJ_VERSION_PATCH));
-  print("pugixml",
-        dotted(PUGIXML_VERSION / 1000, PUGIXML_VERSION % 1000 / 10, PUGIXML_VERSION % 10));
-  print("nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
-                                NLOHMANN_JSON_VERSION_PATCH));
-  print("toml++", dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH));
-  print("CLI11", CLI11_VERSION);
-  print("spdlog", dotted(SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH));
-  print("zlib", zlibVersion());
+  print_line("sumo-gamma", std::string(SUMOGAMMA_VERSION) + " (commit " + SUMOGAMMA_COMMIT + ")");
+  print_line("SUMO", sumo_version());
+  print_line("compiler", __VERSION__);
+  print_line("Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
+  print_line("libosmium", LIBOSMIUM_VERSION_STRING);
+  print_line("PROJ", dotted(PROJ_VERSION_MAJOR, PROJ_VERSION_MINOR, PROJ_VERSION_PATCH));
+  print_line("pugixml",
+             dotted(PUGIXML_VERSION / 1000, PUGIXML_VERSION % 1000 / 10, PUGIXML_VERSION % 10));
+  print_line("nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                                     NLOHMANN_JSON_VERSION_PATCH));
+  print_line("toml++", dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH));
+  print_line("CLI11", CLI11_VERSION);
+  print_line("spdlog", dotted(SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH));
+  print_line("fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100));
+  print_line("zlib", zlibVersion());
   return kExitDone;
 }
 

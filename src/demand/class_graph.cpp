@@ -17,7 +17,8 @@ void link_vehicles(const RoadNetwork& road, VehicleClassMask mask, ClassGraph& g
         const Lane& target = road.lane(connection.to);
         if ((target.allowed & mask) == 0 || !graph.usable[index_of(target.edge)]) continue;
         graph.next[edge].push_back(index_of(target.edge));
-        if (connection.direction != 't') ++graph.entries[index_of(target.edge)];
+        if (connection.direction != TurnDirection::Turnaround)
+          ++graph.entries[index_of(target.edge)];
       }
     }
 }

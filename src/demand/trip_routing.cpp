@@ -47,7 +47,7 @@ double junction_delay(const RoadNetwork& road, EdgeId from, EdgeId to, VehicleCl
       if (road.lane(connection.to).edge != to) continue;
       if ((road.lane(connection.to).allowed & mask) == 0) continue;
       if (connection.signal != kNoSignal) return 12.0;
-      return connection.state == 'M' ? 0.0 : 1.5;
+      return connection.priority == LinkPriority::Major ? 0.0 : 1.5;
     }
   return 0;
 }

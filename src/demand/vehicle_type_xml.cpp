@@ -1,6 +1,6 @@
 #include "demand/vehicle_type_xml.h"
 
-#include <cstdio>
+#include <fmt/format.h>
 
 #include "demand/type_demand.h"
 #include "scene/sumo_defaults.h"
@@ -18,11 +18,7 @@ std::string normal_factor(double mean, double deviation, double least, double mo
 
 }  // namespace
 
-std::string fixed(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
-}
+std::string fixed(double value, int decimals) { return fmt::format("{:.{}f}", value, decimals); }
 
 void append_vehicle_type(pugi::xml_node root, const AgentType& type) {
   pugi::xml_node element = root.append_child("vType");

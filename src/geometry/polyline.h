@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "geometry/vec2.h"
@@ -42,9 +43,13 @@ class Polyline {
 
  private:
   PolylinePosition project_segments(const Vec2& point, std::size_t first, std::size_t last) const;
+  void index_segments();
 
   std::vector<Vec2> points_;
   std::vector<double> along_;
+  /// Segment that holds the begin of each of as many equal parts of a long line as it has segments.
+  std::vector<std::uint32_t> segment_of_part_;
+  double parts_per_metre_ = 0;
 };
 
 }  // namespace sumogamma

@@ -1,5 +1,6 @@
 #include "io/config.h"
 
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -282,9 +283,7 @@ class Document {
                    double most) const {
     const double value = node.is_number() ? node.value<double>().value() : std::nan("");
     if (value >= least && value <= most) return value;
-    char text[80];
-    std::snprintf(text, sizeof text, "' must be a number from %g to %g", least, most);
-    fail(node, "'" + name + text);
+    fail(node, fmt::format("'{}' must be a number from {:g} to {:g}", name, least, most));
   }
   /// Numbers x0, y0, x1, y1 of a box or x, y, x, y, x, y, ... of a ring, or where polygons stand.
   void read_area(const toml::node& node, ControlRule& rule) const {
@@ -307,14 +306,12 @@ class Document {
     const bool fits = std::isfinite(value) && value <= binding.most &&
                       (binding.open ? value > binding.least : value >= binding.least);
     if (fits) return;
-    char text[64];
-    if (std::isfinite(binding.most))
-      std::snprintf(text, sizeof text, "from %g to %g", binding.least, binding.most);
-    else
-      std::snprintf(text, sizeof text, "%s %g", binding.open ? "above" : "of at least",
-                    binding.least);
-    fail(node, "'" + binding.key + "' must be a number " +
-                   (binding.least == kAny ? "that is finite" : text));
+    const std::string range =
+        binding.least == kAny ? "that is finite"
+        : std::isfinite(binding.most)
+            ? fmt::format("from {:g} to {:g}", binding.least, binding.most)
+            : fmt::format("{} {:g}", binding.open ? "above" : "of at least", binding.least);
+    fail(node, "'" + binding.key + "' must be a number " + range);
   }
 
   void assign(const toml::node& node, const Binding& binding, double* target) const {

@@ -4,7 +4,7 @@
 
 namespace sumogamma {
 
-// The files of src/io by these names, embedded by cmake/embed.cmake.
+// Files of src/io, embedded by cmake/embed.cmake: CMakeLists.txt says which.
 extern const std::string_view kReplayPageHtml;
 extern const std::string_view kReplayPageCss;
 extern const std::string_view kReplayPageJs;

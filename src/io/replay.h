@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "io/trajectories.h"
-#include "model/road_state.h"
 #include "road/road_network.h"
 #include "scene/agent_type.h"
+#include "scene/road_state.h"
 #include "scene/scene.h"
 
 namespace sumogamma {
@@ -21,7 +21,7 @@ enum class ReplayEventKind : std::uint8_t { Collision = 0, RedLight = 1, Stuck =
 /// Records what a replay page draws into one compact file (replay.bin): the map once, then poses in
 /// centimetres as second differences, signals where they change, and events; gzipped as it goes, so
 /// a long run needs no memory. The layout is documented above the encoder in replay.cpp and decoded
-/// by replay_page.js.
+/// by replay/recording.js.
 class ReplayRecorder {
  public:
   static constexpr double kDefaultPeriod = 0.1;  ///< [s]

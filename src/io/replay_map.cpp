@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// How a lane looks. The numbers are known to replay_page.js.
+/// How a lane looks. The numbers are known to replay/map.js.
 enum class Look { Road = 0, Walk = 1, Cycle = 2, Rail = 3, Inside = 4, Crossing = 5, Area = 6 };
 
 using vehicle_class::kMotor;

@@ -1,8 +1,9 @@
 #include "io/report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -18,10 +19,8 @@ using Json = nlohmann::ordered_json;
 
 /// Six significant digits: a report is read by people, results.json keeps the rest.
 std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text,
-                std::abs(value) < 1e15 && value == std::floor(value) ? "%.0f" : "%.5g", value);
-  return text;
+  const bool whole = std::abs(value) < 1e15 && value == std::floor(value);
+  return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.5g}", value);
 }
 
 void flatten(const Json& json, const std::string& prefix, std::vector<RunColumn::Value>& values) {
@@ -99,19 +98,16 @@ std::string escape_markdown(std::string text) {
 /// A bar of the value's share of the row's largest, and the change against the first run.
 std::string number_cell(const RunColumn::Value& value, double largest,
                         const RunColumn::Value* first) {
-  char bar[240];
   const double share = largest > 0 ? std::clamp(std::abs(value.number) / largest, 0.0, 1.0) : 0.0;
-  std::snprintf(bar, sizeof bar,
-                "<svg width=\"90\" height=\"10\" role=\"presentation\"><rect class=\"all\" "
-                "width=\"90\" height=\"10\" rx=\"2\"/>"
-                "<rect class=\"bar\" width=\"%.1f\" height=\"10\" rx=\"2\"/></svg>",
-                90.0 * share);
+  const std::string bar =
+      fmt::format(R"(<svg width="90" height="10" role="presentation"><rect class="all" )"
+                  R"(width="90" height="10" rx="2"/>)"
+                  R"(<rect class="bar" width="{:.1f}" height="10" rx="2"/></svg>)",
+                  90.0 * share);
   std::string cell = "<td class=\"number\">" + escape_html(value.text);
   if (first && first->is_number && first->number != 0.0 && value.number != first->number) {
-    char change[32];
     const double percent = 100.0 * (value.number - first->number) / std::abs(first->number);
-    std::snprintf(change, sizeof change, "%+.*f %%", std::abs(percent) < 10 ? 1 : 0, percent);
-    cell += "<small>" + std::string(change) + "</small>";
+    cell += fmt::format("<small>{:+.{}f} %</small>", percent, std::abs(percent) < 10 ? 1 : 0);
   }
   return cell + "</td><td class=\"graph\">" + bar + "</td>";
 }
@@ -164,6 +160,15 @@ std::vector<RunColumn> read_runs(std::span<const std::filesystem::path> folders)
     runs.push_back(std::move(run));
   }
   return runs;
+}
+
+bool same_metrics(std::span<const RunColumn> runs) {
+  const auto version = [](const RunColumn& run) {
+    const RunColumn::Value* value = find_value(run, "metrics_version");
+    return value ? value->text : std::string();
+  };
+  return std::all_of(runs.begin(), runs.end(),
+                     [&](const RunColumn& run) { return version(run) == version(runs.front()); });
 }
 
 std::string report_markdown(std::span<const RunColumn> runs) {

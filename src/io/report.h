@@ -22,6 +22,9 @@ struct RunColumn {
 /// the file where it is missing or isn't a run's results.
 std::vector<RunColumn> read_runs(std::span<const std::filesystem::path> folders);
 
+/// Were the figures of all runs measured by the same definitions (metrics_version)?
+bool same_metrics(std::span<const RunColumn> runs);
+
 /// Side by side, a line a key, every key that any run has; a run without it shows nothing.
 std::string report_markdown(std::span<const RunColumn> runs);
 std::string report_csv(std::span<const RunColumn> runs);

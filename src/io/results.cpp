@@ -3,7 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/print.h"
 #include "io/output_file.h"
+#include "study/metrics_version.h"
 
 namespace sumogamma {
 
@@ -190,25 +192,21 @@ Json clock_json(const RunClock& clock) {
             {"seed", clock.seed_from}}}};
 }
 
-std::string hash_text(std::uint64_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
-}
+std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 /// A heading or "name  value" line of the table.
 class Table {
  public:
   explicit Table(std::FILE* stream) : stream_(stream) {}
-  void heading(const char* text) { std::fprintf(stream_, "%s\n", text); }
+  void heading(const char* text) { print(stream_, "{}\n", text); }
   void text(const char* name, const std::string& value) {
-    std::fprintf(stream_, "  %-30s %s\n", name, value.c_str());
+    print(stream_, "  {:<30} {}\n", name, value);
   }
   void count(const char* name, std::uint64_t value) {
-    std::fprintf(stream_, "  %-30s %llu\n", name, static_cast<unsigned long long>(value));
+    print(stream_, "  {:<30} {}\n", name, value);
   }
   void number(const char* name, double value, const char* unit, int decimals = 2) {
-    std::fprintf(stream_, "  %-30s %.*f%s%s\n", name, decimals, value, *unit ? " " : "", unit);
+    print(stream_, "  {:<30} {:.{}f}{}{}\n", name, value, decimals, *unit ? " " : "", unit);
   }
 
  private:
@@ -249,6 +247,7 @@ std::string results_json(const RunResults& results) {
   const CouplingResult& coupling = results.coupling;
   const Json json = {{"sumo_version", results.sumo_version},
                      {"sumo_gamma_version", results.sumo_gamma_version},
+                     {"metrics_version", kMetricsVersion},
                      {"scenario", results.scenario},
                      {"seed", results.clock.seed},
                      {"step", results.clock.step},
@@ -287,9 +286,7 @@ void write_results(const std::filesystem::path& file, const RunResults& results)
 namespace {
 void print_prediction(Table& table, const PredictionResult& prediction) {
   auto errors = [](double average, double final) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.2f / %.2f m", average, final);
-    return std::string(text);
+    return fmt::format("{:.2f} / {:.2f} m", average, final);
   };
   table.heading("prediction (4.8 s ahead: mean / final error)");
   table.count("predictions scored", static_cast<std::uint64_t>(prediction.all.predictions));

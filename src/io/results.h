@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -123,12 +125,10 @@ template <typename NameOf>
 std::string trips_csv(const std::vector<FinishedTrip>& trips, const AgentTypeTable& types,
                       NameOf&& name_of) {
   std::string text = "agent,type,departed_s,arrived_s,travel_time_s\n";
-  char line[80];
-  for (const FinishedTrip& trip : trips) {
-    std::snprintf(line, sizeof line, "%.2f,%.2f,%.2f\n", trip.departed, trip.arrived,
-                  trip.arrived - trip.departed);
-    text += std::string(name_of(trip.id)) + ',' + type_of(types, trip.type).name + ',' + line;
-  }
+  for (const FinishedTrip& trip : trips)
+    text += fmt::format("{},{},{:.2f},{:.2f},{:.2f}\n", name_of(trip.id),
+                        type_of(types, trip.type).name, trip.departed, trip.arrived,
+                        trip.arrived - trip.departed);
   return text;
 }
 
@@ -137,13 +137,11 @@ template <typename NameOf>
 std::string collisions_csv(const std::vector<CollisionPair>& pairs, const AgentTypeTable& types,
                            NameOf&& name_of) {
   std::string text = "agent,type,other,other_type,x,y,since_s,duration_s,depth_m\n";
-  char line[120];
-  for (const CollisionPair& pair : pairs) {
-    std::snprintf(line, sizeof line, "%.2f,%.2f,%.2f,%.2f,%.3f\n", pair.position.x(),
-                  pair.position.y(), pair.since, pair.duration, pair.depth);
-    text += std::string(name_of(pair.a)) + ',' + type_of(types, pair.type_a).name + ',' +
-            std::string(name_of(pair.b)) + ',' + type_of(types, pair.type_b).name + ',' + line;
-  }
+  for (const CollisionPair& pair : pairs)
+    text += fmt::format("{},{},{},{},{:.2f},{:.2f},{:.2f},{:.2f},{:.3f}\n", name_of(pair.a),
+                        type_of(types, pair.type_a).name, name_of(pair.b),
+                        type_of(types, pair.type_b).name, pair.position.x(), pair.position.y(),
+                        pair.since, pair.duration, pair.depth);
   return text;
 }
 
@@ -153,13 +151,11 @@ std::string offences_csv(const std::vector<OffenceSpan>& offences, const AgentTy
                          NameOf&& name_of) {
   static constexpr const char* kNames[] = {"red_light", "wrong_way", "off_road", "sidewalk"};
   std::string text = "agent,type,offence,x,y,since_s,duration_s\n";
-  char line[120];
-  for (const OffenceSpan& offence : offences) {
-    std::snprintf(line, sizeof line, "%s,%.2f,%.2f,%.2f,%.2f\n",
-                  kNames[static_cast<std::size_t>(offence.kind)], offence.position.x(),
-                  offence.position.y(), offence.since, offence.duration);
-    text += std::string(name_of(offence.id)) + ',' + type_of(types, offence.type).name + ',' + line;
-  }
+  for (const OffenceSpan& offence : offences)
+    text += fmt::format("{},{},{},{:.2f},{:.2f},{:.2f},{:.2f}\n", name_of(offence.id),
+                        type_of(types, offence.type).name,
+                        kNames[static_cast<std::size_t>(offence.kind)], offence.position.x(),
+                        offence.position.y(), offence.since, offence.duration);
   return text;
 }
 
@@ -171,21 +167,19 @@ std::string stuck_csv(const std::vector<StuckAgent>& stuck, const AgentTypeTable
                       const RoadNetwork& network, NameOf&& name_of) {
   std::string text =
       "agent,type,lane,x,y,since_s,standing_s,moved_on,reason,foe,head,head_reason\n";
-  char line[160];
   for (const StuckAgent& agent : stuck) {
-    text += std::string(name_of(agent.id)) + ',' + type_of(types, agent.type).name + ',';
-    if (agent.lane != kNoLane) text += network.lane(agent.lane).name;
-    std::snprintf(line, sizeof line, ",%.2f,%.2f,%.2f,%.2f,%s,%s,", agent.position.x(),
-                  agent.position.y(), agent.since, agent.standing, agent.moved_on ? "yes" : "no",
-                  name_of_reason(agent.reason));
-    text += line;
     const auto named = [&](std::int64_t id) {
       return id < 0 ? "" : std::string(name_of(AgentId{static_cast<std::uint32_t>(id)}));
     };
     const std::string why = agent.ring        ? "ring"
                             : agent.head >= 0 ? name_of_reason(agent.head_reason)
                                               : "";
-    text += named(agent.foe) + ',' + named(agent.head) + ',' + why + '\n';
+    text +=
+        fmt::format("{},{},{},{:.2f},{:.2f},{:.2f},{:.2f},{},{},{},{},{}\n", name_of(agent.id),
+                    type_of(types, agent.type).name,
+                    agent.lane == kNoLane ? "" : network.lane(agent.lane).name, agent.position.x(),
+                    agent.position.y(), agent.since, agent.standing, agent.moved_on ? "yes" : "no",
+                    name_of_reason(agent.reason), named(agent.foe), named(agent.head), why);
   }
   return text;
 }

@@ -1,20 +1,21 @@
 #include "io/scenario_files.h"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <pugixml.hpp>
 #include <sstream>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "io/output_file.h"
 
 namespace sumogamma {
 namespace {
 
 std::string plain(double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.10g", value);
   // a TOML float needs a point
-  const std::string result = text;
+  const std::string result = number_text(value);
   return result.find_first_of(".e") == std::string::npos ? result + ".0" : result;
 }
 
@@ -30,9 +31,8 @@ std::string toml_string(const std::string& text) {
 }
 
 std::string toml_text(const ScenarioFiles& scenario, const AgentTypeTable& types) {
-  char box[128];
-  std::snprintf(box, sizeof box, "%.7f,%.7f,%.7f,%.7f", scenario.west, scenario.south,
-                scenario.east, scenario.north);
+  const std::string box = fmt::format("{:.7f},{:.7f},{:.7f},{:.7f}", scenario.west, scenario.south,
+                                      scenario.east, scenario.north);
   std::ostringstream text;
   text << "# Made by sumo-gamma import; every key has a default, and run --set KEY=VALUE overrides "
           "any.\n"
@@ -68,9 +68,12 @@ void write_sumocfg(const std::filesystem::path& file, const ScenarioFiles& scena
     for (const auto& [key, value] : options)
       node.append_child(key).append_attribute("value") = value.c_str();
   };
+  // for each ghost that it is told of SUMO looks through all departures that it has read ahead:
+  // these stand in order of time, so that few will do
   section("input", {{"net-file", "net.net.xml"},
                     {"route-files", "demand.rou.xml"},
-                    {"additional-files", "obstacles.add.xml"}});
+                    {"additional-files", "obstacles.add.xml"},
+                    {"route-steps", "20"}});
   section("time", {{"begin", "0"}, {"end", plain(scenario.duration)}});
   section("report",
           {{"xml-validation", "never"}, {"xml-validation.net", "never"}, {"no-step-log", "true"}});

@@ -29,7 +29,7 @@ Vec2 within_turning(const Vec2& preferred, double heading) {
 /// second: a turn of up to a right angle and more, drawn from id and time alone.
 Vec2 around(const Vec2& preferred, const Scene& scene, std::size_t row) {
   constexpr double kPatience = 2.0;  // [s]
-  if (scene.blocked_time[row] < kPatience || scene.context[row].reason != LimitReason::None)
+  if (scene.held[row].blocked < kPatience || scene.context[row].reason != LimitReason::None)
     return preferred;
   const double turn = random_uniform(0, scene.id[row].value, static_cast<std::uint64_t>(scene.time),
                                      Draw::Intention, -2.2, 2.2);
@@ -82,8 +82,7 @@ Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row,
 
 double side_to_pass(const ModelOptions& options, const Scene& scene, std::size_t row) {
   constexpr double kAside = 0.1;  // [m]
-  const double aside =
-      scene.context[row].active ? scene.lateral_aim[row] - scene.path_offset[row] : 0.0;
+  const double aside = scene.context[row].aside;
   if (std::abs(aside) > kAside) return std::copysign(1.0, aside);
   return options.keep_left ? 1.0 : -1.0;
 }

@@ -99,23 +99,24 @@ void StoppingGuard::prepare(const Model& model, const Scene& scene, const TickGe
   foes_.clear();
 }
 
-bool is_wedged(const Scene& scene, std::size_t row) { return scene.wedge_left[row] > 0.0; }
+bool is_wedged(const Scene& scene, std::size_t row) { return scene.held[row].wedge_left > 0.0; }
 
-void update_wedge(double dt, Scene& scene, std::size_t row) {
+void update_held(double dt, Scene& scene, std::size_t row) {
+  constexpr double kStands = 0.3;                   // [m/s]
   constexpr double kPatience = 5.0, kLasts = 10.0;  // [s]
   constexpr double kNoGapPatience = 15.0;           // [s]
   const RoadContext& context = scene.context[row];
+  Held& held = scene.held[row];
+  held.standing = scene.velocity[row].norm() < kStands ? held.standing + dt : 0.0;
   // two who want to change into each other's lane at its end wait for each other
-  const bool no_gap =
-      context.reason == LimitReason::Merge && scene.standing_time[row] > kNoGapPatience;
-  const bool held = context.allowed_speed > kLeastWish;
-  const bool blocked = context.active && scene.standing_time[row] > 0.0 && (held || no_gap);
+  const bool no_gap = context.reason == LimitReason::Merge && held.standing > kNoGapPatience;
+  const bool may_go = context.allowed_speed > kLeastWish;
+  const bool blocked = context.active && held.standing > 0.0 && (may_go || no_gap);
   // at a red light nobody beside can leave a gap: that is no time lost
-  const double more = held || !context.at_red ? dt : 0.0;
-  scene.blocked_time[row] = blocked ? scene.blocked_time[row] + more : 0.0;
+  const double more = may_go || !context.at_red ? dt : 0.0;
+  held.blocked = blocked ? held.blocked + more : 0.0;
   const double patience = no_gap ? kNoGapPatience : kPatience;
-  scene.wedge_left[row] =
-      scene.blocked_time[row] > patience ? kLasts : std::max(0.0, scene.wedge_left[row] - dt);
+  held.wedge_left = held.blocked > patience ? kLasts : std::max(0.0, held.wedge_left - dt);
 }
 
 bool StoppingGuard::on_road() const { return scene_->context[row_].active; }
@@ -264,7 +265,7 @@ Vec2 turned_wheels(const Scene& scene, const AgentGeometry& own, std::size_t row
   constexpr double kTry = 2.0;                                // [s]
   constexpr std::array<double, 3> kTurns = {-0.5, 0.5, 0.0};  // [rad]
   if (!is_wedged(scene, row)) return 1e-5 * own.forward;
-  const auto tries = static_cast<std::size_t>(scene.standing_time[row] / kTry);
+  const auto tries = static_cast<std::size_t>(scene.held[row].standing / kTry);
   return 1e-5 * from_body(rotation(kTurns[tries % kTurns.size()]), own.forward);
 }
 

@@ -107,7 +107,7 @@ class StoppingGuard {
 /// bodies. It counts as wedged for some seconds more, until it has got out.
 bool is_wedged(const Scene& scene, std::size_t row);
 /// Keeps count of it once a tick.
-void update_wedge(double dt, Scene& scene, std::size_t row);
+void update_held(double dt, Scene& scene, std::size_t row);
 
 /// v_new made safe: `velocity` if the guard admits it, or else the nearest of a few slower ones
 /// along it that it admits, or null: braking with the wheels as they are. A body that is held up

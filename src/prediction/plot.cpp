@@ -1,7 +1,8 @@
 #include "prediction/plot.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 
 namespace sumogamma {
 
@@ -10,12 +11,6 @@ namespace {
 constexpr double kPixels = 32;   // a metre
 constexpr double kMargin = 1.5;  // around everything [m]
 constexpr double kLegend = 34;   // [px]
-
-std::string format(const char* pattern, auto... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
 
 /// World to picture.
 struct Frame {
@@ -33,7 +28,8 @@ struct Frame {
 
 std::string polyline(const Frame& frame, const std::vector<Vec2>& points, const char* style) {
   std::string text = R"(<polyline fill="none" )" + std::string(style) + R"( points=")";
-  for (const Vec2& point : points) text += format("%.1f,%.1f ", frame.x(point), frame.y(point));
+  for (const Vec2& point : points)
+    text += fmt::format("{:.1f},{:.1f} ", frame.x(point), frame.y(point));
   return text + R"("/>)"
                 "\n";
 }
@@ -41,9 +37,9 @@ std::string polyline(const Frame& frame, const std::vector<Vec2>& points, const 
 std::string dots(const Frame& frame, const std::vector<Vec2>& points, const char* color) {
   std::string text;
   for (std::size_t k = 1; k < points.size(); ++k)
-    text += format(R"(<circle cx="%.1f" cy="%.1f" r="2.2" fill="%s"/>)"
-                   "\n",
-                   frame.x(points[k]), frame.y(points[k]), color);
+    text += fmt::format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="2.2" fill="{}"/>)"
+                        "\n",
+                        frame.x(points[k]), frame.y(points[k]), color);
   return text;
 }
 
@@ -72,7 +68,7 @@ std::string box(const Frame& frame, const AgentType& type, const ObservedAgent& 
     const Vec2 at =
         center +
         from_body(Vec2(0.5 * type.length * corner.x(), 0.5 * type.width * corner.y()), forward);
-    text += format("%.1f,%.1f ", frame.x(at), frame.y(at));
+    text += fmt::format("{:.1f},{:.1f} ", frame.x(at), frame.y(at));
   }
   return text + R"("/>)"
                 "\n";
@@ -80,7 +76,8 @@ std::string box(const Frame& frame, const AgentType& type, const ObservedAgent& 
 
 std::string solid(const Frame& frame, const Obstacle& obstacle) {
   std::string text = R"(<polygon fill="#e9d8c4" stroke="#b08d62" points=")";
-  for (const Vec2& at : obstacle.outline) text += format("%.1f,%.1f ", frame.x(at), frame.y(at));
+  for (const Vec2& at : obstacle.outline)
+    text += fmt::format("{:.1f},{:.1f} ", frame.x(at), frame.y(at));
   return text + R"("/>)"
                 "\n";
 }
@@ -99,8 +96,8 @@ std::string forecast_svg(const TrackSet& truth, const ObservedScene& scene,
   }
   if (scene.agents.empty()) frame.hold(Vec2::Zero());
   std::string text =
-      format(R"(<svg xmlns="http://www.w3.org/2000/svg" width="%.0f" height="%.0f" )",
-             frame.width(), frame.height());
+      fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{:.0f}" height="{:.0f}" )",
+                  frame.width(), frame.height());
   text += R"(font-family="sans-serif" font-size="14">)"
           "\n"
           R"(<rect width="100%" height="100%" )"
@@ -125,10 +122,10 @@ std::string forecast_svg(const TrackSet& truth, const ObservedScene& scene,
     text += polyline(frame, predicted, R"(stroke="#1f6fb4" stroke-width="2")") +
             dots(frame, predicted, "#1f6fb4");
   }
-  text +=
-      format(R"(<text x="8" y="20">%s, frame %d: seen grey, truth black, prediction blue%s</text>)"
-             "\n",
-             truth.name.c_str(), scene.frame, samples.empty() ? "" : ", samples light");
+  text += fmt::format(
+      R"(<text x="8" y="20">{}, frame {}: seen grey, truth black, prediction blue{}</text>)"
+      "\n",
+      truth.name, scene.frame, samples.empty() ? "" : ", samples light");
   return text + "</svg>\n";
 }
 

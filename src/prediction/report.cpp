@@ -1,7 +1,8 @@
 #include "prediction/report.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 
 namespace sumogamma {
 
@@ -126,12 +127,6 @@ double microseconds(const Evaluation& evaluation) {
              : 0.0;
 }
 
-std::string format(const char* pattern, auto... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
-
 }  // namespace
 
 std::span<const PublishedResult> published_results() { return kPublished; }
@@ -171,8 +166,8 @@ nlohmann::ordered_json to_json(const Evaluation& evaluation, std::uint64_t seed)
 
 std::string to_table(const std::vector<Evaluation>& evaluations, const Protocol& protocol,
                      std::uint64_t seed) {
-  std::string text = format(
-      "Protocol %c: %d frames seen, %d scored%s. ADE/FDE in m, 95 %% intervals by bootstrap over "
+  std::string text = fmt::format(
+      "Protocol {}: {} frames seen, {} scored{}. ADE/FDE in m, 95 % intervals by bootstrap over "
       "agents.\n",
       protocol.letter, protocol.observed, protocol.steps,
       protocol.counts_present ? ", the present counted as the first" : "");
@@ -185,8 +180,8 @@ std::string to_table(const std::vector<Evaluation>& evaluations, const Protocol&
       // the paper's UNIV is both of its recordings together
       const bool both = row.set == "univ" && (set == "univ001" || set == "univ003");
       if (row.set == set || both)
-        text += format("  %-40s %7.2f %7.2f   as published%s\n", std::string(row.method).c_str(),
-                       row.average, row.final, both ? " for univ001 and univ003 together" : "");
+        text += fmt::format("  {:<40} {:7.2f} {:7.2f}   as published{}\n", row.method, row.average,
+                            row.final, both ? " for univ001 and univ003 together" : "");
     }
   };
   for (const Evaluation& evaluation : evaluations) {
@@ -195,25 +190,25 @@ std::string to_table(const std::vector<Evaluation>& evaluations, const Protocol&
       set = evaluation.set;
       const auto training = training_recordings();
       const bool known = std::find(training.begin(), training.end(), set) != training.end();
-      text += format("\n%s: %zu windows, COL of the truth %.4f, parameters chosen %s it\n",
-                     set.c_str(), evaluation.windows.size(), evaluation.true_collisions.rate(),
-                     known ? "with" : "without");
-      text += format("  %-40s %7s %7s %15s %6s %7s %8s", "", "ADE", "FDE", "ADE 95 %", "miss",
-                     "COL", "us/pred");
+      text += fmt::format("\n{}: {} windows, COL of the truth {:.4f}, parameters chosen {} it\n",
+                          set, evaluation.windows.size(), evaluation.true_collisions.rate(),
+                          known ? "with" : "without");
+      text += fmt::format("  {:<40} {:>7} {:>7} {:>15} {:>6} {:>7} {:>8}", "", "ADE", "FDE",
+                          "ADE 95 %", "miss", "COL", "us/pred");
       if (evaluation.has_samples) text += "   minADE  minFDE     NLL  energy  in 50  in 90";
       text += "\n";
     }
     const Summary summary = summarize(evaluation);
     const Interval average = intervals_of(evaluation, seed).average;
-    text += format("  %-40s %7.4f %7.4f [%.3f, %.3f] %6.3f %7.4f %8.1f", evaluation.title.c_str(),
-                   summary.average, summary.final, average.low, average.high, summary.miss_rate,
-                   evaluation.collisions.rate(), microseconds(evaluation));
+    text += fmt::format("  {:<40} {:7.4f} {:7.4f} [{:.3f}, {:.3f}] {:6.3f} {:7.4f} {:8.1f}",
+                        evaluation.title, summary.average, summary.final, average.low, average.high,
+                        summary.miss_rate, evaluation.collisions.rate(), microseconds(evaluation));
     if (evaluation.method == "oracle")
-      text += format("  %7.4f %7.4f", summary.best_average, summary.best_final);
+      text += fmt::format("  {:7.4f} {:7.4f}", summary.best_average, summary.best_final);
     else if (evaluation.has_samples)
-      text +=
-          format("  %7.4f %7.4f %7.3f %7.4f %6.3f %6.3f", summary.best_average, summary.best_final,
-                 summary.log_loss, summary.energy, summary.inside_50, summary.inside_90);
+      text += fmt::format("  {:7.4f} {:7.4f} {:7.3f} {:7.4f} {:6.3f} {:6.3f}", summary.best_average,
+                          summary.best_final, summary.log_loss, summary.energy, summary.inside_50,
+                          summary.inside_90);
     text += "\n";
   }
   published();

@@ -43,7 +43,9 @@ std::array<ConnectionId, kRoadWays> RoadGuess::branches(LaneId lane, VehicleClas
   double straightest = 1e300, leftmost = -1e300, rightmost = 1e300;
   for (const ConnectionId id : network_->lane(lane).outgoing) {
     const Connection& connection = network_->connection(id);
-    if (!(network_->lane(connection.to).allowed & mask) || connection.direction == 't') continue;
+    if (!(network_->lane(connection.to).allowed & mask) ||
+        connection.direction == TurnDirection::Turnaround)
+      continue;
     const double turn = turn_of(*network_, connection);
     if (std::abs(turn) < straightest) straightest = std::abs(turn), found[0] = id;
     if (turn > leftmost) leftmost = turn, found[1] = id;

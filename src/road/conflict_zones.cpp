@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "road/path_profile.h"
+#include "road/path_pieces.h"
+#include "road/smoothing.h"
 
 namespace sumogamma {
 
@@ -83,10 +84,11 @@ namespace {
 struct LinkShape {
   ConnectionId link = kNoConnection;
   Polyline line;
-  double half_width = 0;         ///< of what drives there
-  double half_narrow_width = 0;  ///< of what is no wider than kWideBody
-  double begin = 0;              ///< of the line, from the link's begin [m]
-  std::vector<Vec2> samples;     ///< every kStep
+  double half_width = 0;                            ///< of what drives there
+  double half_narrow_width = 0;                     ///< of what is no wider than kWideBody
+  double begin = 0;                                 ///< of the line, from the link's begin [m]
+  std::vector<Vec2> samples;                        ///< every kStep
+  Vec2 lower = Vec2::Zero(), upper = Vec2::Zero();  ///< corners of a box about them [m]
 };
 constexpr double kStep = 1.0;
 
@@ -134,6 +136,11 @@ LinkShape shape_of(const RoadNetwork& network, ConnectionId id) {
   if (shape.line.empty()) return shape;
   const auto count = static_cast<int>(shape.line.length() / kStep) + 1;
   for (int k = 0; k <= count; ++k) shape.samples.push_back(shape.line.point_at(k * kStep));
+  shape.lower = shape.upper = shape.samples.front();
+  for (const Vec2& sample : shape.samples) {
+    shape.lower = shape.lower.cwiseMin(sample);
+    shape.upper = shape.upper.cwiseMax(sample);
+  }
   return shape;
 }
 
@@ -141,7 +148,12 @@ LinkShape shape_of(const RoadNetwork& network, ConnectionId id) {
 std::optional<std::pair<double, double>> near_span(const LinkShape& a, const LinkShape& b,
                                                    double reach) {
   std::optional<std::pair<double, double>> span;
+  const Vec2 margin = Vec2::Constant(reach + 1e-6), lower = b.lower - margin,
+             upper = b.upper + margin;
   for (std::size_t k = 0; k < a.samples.size(); ++k) {
+    if ((a.samples[k].array() < lower.array()).any() ||
+        (a.samples[k].array() > upper.array()).any())
+      continue;
     const bool near = std::any_of(b.samples.begin(), b.samples.end(), [&](const Vec2& point) {
       return (point - a.samples[k]).squaredNorm() < reach * reach;
     });
@@ -250,9 +262,14 @@ std::optional<ConflictZone> zone_for(const ConflictZone& zone, bool one_is_wide)
   return narrow;
 }
 
-ConflictTable build_conflict_table(const RoadNetwork& network) {
+ConflictTable build_conflict_table(const RoadNetwork& network, Workers& workers) {
   ConflictTable table(network.connections.size());
-  for (const Junction& junction : network.junctions) add_conflicts(network, junction, table);
+  // every link belongs to one junction
+  workers.for_each_range(network.junctions.size(),
+                         [&](std::size_t, std::size_t begin, std::size_t end) {
+                           for (std::size_t i = begin; i < end; ++i)
+                             add_conflicts(network, network.junctions[i], table);
+                         });
   return table;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/parallel.h"
 #include "road/path.h"
 
 namespace sumogamma {
@@ -41,7 +42,11 @@ std::optional<ConflictZone> zone_for(const ConflictZone& zone, bool one_is_wide)
 /// two directions of one narrow road side by side; links that it calls free of conflict but whose
 /// ways meet, as of opposite turns on a narrow junction, are in.
 using ConflictTable = std::vector<std::vector<ConflictZone>>;
-ConflictTable build_conflict_table(const RoadNetwork& network);
+ConflictTable build_conflict_table(const RoadNetwork& network, Workers& workers);
+inline ConflictTable build_conflict_table(const RoadNetwork& network) {
+  Workers alone;
+  return build_conflict_table(network, alone);
+}
 
 /// The way of a body with that turning radius over a link, with up to `before` [m] of the lane that
 /// it comes from and `after` of the one into which it leads: the line, the link with its stop

@@ -1,109 +1,22 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 
 #include "geometry/smooth_step.h"
+#include "road/lane_plan.h"
 #include "road/path.h"
-#include "road/path_profile.h"
+#include "road/path_pieces.h"
+#include "road/smoothing.h"
+#include "road/speed_profile.h"
 
 namespace sumogamma {
 
 namespace {
 
-constexpr double kUnreachable = std::numeric_limits<double>::infinity();
-constexpr double kBeyond = 1000.0;  ///< no lane of the last edge has to be left [m]
-
 bool allows(const Lane& lane, VehicleClassMask vehicle_class) {
   return (lane.allowed & vehicle_class) != 0;
-}
-
-/// Cost of changing n lanes on an edge: a change needs some 25 m, so short edges cost more.
-double change_cost(int changes, double length) {
-  if (changes == 0) return 0.0;
-  return changes * (1.0 + 50.0 / std::max(length, 5.0));
-}
-
-/// Cost of a link that leads aside: where a road widens to more lanes, one of them goes straight
-/// on.
-double aside_cost(const RoadNetwork& network, const Connection& connection) {
-  constexpr double kStraight = 0.7, kRate = 0.1;  // cosine, lane changes a metre
-  const Polyline& from = network.lane(connection.from).centerline;
-  const Polyline& to = network.lane(connection.to).centerline;
-  const Vec2 leaves = from.direction_at(from.length()), enters = to.direction_at(0.0);
-  if (leaves.dot(enters) < kStraight) return 0.0;
-  // an even bend leads from one end to the other along the mean of their directions
-  const Vec2 mean = (leaves + enters).normalized();
-  return kRate * std::abs(cross(mean, to.points().front() - from.points().back()));
-}
-
-/// The lane changes from lane `entry` of the route's edge `index`, over the lanes of its stops
-/// there, to lane `exit`: what they cost. `from`: where they begin [m].
-double cost_on_edge(const PathRequest& request, std::size_t index, int entry, int exit, double from,
-                    double length) {
-  double cost = 0.0;
-  for (const RouteStop& stop : request.stops) {
-    if (stop.route_index != index || stop.lane_index < 0 || stop.along < from) continue;
-    cost += change_cost(std::abs(stop.lane_index - entry), stop.along - from);
-    entry = stop.lane_index;
-    from = stop.along;
-  }
-  return cost + change_cost(std::abs(exit - entry), length - from);
-}
-
-/// Backward dynamic program over the route: cheapest lane choice for every lane of every edge.
-std::vector<std::vector<LaneOption>> plan_lanes(const RoadNetwork& network,
-                                                const PathRequest& request) {
-  const std::size_t edges = request.route.size();
-  std::vector<std::vector<LaneOption>> plan(edges);
-  for (std::size_t i = edges; i-- > 0;) {
-    const Edge& edge = network.edge(request.route[i]);
-    const auto count = static_cast<int>(edge.lanes.size());
-    plan[i].resize(edge.lanes.size());
-    // cheapest continuation from leaving each lane
-    std::vector<double> exit_cost(edge.lanes.size(), kUnreachable);
-    std::vector<ConnectionId> exit_link(edge.lanes.size(), kNoConnection);
-    std::vector<double> onward(edge.lanes.size(), i + 1 == edges ? kBeyond : 0.0);
-    for (int k = 0; k < count; ++k) {
-      const Lane& lane = network.lane(edge.lanes[static_cast<std::size_t>(k)]);
-      if (!allows(lane, request.vehicle_class)) continue;
-      if (i + 1 == edges) {
-        exit_cost[static_cast<std::size_t>(k)] = 0.0;
-        continue;
-      }
-      for (const ConnectionId id : lane.outgoing) {
-        const Lane& target = network.lane(network.connection(id).to);
-        if (target.edge != request.route[i + 1] || !allows(target, request.vehicle_class)) continue;
-        onward[static_cast<std::size_t>(k)] =
-            std::max(onward[static_cast<std::size_t>(k)],
-                     plan[i + 1][static_cast<std::size_t>(target.index)].drivable);
-        const double cost = plan[i + 1][static_cast<std::size_t>(target.index)].cost +
-                            aside_cost(network, network.connection(id));
-        if (cost < exit_cost[static_cast<std::size_t>(k)]) {
-          exit_cost[static_cast<std::size_t>(k)] = cost;
-          exit_link[static_cast<std::size_t>(k)] = id;
-        }
-      }
-    }
-    for (int entry = 0; entry < count; ++entry) {
-      const Lane& lane = network.lane(edge.lanes[static_cast<std::size_t>(entry)]);
-      if (!allows(lane, request.vehicle_class)) continue;
-      LaneOption& choice = plan[i][static_cast<std::size_t>(entry)];
-      // who starts at the end of an edge has little room to change on it
-      const double length = lane.centerline.length();
-      const double begin = i == 0 ? request.start_along : 0.0;
-      for (int exit = 0; exit < count; ++exit) {
-        const double cost = exit_cost[static_cast<std::size_t>(exit)] +
-                            cost_on_edge(request, i, entry, exit, begin, length);
-        if (cost < choice.cost)
-          choice = {
-              .cost = cost, .exit_index = exit, .next = exit_link[static_cast<std::size_t>(exit)]};
-      }
-      choice.leave_cost = exit_cost[static_cast<std::size_t>(entry)];
-      choice.leave = exit_link[static_cast<std::size_t>(entry)];
-      choice.drivable = length + onward[static_cast<std::size_t>(entry)];
-    }
-  }
-  return plan;
 }
 
 class Builder {

@@ -32,28 +32,35 @@ bool is_walkway(const RoadNetwork& network, const LaneLocator& locator, const Ve
          std::any_of(hits.begin(), hits.end(), walked);
 }
 
+/// Room beside a lane on a junction, to its left (side 1) or right (-1) [m].
+double room_beside(const RoadNetwork& network, const LaneLocator& locator, const Lane& lane,
+                   double side, std::vector<LaneHit>& hits) {
+  const Polyline& line = lane.centerline;
+  double most = is_without_motors(lane) ? 0.0 : kMost;
+  for (double along = 0.0; along <= line.length(); along += kAlong) {
+    const Vec2 kerb = line.point_at(along);
+    const Vec2 outwards = side * left_of(line.direction_at(along));
+    for (double aside = kAside; aside <= most; aside += kAside)
+      if (is_walkway(network, locator, kerb + (0.5 * lane.width + aside) * outwards, hits))
+        most = aside - kAside;
+  }
+  return most;
+}
+
 }  // namespace
 
-void set_junction_rooms(RoadNetwork& network) {
+void set_junction_rooms(RoadNetwork& network, Workers& workers) {
   const LaneLocator locator(network);
-  std::vector<LaneHit> hits;
-  for (Lane& lane : network.lanes) {
-    if (lane.kind != LaneKind::Internal) continue;
-    const Polyline& line = lane.centerline;
-    auto room = [&](double side) {
-      double most = is_without_motors(lane) ? 0.0 : kMost;
-      for (double along = 0.0; along <= line.length(); along += kAlong) {
-        const Vec2 kerb = line.point_at(along);
-        const Vec2 outwards = side * left_of(line.direction_at(along));
-        for (double aside = kAside; aside <= most; aside += kAside)
-          if (is_walkway(network, locator, kerb + (0.5 * lane.width + aside) * outwards, hits))
-            most = aside - kAside;
-      }
-      return most;
-    };
-    lane.beside_left = room(1.0);
-    lane.beside_right = room(-1.0);
-  }
+  workers.for_each_range(network.lanes.size(),
+                         [&](std::size_t, std::size_t begin, std::size_t end) {
+                           std::vector<LaneHit> hits;
+                           for (std::size_t i = begin; i < end; ++i) {
+                             Lane& lane = network.lanes[i];
+                             if (lane.kind != LaneKind::Internal) continue;
+                             lane.beside_left = room_beside(network, locator, lane, 1.0, hits);
+                             lane.beside_right = room_beside(network, locator, lane, -1.0, hits);
+                           }
+                         });
 }
 
 }  // namespace sumogamma

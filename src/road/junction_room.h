@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/parallel.h"
 #include "road/road_network.h"
 
 namespace sumogamma {
@@ -8,6 +9,6 @@ namespace sumogamma {
 /// junction has no kerb beside each of its lanes, and long bodies swing out, but not on to where
 /// people walk. None where only people on foot and bicycles go: who rode round somebody there came
 /// out on the wrong side of a queue.
-void set_junction_rooms(RoadNetwork& network);
+void set_junction_rooms(RoadNetwork& network, Workers& workers);
 
 }  // namespace sumogamma

@@ -78,6 +78,14 @@ void LaneLocator::visit_cells(const Vec2& lower, const Vec2& upper, Visit&& visi
     for (std::size_t x = left; x <= right; ++x) visit(y * columns_ + x);
 }
 
+LaneLocator::Box LaneLocator::box_about(const Vec2& lower, const Vec2& upper) const {
+  constexpr double kRounding = 0.1;  // of floats, and some [m]
+  const Vec2 low = lower - origin_ - Vec2::Constant(kRounding);
+  const Vec2 high = upper - origin_ + Vec2::Constant(kRounding);
+  return {static_cast<float>(low.x()), static_cast<float>(low.y()), static_cast<float>(high.x()),
+          static_cast<float>(high.y())};
+}
+
 /// Calls add_entry(cell, entry) for each lane and cell that it may touch, lanes in order of id, and
 /// add_junction likewise.
 template <typename AddEntry, typename AddJunction>
@@ -90,6 +98,10 @@ void LaneLocator::rasterize(AddEntry&& add_entry, AddJunction&& add_junction) co
     }
     return std::pair<Vec2, Vec2>(lower - Vec2(margin, margin), upper + Vec2(margin, margin));
   };
+  const auto strip = [&](const Lane& lane, std::size_t first, std::size_t count) {
+    return bounds(std::span(lane.centerline.points()).subspan(first, count),
+                  0.5 * lane.width + kEndTolerance);
+  };
   std::vector<std::pair<std::size_t, std::uint32_t>> touched;  // (cell, segment)
   for (std::size_t index = 0; index < network_->lanes.size(); ++index) {
     const Lane& lane = network_->lanes[index];
@@ -97,20 +109,22 @@ void LaneLocator::rasterize(AddEntry&& add_entry, AddJunction&& add_junction) co
     const std::vector<Vec2>& points = lane.centerline.points();
     if (lane.kind == LaneKind::WalkingArea) {
       const auto [lower, upper] = bounds(lane.outline, 0.0);
-      visit_cells(lower, upper, [&](std::size_t cell) { add_entry(cell, Entry{id, 0, 0}); });
+      const Entry entry{id, 0, 0, box_about(lower, upper)};
+      visit_cells(lower, upper, [&](std::size_t cell) { add_entry(cell, entry); });
       continue;
     }
     touched.clear();
     for (std::uint32_t segment = 0; segment + 1 < points.size(); ++segment) {
-      const auto [lower, upper] =
-          bounds(std::span(points).subspan(segment, 2), 0.5 * lane.width + kEndTolerance);
+      const auto [lower, upper] = strip(lane, segment, 2);
       visit_cells(lower, upper, [&](std::size_t cell) { touched.emplace_back(cell, segment); });
     }
     std::sort(touched.begin(), touched.end());
     for (std::size_t i = 0; i < touched.size();) {
       std::size_t end = i;
       while (end < touched.size() && touched[end].first == touched[i].first) ++end;
-      add_entry(touched[i].first, Entry{id, touched[i].second, touched[end - 1].second});
+      const std::uint32_t first = touched[i].second, last = touched[end - 1].second;
+      const auto [lower, upper] = strip(lane, first, last + 2 - first);
+      add_entry(touched[i].first, Entry{id, first, last, box_about(lower, upper)});
       i = end;
     }
   }
@@ -168,16 +182,6 @@ LaneHit LaneLocator::measure(const Entry& entry, const Vec2& point) const {
   return hit;
 }
 
-void LaneLocator::find_containing(const Vec2& point, std::vector<LaneHit>& hits) const {
-  hits.clear();
-  const std::size_t cell = cell_at(point);
-  if (cell >= columns_ * lines_) return;
-  for (std::uint32_t k = entry_begin_[cell]; k < entry_begin_[cell + 1]; ++k) {
-    const LaneHit hit = measure(entries_[k], point);
-    if (hit.distance <= 0.0) hits.push_back(hit);
-  }
-}
-
 bool LaneLocator::on_junction(const Vec2& point) const {
   const std::size_t cell = cell_at(point);
   if (cell >= columns_ * lines_) return false;
@@ -193,8 +197,10 @@ LaneHit LaneLocator::find_nearest(const Vec2& point, VehicleClassMask classes, d
   if (columns_ == 0 || !point.allFinite()) return best;
   const Vec2 forward = direction_of(heading);
   double best_agreement = -2.0;
+  const Vec2 place = point - origin_;
   auto consider = [&](std::size_t cell) {
     for (std::uint32_t k = entry_begin_[cell]; k < entry_begin_[cell + 1]; ++k) {
+      if (!entries_[k].box.is_within(place, std::min(reach, best.distance))) continue;
       const Lane& lane = network_->lane(entries_[k].lane);
       if (!(lane.allowed & classes)) continue;
       const LaneHit hit = measure(entries_[k], point);

@@ -46,7 +46,23 @@ class LaneLocator {
 
   /// All lanes that contain the point, in order of id, into `hits` (cleared first). No allocation
   /// once warm.
-  void find_containing(const Vec2& point, std::vector<LaneHit>& hits) const;
+  void find_containing(const Vec2& point, std::vector<LaneHit>& hits) const {
+    find_containing(
+        point, [](LaneId) { return true; }, hits);
+  }
+  /// Likewise those of them for which wanted(LaneId) holds.
+  template <typename Wanted>
+  void find_containing(const Vec2& point, Wanted&& wanted, std::vector<LaneHit>& hits) const {
+    hits.clear();
+    const std::size_t cell = cell_at(point);
+    if (cell >= columns_ * lines_) return;
+    const Vec2 place = point - origin_;
+    for (std::uint32_t k = entry_begin_[cell]; k < entry_begin_[cell + 1]; ++k) {
+      if (!entries_[k].box.is_within(place, 0.0) || !wanted(entries_[k].lane)) continue;
+      const LaneHit hit = measure(entries_[k], point);
+      if (hit.distance <= 0.0) hits.push_back(hit);
+    }
+  }
 
   /// True where a junction's outline contains the point.
   bool on_junction(const Vec2& point) const;
@@ -59,11 +75,24 @@ class LaneLocator {
                        double reach = 20.0) const;
 
  private:
+  /// About ground, seen from the grid's origin [m]. A little too large, so that rounding hides
+  /// none.
+  struct Box {
+    float left, bottom, right, top;
+
+    /// May some of the ground be `reach` [m] or less away?
+    bool is_within(const Vec2& place, double reach) const {
+      const double x = place.x(), y = place.y();
+      return x >= double{left} - reach && x <= double{right} + reach &&
+             y >= double{bottom} - reach && y <= double{top} + reach;
+    }
+  };
   /// Part of a lane within a cell: segments first..last of its centreline, or a walking area's
-  /// ring.
+  /// ring, and a box about its surface.
   struct Entry {
     LaneId lane;
     std::uint32_t first, last;
+    Box box;
   };
 
   std::size_t cell_at(const Vec2& point) const;
@@ -71,6 +100,7 @@ class LaneLocator {
   void visit_cells(const Vec2& lower, const Vec2& upper, Visit&& visit) const;
   template <typename AddEntry, typename AddJunction>
   void rasterize(AddEntry&& add_entry, AddJunction&& add_junction) const;
+  Box box_about(const Vec2& lower, const Vec2& upper) const;
   LaneHit measure(const Entry& entry, const Vec2& point) const;
 
   const RoadNetwork* network_ = nullptr;

@@ -57,6 +57,12 @@ VehicleClassMask vehicle_class_from_name(std::string_view name);
 
 enum class LaneKind : std::uint8_t { Normal, Internal, Crossing, WalkingArea };
 
+/// Where the centerline of a lane crosses that of another.
+struct LaneCrossing {
+  LaneId other = kNoLane;
+  bool apart = false;  ///< one lies a storey above the other there
+};
+
 /// A lane of any kind; immutable after reading.
 struct Lane {
   std::string name;
@@ -82,9 +88,10 @@ struct Lane {
       kNoLane;  ///< neighbour with the next lower index on the same edge (towards the kerb)
   LaneId opposite = kNoLane;  ///< nearest lane of the opposite direction, where the network says so
   bool has_overpass = false;  ///< its edge crosses another, or itself, above or below it
-  JunctionId junction = kNoJunction;   ///< of internal lanes, crossings and walking areas
-  std::vector<ConnectionId> outgoing;  ///< connections that start here
-  std::vector<ConnectionId> incoming;  ///< connections that end here
+  JunctionId junction = kNoJunction;    ///< of internal lanes, crossings and walking areas
+  std::vector<ConnectionId> outgoing;   ///< connections that start here
+  std::vector<ConnectionId> incoming;   ///< connections that end here
+  std::vector<LaneCrossing> crossings;  ///< by the other lane (find_lane_crossings())
 };
 
 /// Height of the lane `along` its centerline [m], interpolated; 0 in a flat network.
@@ -100,6 +107,32 @@ struct Edge {
   std::vector<EdgeId> crossing_edges;  ///< of a crossing: the edges that it crosses
 };
 
+/// Where a link leads, seen from its begin.
+enum class TurnDirection : std::uint8_t {
+  Straight,
+  Left,
+  Right,
+  PartlyLeft,
+  PartlyRight,
+  Turnaround
+};
+
+/// Who goes first over a link that no signal governs.
+enum class LinkPriority : std::uint8_t {
+  Major,
+  Minor,
+  Equal,  ///< right before left
+  Stop,
+  AllWayStop,
+  Zipper,
+  Other,  ///< signalled, switched off, or the end of the road
+};
+
+/// Has everybody to halt at the line of such a link?
+inline bool halts_first(LinkPriority priority) {
+  return priority == LinkPriority::Stop || priority == LinkPriority::AllWayStop;
+}
+
 /// A link from lane to lane over a junction.
 struct Connection {
   LaneId from = kNoLane, to = kNoLane;
@@ -112,10 +145,8 @@ struct Connection {
   double storage =
       0;  ///< of an inner signal: way from the stop lines of the signals before it, over
           ///< their junction and the road behind it, else 0 [m] (find_inner_signals())
-  char direction = 's';  ///< SUMO's dir: s straight, l left, r right, t turn-around, L partially
-                         ///< left, R partially right
-  char state = 'M';  ///< SUMO's static state: M major, m minor, = equal, s stop, w all-way stop,
-                     ///< o/O off, Z zipper
+  TurnDirection direction = TurnDirection::Straight;
+  LinkPriority priority = LinkPriority::Major;  ///< without a signal
 };
 
 /// One row of a junction's right-of-way matrix (SUMO page Networks/SUMO_Road_Networks#requests).
@@ -123,6 +154,12 @@ struct RightOfWay {
   std::vector<bool> yields_to;   ///< by link: this link must let that one pass
   std::vector<bool> conflicts;   ///< by link: the two paths cross or merge
   bool may_stop_inside = false;  ///< SUMO's cont: may wait on the junction
+};
+
+/// A junction near another and the way there along a lane of it [m].
+struct JunctionNeighbour {
+  JunctionId junction = kNoJunction;
+  double way = 0;
 };
 
 struct Junction {
@@ -134,6 +171,9 @@ struct Junction {
   std::vector<ConnectionId>
       links;  ///< by request index; kNoConnection for an index without a connection
   bool in_roundabout = false;
+  /// In the order of the links; the same again where a later link has a shorter way
+  /// (find_lane_crossings()).
+  std::vector<JunctionNeighbour> neighbours;
 };
 
 struct SignalPhase {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "road/conflict_zones.h"
-#include "road/path_profile.h"
+#include "road/path_pieces.h"
 
 namespace sumogamma {
 
@@ -22,17 +22,28 @@ constexpr double kAfter = 10.0;     ///< of the road turned into that is looked 
 struct Way {
   Polyline link, after;
   double width = 0;
+  Vec2 lower = Vec2::Constant(std::numeric_limits<double>::infinity()),
+       upper = -lower;  ///< corners of a box about all that is near to it [m]
 };
 
 Way way_through(const RoadNetwork& network, ConnectionId id) {
   const Lane& to = network.lane(network.connection(id).to);
   std::vector<Vec2> after;
   append_span(to.centerline, 0.0, std::min(kAfter, to.centerline.length()), after);
-  return {link_geometry(network, id), Polyline(std::move(after)), to.width};
+  Way way{link_geometry(network, id), Polyline(std::move(after)), to.width};
+  const Vec2 margin = Vec2::Constant(kRoom + 1e-6);
+  for (const Polyline* line : {&way.link, &way.after})
+    for (const Vec2& point : line->points()) {
+      way.lower = way.lower.cwiseMin(point - margin);
+      way.upper = way.upper.cwiseMax(point + margin);
+    }
+  return way;
 }
 
 /// Is a place on a lane so near to a way that who waits there is in the way?
 bool is_near(const Vec2& place, const Lane& lane, const Way& way) {
+  if ((place.array() < way.lower.array()).any() || (place.array() > way.upper.array()).any())
+    return false;
   const double beside = std::min(kRoom, kRoomOfWidth * 0.5 * (lane.width + way.width));
   return way.after.project(place).distance < beside ||
          way.link.project(place).distance < std::min(kRoom, std::max(beside, kRoomToTurn));
@@ -120,6 +131,20 @@ void halt_off(const Path& path, double least, const std::vector<Polyline>& ways,
   link.halt = link.stop_line - back;
 }
 
+/// Where the fronts on the lanes before a junction halt that `links` lead over.
+void set_back(const std::vector<ConnectionId>& links, RoadNetwork& network) {
+  std::vector<Way> ways;
+  for (const ConnectionId id : links) ways.push_back(way_through(network, id));
+  for (const ConnectionId id : links) {
+    const Lane& lane = network.lane(network.connection(id).from);
+    std::vector<Way> others;
+    for (std::size_t k = 0; k < links.size(); ++k)
+      if (network.lane(network.connection(links[k]).from).edge != lane.edge)
+        others.push_back(ways[k]);
+    network.connections[index_of(id)].setback = setback_on(lane, others);
+  }
+}
+
 }  // namespace
 
 void halt_off_the_road(const RoadNetwork& network, Path& path) {
@@ -138,25 +163,16 @@ void halt_off_the_road(const RoadNetwork& network, Path& path) {
   }
 }
 
-void set_back_stop_lines(RoadNetwork& network) {
+void set_back_stop_lines(RoadNetwork& network, Workers& workers) {
   std::vector<std::vector<ConnectionId>> by_junction(network.junctions.size());
   for (std::size_t i = 0; i < network.connections.size(); ++i) {
     const auto id = static_cast<ConnectionId>(i);
     if (is_driven(network, id))
       by_junction[index_of(network.connections[i].junction)].push_back(id);
   }
-  for (const std::vector<ConnectionId>& links : by_junction) {
-    std::vector<Way> ways;
-    for (const ConnectionId id : links) ways.push_back(way_through(network, id));
-    for (const ConnectionId id : links) {
-      const Lane& lane = network.lane(network.connection(id).from);
-      std::vector<Way> others;
-      for (std::size_t k = 0; k < links.size(); ++k)
-        if (network.lane(network.connection(links[k]).from).edge != lane.edge)
-          others.push_back(ways[k]);
-      network.connections[index_of(id)].setback = setback_on(lane, others);
-    }
-  }
+  workers.for_each_range(by_junction.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) set_back(by_junction[i], network);
+  });
 }
 
 }  // namespace sumogamma

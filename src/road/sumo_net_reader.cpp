@@ -18,8 +18,10 @@
 #include "base/error.h"
 #include "road/inner_signals.h"
 #include "road/junction_room.h"
+#include "road/lane_crossings.h"
 #include "road/overpasses.h"
 #include "road/stop_lines.h"
+#include "road/sumo_letters.h"
 
 namespace sumogamma {
 namespace {
@@ -367,8 +369,8 @@ class NetBuilder {
     }
     const std::string_view direction = node.attribute("dir").value(),
                            state = node.attribute("state").value();
-    if (!direction.empty()) connection.direction = direction.front();
-    if (!state.empty()) connection.state = state.front();
+    if (!direction.empty()) connection.direction = direction_from_letter(direction.front());
+    if (!state.empty()) connection.priority = priority_from_letter(state.front());
     const ConnectionId id{static_cast<int>(net_.connections.size())};
     net_.lanes[index_of(connection.from)].outgoing.push_back(id);
     net_.lanes[index_of(connection.to)].incoming.push_back(id);
@@ -539,10 +541,10 @@ double elevation_at(const Lane& lane, double along) {
   return lane.elevation[i] + t * (lane.elevation[i + 1] - lane.elevation[i]);
 }
 
-RoadNetwork read_sumo_net(const std::filesystem::path& file) {
+RoadNetwork read_sumo_net(const std::filesystem::path& file, Workers& workers) {
   pugi::xml_document document;
   load_document(file, document);
-  return read_sumo_net(document, file);
+  return read_sumo_net(document, file, workers);
 }
 
 RoadNetwork read_net_elements(const pugi::xml_document& document,
@@ -554,12 +556,14 @@ RoadNetwork read_net_elements(const pugi::xml_document& document,
   return NetBuilder(file, root).build();
 }
 
-RoadNetwork read_sumo_net(const pugi::xml_document& document, const std::filesystem::path& file) {
+RoadNetwork read_sumo_net(const pugi::xml_document& document, const std::filesystem::path& file,
+                          Workers& workers) {
   RoadNetwork network = read_net_elements(document, file);
-  set_back_stop_lines(network);
+  set_back_stop_lines(network, workers);
   find_inner_signals(network);
-  set_junction_rooms(network);
+  set_junction_rooms(network, workers);
   find_overpasses(network);
+  find_lane_crossings(network, workers);
   return network;
 }
 

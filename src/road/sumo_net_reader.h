@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel.h"
 #include "road/road_network.h"
 
 namespace pugi {
@@ -13,12 +14,17 @@ class xml_document;
 
 namespace sumogamma {
 
-/// Reads a SUMO network (.net.xml, or gzipped .net.xml.gz).
+/// Reads a SUMO network (.net.xml, or gzipped .net.xml.gz), with the help of workers.
 /// Throws Error naming the file where it is missing, unreadable, not a network, or inconsistent.
-RoadNetwork read_sumo_net(const std::filesystem::path& file);
+RoadNetwork read_sumo_net(const std::filesystem::path& file, Workers& workers);
+inline RoadNetwork read_sumo_net(const std::filesystem::path& file) {
+  Workers alone;
+  return read_sumo_net(file, alone);
+}
 
 /// The same of a network that is parsed already; `file` names it where it is inconsistent.
-RoadNetwork read_sumo_net(const pugi::xml_document& document, const std::filesystem::path& file);
+RoadNetwork read_sumo_net(const pugi::xml_document& document, const std::filesystem::path& file,
+                          Workers& workers);
 
 /// Its elements alone, without what is worked out from them: stop lines set back, signals within
 /// junctions, rooms of junctions, overpasses. For who looks at networks that nobody drives on.

@@ -73,20 +73,48 @@ Sweep sweep_of(const Sweeper& sweeper, const RoadNetwork& network, ConnectionId 
   return sweep;
 }
 
+/// The way of a car over a link, and where it is at each half metre as far as the link's end.
+struct WayOfCar {
+  Path path;
+  struct Place {
+    Vec2 middle, direction;
+  };
+  std::vector<Place> places;
+};
+
+std::optional<WayOfCar> way_of_car(const RoadNetwork& network, ConnectionId id) {
+  constexpr double kLooked = kFarthest + 2.0;  // [m]
+  constexpr double kCarRadius = 3.8;           // [m]
+  WayOfCar way{rounded_way(network, id, kLooked, kLooked, {kCarRadius}), {}};
+  if (way.path.links.empty()) return std::nullopt;
+  const PathLink& link = way.path.links.front();
+  const Polyline& line = way.path.line;
+  const double end = std::max(link.stop_line, link.stop_line + (link.end - link.stop_line));
+  for (double along = 0.0; along <= end; along += kPace)
+    way.places.push_back({line.point_at(along), line.direction_at(along)});
+  return way;
+}
+
 /// Where `sweep` meets the way of others of a width, from `kFarthest` and some before its stop line
 /// to `end` behind it; foe_begin and foe_end are the sweeping body's, front and rear.
-std::optional<SweptWay> swept_part(const Sweep& sweep, double length, const Path& way, double end,
-                                   double half_width) {
-  const double stop_line = way.links.front().stop_line;
+std::optional<SweptWay> swept_part(const Sweep& sweep, double length, const WayOfCar& way,
+                                   double end, double half_width) {
+  const double stop_line = way.path.links.front().stop_line;
   std::optional<SweptWay> part;
   double first = 0.0, last = 0.0;  // middles of the bodies that touch
-  for (double along = 0.0; along <= stop_line + end; along += kPace) {
-    const Vec2 place = way.line.point_at(along);
+  for (std::size_t i = 0; i < way.places.size(); ++i) {
+    const double along = static_cast<double>(i) * kPace;
+    if (along > stop_line + end) break;
+    const auto& [place, direction] = way.places[i];
     if ((place.array() < sweep.low.array()).any() || (place.array() > sweep.high.array()).any())
       continue;
-    const OrientedBox slice{place, way.line.direction_at(along), {0.5 * kPace, half_width}};
+    const OrientedBox slice{place, direction, {0.5 * kPace, half_width}};
+    const double reach = slice.half.norm() + 1e-6;
     for (std::size_t k = 0; k < sweep.bodies.size(); ++k) {
       const OrientedBox& body = sweep.bodies[k];
+      // seen from the body, is the slice off it by more than it reaches to any side?
+      const Vec2 seen = to_body(place - body.center, body.forward);
+      if (((seen.cwiseAbs() - body.half).array() > reach).any()) continue;
       if ((body.center - place).norm() > length || separation(slice, body) > 0.0) continue;
       const double middle = sweep.first + static_cast<double>(k) * kPace;
       first = part ? std::min(first, middle) : middle;
@@ -103,12 +131,12 @@ std::optional<SweptWay> swept_part(const Sweep& sweep, double length, const Path
 
 /// Adds what a body that takes the link `id` sweeps of the ways of others, as cars drive them.
 void add_swept(const Sweeper& sweeper, const RoadNetwork& network, const ConflictTable& conflicts,
-               const std::vector<Path>& ways, ConnectionId id, SweptWayTable& table) {
+               const std::vector<WayOfCar>& ways, ConnectionId id, SweptWayTable& table) {
   const Sweep sweep = sweep_of(sweeper, network, id);
   if (sweep.bodies.empty()) return;
   const EdgeId edge = network.lane(network.connection(id).from).edge;
-  for (const Path& way : ways) {
-    const PathLink& link = way.links.front();
+  for (const WayOfCar& way : ways) {
+    const PathLink& link = way.path.links.front();
     const ConnectionId other = link.connection;
     if (network.lane(network.connection(other).from).edge == edge) continue;
     const auto& zones = conflicts[index_of(other)];
@@ -130,22 +158,27 @@ void add_swept(const Sweeper& sweeper, const RoadNetwork& network, const Conflic
   }
 }
 
+void add_swept_ways(const RoadNetwork& network, const ConflictTable& conflicts,
+                    const Junction& junction, SweptWayTable& table) {
+  const std::vector<ConnectionId> links = driven_links(network, junction);
+  std::vector<WayOfCar> ways;
+  for (const ConnectionId id : links)
+    if (auto way = way_of_car(network, id)) ways.push_back(std::move(*way));
+  for (const Sweeper& sweeper : kSweepers)
+    for (const ConnectionId id : links) add_swept(sweeper, network, conflicts, ways, id, table);
+}
+
 }  // namespace
 
-SweptWayTable find_swept_ways(const RoadNetwork& network, const ConflictTable& conflicts) {
-  constexpr double kLooked = kFarthest + 2.0;  // [m]
-  constexpr double kCarRadius = 3.8;           // [m]
+SweptWayTable find_swept_ways(const RoadNetwork& network, const ConflictTable& conflicts,
+                              Workers& workers) {
   SweptWayTable table(network.connections.size());
-  for (const Junction& junction : network.junctions) {
-    const std::vector<ConnectionId> links = driven_links(network, junction);
-    std::vector<Path> ways;
-    for (const ConnectionId id : links) {
-      Path way = rounded_way(network, id, kLooked, kLooked, {kCarRadius});
-      if (!way.links.empty()) ways.push_back(std::move(way));
-    }
-    for (const Sweeper& sweeper : kSweepers)
-      for (const ConnectionId id : links) add_swept(sweeper, network, conflicts, ways, id, table);
-  }
+  // every link belongs to one junction
+  workers.for_each_range(network.junctions.size(),
+                         [&](std::size_t, std::size_t begin, std::size_t end) {
+                           for (std::size_t i = begin; i < end; ++i)
+                             add_swept_ways(network, conflicts, network.junctions[i], table);
+                         });
   return table;
 }
 

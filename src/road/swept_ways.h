@@ -33,6 +33,11 @@ struct SweptWay {
 /// them that sweep its own, as far as the conflict zones don't tell it already. Each is rolled
 /// along each link that bends, corners rounded.
 using SweptWayTable = std::vector<std::vector<SweptWay>>;
-SweptWayTable find_swept_ways(const RoadNetwork& network, const ConflictTable& conflicts);
+SweptWayTable find_swept_ways(const RoadNetwork& network, const ConflictTable& conflicts,
+                              Workers& workers);
+inline SweptWayTable find_swept_ways(const RoadNetwork& network, const ConflictTable& conflicts) {
+  Workers alone;
+  return find_swept_ways(network, conflicts, alone);
+}
 
 }  // namespace sumogamma

@@ -30,12 +30,21 @@ double turn_at(const std::vector<Vec2>& samples, std::size_t i) {
   return std::atan2(cross(in, out), in.dot(out));
 }
 
+/// Does the line turn by less than a small angle [rad] there for sure? Tells it without the angle.
+bool is_straight_at(const std::vector<Vec2>& samples, std::size_t i, double angle) {
+  constexpr double kSure = 0.99;
+  const Vec2 in = samples[i] - samples[i - 1], out = samples[i + 1] - samples[i];
+  // an angle is less than its tangent
+  return std::abs(cross(in, out)) < kSure * angle * in.dot(out);
+}
+
 /// The first reversal from sample `begin` on.
 std::optional<Reversal> find_reversal(const std::vector<Vec2>& samples, double step,
                                       std::size_t begin) {
   const auto longest = static_cast<std::size_t>(kWithin / step);
   const double least = radians(kStraight) * step;
   for (std::size_t i = std::max<std::size_t>(begin, 1); i + 1 < samples.size(); ++i) {
+    if (is_straight_at(samples, i, least)) continue;
     if (std::abs(turn_at(samples, i)) < least) continue;
     const double side = turn_at(samples, i) > 0.0 ? 1.0 : -1.0;
     double sum = 0.0, most = 0.0;

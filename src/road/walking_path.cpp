@@ -5,7 +5,8 @@
 
 #include "road/mid_block.h"
 #include "road/path.h"
-#include "road/path_profile.h"
+#include "road/path_pieces.h"
+#include "road/speed_profile.h"
 #include "road/stop_lines.h"
 #include "road/walking_room.h"
 

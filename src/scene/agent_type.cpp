@@ -14,7 +14,7 @@ AgentTypeTable default_agent_types() {
   // sizes: SUMO's vClass defaults (page Vehicle_Type_Parameter_Defaults); wheelbases, horizons,
   // attention and responsibility: facts on the reference's AgentParams; accelerations: SUMO's
   // vClass defaults; in bends: the side friction that low-speed streets are designed for, 0.40 at
-  // 20 km/h and 0.32 at 30 (docs/traffic.md), less where people stand or loads tip
+  // 20 km/h and 0.32 at 30 (docs/rules/paths.md), less where people stand or loads tip
   add({.name = "pedestrian",
        .sumo_class = "pedestrian",
        .kinematics = Kinematics::Holonomic,

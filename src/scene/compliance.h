@@ -23,6 +23,7 @@ struct Compliance {
 
 /// What was drawn for one agent when it came. The default keeps every rule.
 struct Manners {
+  double path_offset = 0;     ///< where beside its path it likes to be, positive left [m]
   std::uint64_t key = 0;      ///< of its draws an encounter, 0: keeps every rule
   double headway_factor = 1;  ///< on its type's headway
 };

@@ -56,6 +56,8 @@ struct RoadContext {
   double to_halt =
       std::numeric_limits<double>::infinity();  ///< way to where the front comes to rest before a
                                                 ///< link, as things are [m]
+  LaneId merge_to = kNoLane;  ///< lane into which it has to change soon, kNoLane: none
+  double aside = 0;     ///< how far aside of where it likes to be it means to pass others [m, left]
   bool at_red = false;  ///< waits before a red light, if not as the first: others there do, too
   LimitReason reason = LimitReason::None;
   std::int64_t foe = -1;  ///< id of the agent that binds, -1 where none does

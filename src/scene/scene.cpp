@@ -27,25 +27,8 @@ void for_each_array(SceneType& scene, Visit&& visit) {
   visit(scene.control);
   visit(scene.path);
   visit(scene.path_along);
-  visit(scene.path_offset);
-  visit(scene.passing_offset);
-  visit(scene.lateral_aim);
-  visit(scene.overtaking_room);
-  visit(scene.merge_to);
-  visit(scene.gate);
-  visit(scene.blocked_time);
-  visit(scene.wedge_left);
-  visit(scene.backing_left);
-  visit(scene.gives_way_left);
-  visit(scene.keeps_clear);
-  visit(scene.standing_time);
-  visit(scene.stood_at);
-  visit(scene.waiting_time);
-  visit(scene.halted_for);
-  visit(scene.halted_at);
-  visit(scene.next_stop);
-  visit(scene.stop_left);
-  visit(scene.strayed);
+  visit(scene.halt);
+  visit(scene.held);
   visit(scene.lane);
   visit(scene.height);
   visit(scene.context);
@@ -70,13 +53,6 @@ void append_agent(Scene& scene, const AgentState& agent) {
   scene.manners[row] = agent.manners;
   scene.control[row] = agent.control;
   scene.path[row] = agent.path;
-  scene.path_offset[row] = agent.path_offset;
-  scene.passing_offset[row] = agent.path_offset;
-  scene.lateral_aim[row] = agent.path_offset;
-  scene.merge_to[row] = kNoLane;
-  scene.halted_for[row] = kNoConnection;
-  scene.gate[row] = std::numeric_limits<double>::infinity();
-  scene.stood_at[row] = -std::numeric_limits<double>::infinity();
 }
 
 void remove_agents(Scene& scene, const std::vector<bool>& removed) {
@@ -124,23 +100,6 @@ std::uint64_t hash_state(const Scene& scene, std::uint64_t hash) {
     add_double(scene.steering[row]);
   }
   return hash;
-}
-
-void count_standing(double dt, Kinematics kinematics, Scene& scene, std::size_t row) {
-  constexpr double kStands = 0.3, kCreeps = 1.0;  // [m/s]
-  constexpr double kCreepsShare = 0.3;            // of the preferred speed: people on foot
-  constexpr double kForgets = 10.0;               // of the wait, in a second of getting on [s]
-  constexpr double kAll = std::numeric_limits<double>::infinity();
-  const double speed = scene.velocity[row].norm();
-  const double creeping = std::min(kCreeps, kCreepsShare * scene.preferred_speed[row]);
-  // who is pressed back along its way doesn't get on
-  const RoadContext& context = scene.context[row];
-  const double gets_on = context.active ? scene.velocity[row].dot(context.tangent) : speed;
-  scene.standing_time[row] = speed < kStands ? scene.standing_time[row] + dt : 0.0;
-  if (speed < kStands) scene.stood_at[row] = scene.time;
-  const double forgotten = kinematics == Kinematics::Holonomic ? kForgets * dt : kAll;
-  scene.waiting_time[row] = gets_on < creeping ? scene.waiting_time[row] + dt
-                                               : std::max(scene.waiting_time[row] - forgotten, 0.0);
 }
 
 }  // namespace sumogamma

@@ -34,6 +34,19 @@ enum class Control : std::uint8_t {
   Parked,    ///< by nobody: it stands off the road, in a place of the world's
 };
 
+/// Which of its path's planned halts an agent comes to next, or stands at.
+struct PlannedHalt {
+  std::int32_t next = 0;  ///< index into Path::stops
+  double left = 0;        ///< still to stand at the present one [s], 0 where there is none
+};
+
+/// For how long an agent has been held up.
+struct Held {
+  double standing = 0;    ///< since it was last faster than 0.3 m/s [s]
+  double blocked = 0;     ///< for which it has stood although no rule holds it [s]
+  double wedge_left = 0;  ///< for which it still drives as one that was stuck between bodies [s]
+};
+
 /// The state of everybody at one instant: parallel arrays of equal length, one entry an agent, in
 /// order of id. A copyable value, so that a planner can fork it.
 struct Scene {
@@ -54,40 +67,14 @@ struct Scene {
   std::vector<Control> control;
   std::vector<PathId> path;        ///< kNoPath off any network
   std::vector<double> path_along;  ///< of the centre along the path [m]
-  std::vector<double>
-      path_offset;  ///< where beside its path the agent likes to be, positive left [m]
-  std::vector<double> passing_offset;   ///< where it means to be at present [m]
-  std::vector<double> lateral_aim;      ///< on the way from one to the other [m]
-  std::vector<double> overtaking_room;  ///< over the middle of the road that it may use now [m];
-                                        ///< on foot off its way, round a vehicle that stands
-  std::vector<LaneId> merge_to;         ///< lane into which it has to change soon, kNoLane: none
-  std::vector<double> gate;  ///< along its path, where it waits for a gap there; infinite: free
-  std::vector<double> blocked_time;  ///< [s] for which it has stood although no rule holds it
-  std::vector<double> wedge_left;  ///< [s] for which it still drives as one that was stuck between
-                                   ///< bodies
-  std::vector<double> backing_left;    ///< [s] for which it still backs out
-  std::vector<double> gives_way_left;  ///< [s] for which it lets others go first after that
-  std::vector<double> keeps_clear;     ///< [s] for which it has stood because there is no room
-                                       ///< behind a junction, or for others to turn
-  std::vector<double> standing_time;   ///< [s] since it was last faster than 0.3 m/s
-  std::vector<double> stood_at;        ///< when it was last slower than that [s]; -infinity: never
-  std::vector<double> waiting_time;    ///< [s] since it last got on: creeping is none
-  std::vector<ConnectionId> halted_for;  ///< link before which it last came to a halt
-  std::vector<double> halted_at;         ///< when it did [s]
-  std::vector<std::int32_t> next_stop;   ///< index of the path's next planned halt
-  std::vector<double> stop_left;  ///< [s] still to stand at the present halt, 0 where there is none
-  std::vector<double> strayed;    ///< driven without getting on along its path [m]
+  std::vector<PlannedHalt> halt;
+  std::vector<Held> held;
   std::vector<LanePosition> lane;
   std::vector<double> height;        ///< of the ground under the agent [m]: bridges
   std::vector<RoadContext> context;  ///< filled every tick from the frozen scene
 
   std::size_t size() const { return id.size(); }
 };
-
-/// Counts once a tick for how long a row has stood, and for how long it has not got on. On foot a
-/// step forward and back doesn't take the wait back to its beginning, six seconds of walking take a
-/// minute.
-void count_standing(double dt, Kinematics kinematics, Scene& scene, std::size_t row);
 
 /// One agent as a row to append. Everything that has a natural default has it.
 struct AgentState {
@@ -102,7 +89,6 @@ struct AgentState {
   Manners manners;
   Control control = Control::Gamma;
   PathId path = kNoPath;
-  double path_offset = 0;
 };
 
 /// Appends a row. Precondition: its id is larger than every id present (rows stay in order of id).

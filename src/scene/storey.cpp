@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
+#include <cstddef>
 #include <limits>
-#include <optional>
+#include <memory_resource>
 #include <utility>
 #include <vector>
 
@@ -12,8 +12,19 @@ namespace sumogamma {
 
 namespace {
 
-// no road climbs a storey within this [m]
-constexpr double kJoined = 40.0;
+/// A vector on the stack, unless it gets long: these functions are asked for each pair of agents.
+template <typename Value>
+class OnStack {
+ public:
+  OnStack() { values_.reserve(kUsual); }
+  std::pmr::vector<Value>& values() { return values_; }
+
+ private:
+  static constexpr std::size_t kUsual = 48;
+  alignas(Value) std::array<std::byte, kUsual * sizeof(Value)> bytes_;
+  std::pmr::monotonic_buffer_resource memory_{bytes_.data(), bytes_.size()};
+  std::pmr::vector<Value> values_{&memory_};
+};
 
 /// A junction and how far along the road it is from where the search began [m].
 struct Reached {
@@ -21,7 +32,7 @@ struct Reached {
   double way;
 };
 
-void reach(JunctionId junction, double way, std::vector<Reached>& reached) {
+void reach(JunctionId junction, double way, std::pmr::vector<Reached>& reached) {
   if (junction == kNoJunction || way > kJoined) return;
   const auto known = std::find_if(reached.begin(), reached.end(),
                                   [&](const Reached& r) { return r.junction == junction; });
@@ -45,7 +56,8 @@ double way_between(const RoadNetwork& network, const Ground& a, const Ground& b)
     return way <= kJoined ? way : shortest;
   }
   const std::array<Reached, 2> ends = ends_of(network, b);
-  std::vector<Reached> reached;
+  OnStack<Reached> searched;
+  std::pmr::vector<Reached>& reached = searched.values();
   for (const Reached& end : ends_of(network, a)) reach(end.junction, end.way, reached);
   // in the order in which they are come upon, near enough to the order of their ways
   for (std::size_t k = 0; k < reached.size(); ++k) {
@@ -53,88 +65,17 @@ double way_between(const RoadNetwork& network, const Ground& a, const Ground& b)
     for (const Reached& end : ends)
       if (end.junction == here.junction && here.way + end.way <= kJoined)
         shortest = std::min(shortest, here.way + end.way);
-    for (const ConnectionId id : network.junction(here.junction).links) {
-      if (id == kNoConnection) continue;
-      const Connection& link = network.connection(id);
-      for (const LaneId lane : {link.from, link.to}) {
-        const Edge& next = network.edge(network.lane(lane).edge);
-        const double way = here.way + network.lane(lane).centerline.length();
-        reach(next.from, way, reached);
-        reach(next.to, way, reached);
-      }
-    }
+    for (const JunctionNeighbour& next : network.junction(here.junction).neighbours)
+      reach(next.junction, here.way + next.way, reached);
   }
   return shortest;
-}
-
-/// The ends of a line reach a little further: from one lane to the next there may be a gap [m].
-constexpr double kGap = 1.0;
-
-/// Does a share of the piece from point i on lie on the line?
-bool lies_on(const std::vector<Vec2>& line, std::size_t i, double share) {
-  const double gap = kGap / std::max((line[i + 1] - line[i]).norm(), 1e-3);
-  return share >= (i == 0 ? -gap : 0.0) && share <= (i + 2 == line.size() ? 1.0 + gap : 1.0);
-}
-
-/// Successive pieces of a line and a box about them, ends that reach further included. Maps made
-/// from other formats have a point every metre: pieces far apart needn't be held against each
-/// other.
-struct Run {
-  std::size_t begin = 0, end = 0;  ///< pieces
-  Vec2 lower = Vec2::Zero(), upper = Vec2::Zero();
-
-  bool meets(const Run& other) const {
-    return (lower.array() <= other.upper.array()).all() &&
-           (other.lower.array() <= upper.array()).all();
-  }
-};
-
-std::vector<Run> runs_of(const std::vector<Vec2>& line) {
-  constexpr std::size_t kPieces = 16;
-  std::vector<Run> runs;
-  for (std::size_t begin = 0; begin + 1 < line.size(); begin += kPieces) {
-    Run run{begin, std::min(begin + kPieces, line.size() - 1), line[begin], line[begin]};
-    for (std::size_t k = begin; k <= run.end; ++k) {
-      run.lower = run.lower.cwiseMin(line[k]);
-      run.upper = run.upper.cwiseMax(line[k]);
-    }
-    run.lower.array() -= kGap;
-    run.upper.array() += kGap;
-    runs.push_back(run);
-  }
-  return runs;
-}
-
-/// Difference in height where the centerlines of two lanes cross, if they do [m].
-std::optional<double> rise_at_crossing(const Lane& one, const Lane& other) {
-  const std::vector<Vec2>&a = one.centerline.points(), &b = other.centerline.points();
-  const std::vector<Run> others = runs_of(b);
-  std::vector<Run> near;
-  for (const Run& run : runs_of(a)) {
-    near.clear();
-    std::copy_if(others.begin(), others.end(), std::back_inserter(near),
-                 [&](const Run& their) { return run.meets(their); });
-    for (std::size_t i = run.begin; !near.empty() && i < run.end; ++i) {
-      const Vec2 along = a[i + 1] - a[i];
-      for (const Run& their : near)
-        for (std::size_t j = their.begin; j < their.end; ++j) {
-          const Vec2 across = b[j + 1] - b[j];
-          const auto share = crossing_shares(a[i], along, b[j], across);
-          if (!share || !lies_on(a, i, share->x()) || !lies_on(b, j, share->y())) continue;
-          return elevation_at(one, one.centerline.along_of_vertex(i) + share->x() * along.norm()) -
-                 elevation_at(other,
-                              other.centerline.along_of_vertex(j) + share->y() * across.norm());
-        }
-    }
-  }
-  return std::nullopt;
 }
 
 /// Where a place's lane begins or ends nearby the crossing may be on the one before or behind [m].
 constexpr double kSeam = 12.0;
 
 /// Adds a lane and those that it leads into over the next `left` [m].
-void go_on(const RoadNetwork& network, LaneId id, double left, std::vector<LaneId>& lanes) {
+void go_on(const RoadNetwork& network, LaneId id, double left, std::pmr::vector<LaneId>& lanes) {
   if (left < 0.0 || std::find(lanes.begin(), lanes.end(), id) != lanes.end()) return;
   lanes.push_back(id);
   left -= network.lane(id).centerline.length();
@@ -145,7 +86,7 @@ void go_on(const RoadNetwork& network, LaneId id, double left, std::vector<LaneI
 }
 
 /// Adds those that lead into a lane over the last `left` [m] before its begin.
-void go_back(const RoadNetwork& network, LaneId id, double left, std::vector<LaneId>& lanes) {
+void go_back(const RoadNetwork& network, LaneId id, double left, std::pmr::vector<LaneId>& lanes) {
   if (left < 0.0) return;
   auto add = [&](LaneId before) {
     if (std::find(lanes.begin(), lanes.end(), before) != lanes.end()) return;
@@ -163,23 +104,24 @@ void go_back(const RoadNetwork& network, LaneId id, double left, std::vector<Lan
       add(network.connection(link).from);
 }
 
-/// The lane of a place and those that it leads into or comes from within kSeam.
-std::vector<LaneId> lanes_about(const RoadNetwork& network, const Ground& place) {
-  std::vector<LaneId> lanes;
+/// Adds the lane of a place and those that it leads into or comes from within kSeam.
+void add_lanes_about(const RoadNetwork& network, const Ground& place,
+                     std::pmr::vector<LaneId>& lanes) {
   go_on(network, place.lane, kSeam + place.along, lanes);
   go_back(network, place.lane, kSeam - place.along, lanes);
-  return lanes;
 }
 
 /// Does the road of one place, with what it leads into and comes from, cross that of the other
 /// above or below?
 bool crosses_nearby(const RoadNetwork& network, const Ground& a, const Ground& b) {
-  const std::vector<LaneId> others = lanes_about(network, b);
-  for (const LaneId one : lanes_about(network, a))
-    for (const LaneId other : others) {
-      const auto rise = rise_at_crossing(network.lane(one), network.lane(other));
-      if (rise && (std::abs(*rise) > kLeastStorey || layers_differ(network, one, other)))
-        return true;
+  OnStack<LaneId> about_a, about_b;
+  add_lanes_about(network, a, about_a.values());
+  for (const LaneId one : about_a.values())
+    for (const LaneCrossing& crossing : network.lane(one).crossings) {
+      if (!crossing.apart) continue;
+      if (about_b.values().empty()) add_lanes_about(network, b, about_b.values());
+      const auto& others = about_b.values();
+      if (std::find(others.begin(), others.end(), crossing.other) != others.end()) return true;
     }
   return false;
 }
@@ -209,12 +151,6 @@ double way_over_crossing(const RoadNetwork& network, const Ground& a, const Grou
 
 }  // namespace
 
-bool has_storeys(const RoadNetwork& network) {
-  return network.has_layers || !network.overpasses.empty() ||
-         std::any_of(network.lanes.begin(), network.lanes.end(),
-                     [](const Lane& lane) { return !lane.elevation.empty(); });
-}
-
 bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Ground& b) {
   const double rise = std::abs(a.height - b.height);
   const bool layers = layers_differ(network, a.lane, b.lane);
@@ -224,8 +160,8 @@ bool lies_above_or_below(const RoadNetwork& network, const Ground& a, const Grou
   if (a.lane == b.lane && a.lane != kNoLane) return false;
   if (a.lane == kNoLane || b.lane == kNoLane) return rise > kStorey;
   if (std::isfinite(way_between(network, a, b))) return false;
-  const auto at_crossing = rise_at_crossing(network.lane(a.lane), network.lane(b.lane));
-  if (at_crossing) return layers || std::abs(*at_crossing) > kLeastStorey;
+  if (const LaneCrossing* crossing = crossing_with(network.lane(a.lane), b.lane))
+    return crossing->apart;
   return rise > kStorey || crosses_nearby(network, a, b);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "road/lane_crossings.h"
 #include "road/road_network.h"
 #include "scene/scene.h"
 
@@ -21,19 +22,6 @@ inline Ground ground_of(const Scene& scene, std::size_t row) {
 
 /// Ground that differs by more is on another storey, unless the road joins it [m].
 inline constexpr double kStorey = 2.5;
-/// Ground that differs by less is never taken for another storey, whatever the lanes do [m].
-inline constexpr double kLeastStorey = 1.5;
-
-/// Is anything there above anything else?
-bool has_storeys(const RoadNetwork& network);
-
-/// Has OpenStreetMap's map different layers for two lanes? Heights don't tell it everywhere:
-/// netconvert 1.15 gives them to a road's ends only, so that a tunnel between two bridges lies as
-/// high as they do.
-inline bool layers_differ(const RoadNetwork& network, LaneId a, LaneId b) {
-  return network.has_layers && a != kNoLane && b != kNoLane &&
-         network.lane(a).layer != network.lane(b).layer;
-}
 
 /// Do the roads of both lanes cross some road above or below (find_overpasses())?
 inline bool have_overpasses(const RoadNetwork& network, LaneId a, LaneId b) {

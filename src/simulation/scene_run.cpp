@@ -79,8 +79,7 @@ void count_request(const Model& model, const Scene& scene, std::size_t row, cons
   counts.outside_kinematics += outside || cross(widest, Vec2(along, aside)) > kHardViolated;
 }
 
-void move_rows(const AgentTypeTable& types, const std::vector<BodyState>& commands, double dt,
-               Scene& scene, Workers& workers) {
+void move_rows(const std::vector<BodyState>& commands, double dt, Scene& scene, Workers& workers) {
   workers.for_each_range(scene.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       const BodyState& body = commands[row];
@@ -90,7 +89,6 @@ void move_rows(const AgentTypeTable& types, const std::vector<BodyState>& comman
       scene.velocity[row] = body.velocity;
       scene.speed[row] = body.speed;
       scene.steering[row] = body.steering;
-      count_standing(dt, type_of(types, scene.type[row]).kinematics, scene, row);
     }
   });
   scene.tick += 1;
@@ -181,7 +179,7 @@ SceneReport run_scene(const SceneFile& file, const ModelOptions& options, std::s
     });
     cpu += cpu_seconds() - cpu_model;
     wall += wall_seconds() - wall_model;
-    move_rows(model.types, commands, dt, scene, workers);
+    move_rows(commands, dt, scene, workers);
     standstill.update(scene, dt);
     report.state_hash = hash_state(scene, report.state_hash);
     if (observer) observer(scene);

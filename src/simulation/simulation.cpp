@@ -3,11 +3,8 @@
 #include <chrono>
 #include <ctime>
 
-#include "model/backing.h"
-#include "model/detour.h"
-#include "model/locate.h"
-#include "model/lost_way.h"
-#include "model/road_context.h"
+#include "scene/extent.h"
+#include "traffic/recovery/reversing.h"
 
 namespace sumogamma {
 
@@ -37,13 +34,13 @@ class PhaseClock {
 void update_halt(const Path& path, double dt, Scene& scene, std::size_t row) {
   constexpr double kThere = 0.4;   // SUMO counts a stop as reached half a metre before it [m]
   constexpr double kPassed = 5.0;  // [m]
-  const auto next = static_cast<std::size_t>(scene.next_stop[row]);
+  const auto next = static_cast<std::size_t>(scene.halt[row].next);
   if (next >= path.stops.size()) return;
-  if (scene.stop_left[row] > 0.0) {
-    scene.stop_left[row] -= dt;
-    if (scene.stop_left[row] <= 0.0) {
-      scene.stop_left[row] = 0.0;
-      ++scene.next_stop[row];
+  if (scene.halt[row].left > 0.0) {
+    scene.halt[row].left -= dt;
+    if (scene.halt[row].left <= 0.0) {
+      scene.halt[row].left = 0.0;
+      ++scene.halt[row].next;
     }
     return;
   }
@@ -51,12 +48,12 @@ void update_halt(const Path& path, double dt, Scene& scene, std::size_t row) {
                        half_extent(scene, row, path.line.direction_at(scene.path_along[row]));
   const PathStop& stop = path.stops[next];
   const std::size_t foe = foe_row(scene, row);
-  const bool behind_another = foe < scene.size() && scene.stop_left[foe] > 0.0;
+  const bool behind_another = foe < scene.size() && scene.halt[foe].left > 0.0;
   const double there = stop.along - (behind_another ? std::max(stop.room, kThere) : kThere);
   if (front > stop.along + kPassed)
-    ++scene.next_stop[row];  // passed: it began beyond its stop
+    ++scene.halt[row].next;  // passed: it began beyond its stop
   else if (front > there && scene.speed[row] < 0.2)
-    scene.stop_left[row] = std::max(stop.duration, dt);
+    scene.halt[row].left = std::max(stop.duration, dt);
 }
 
 void apply(const BodyState& next, double dt, Scene& scene, std::size_t row) {
@@ -76,27 +73,17 @@ void tick(Simulation& sim, World& world) {
   Scene& scene = sim.scene;
   sim.workspaces.resize(sim.workers->count());
   sim.commands.resize(rows);
-  sim.workers->for_each_range(rows, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      const double before = scene.path_along[row];
-      locate_on_path(sim.model.road, sim.road, scene, row);
-      note_progress(before, sim.dt, scene, row);
-    }
-  });
-  find_ways_back(sim.model, sim.road, scene);
-  prepare_tick(sim.model, scene, *sim.workers, sim.geometry);
-  choose_lanes(sim.model, sim.geometry.grid, sim.dt, *sim.workers, sim.road, scene,
-               sim.lane_choice);
-  if (sim.model.options.take_detours) sim.detours += take_detours(sim.model, sim.road, scene);
-  update_road_contexts(sim.model, sim.road, sim.geometry.grid, sim.dt, *sim.workers, sim.approaches,
-                       scene);
+  const TrafficTick traffic{sim.model, sim.geometry, *sim.workers,      sim.dt,
+                            sim.road,  scene,        sim.traffic.state, sim.traffic.approaches};
+  update_traffic(traffic, sim.traffic);
   clock.end(sim.times.context);
 
   // everyone reads the same frozen scene and writes only its own command
+  const TrafficView view = traffic.view();
   sim.workers->for_each_range(rows, [&](std::size_t worker, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       if (scene.control[row] != Control::Gamma) continue;
-      if (const auto backed = back_out(sim.model, sim.road, scene, sim.geometry, row, sim.dt)) {
+      if (const auto backed = back_out(view, sim.geometry, row, sim.dt)) {
         sim.commands[row] = *backed;
         continue;
       }
@@ -109,15 +96,12 @@ void tick(Simulation& sim, World& world) {
   clock.end(sim.times.model);
 
   for (std::size_t row = 0; row < rows; ++row) {
-    if (scene.control[row] == Control::Gamma) {
-      if (const Path* path = sim.road.path(scene.path[row])) update_halt(*path, sim.dt, scene, row);
-      apply(sim.commands[row], sim.dt, scene, row);
-      ++sim.times.agent_steps;
-    }
-    count_standing(sim.dt, type_of(sim.model.types, scene.type[row]).kinematics, scene, row);
-    update_wedge(sim.dt, scene, row);
-    update_backing(sim.model, sim.geometry, sim.dt, scene, row);
+    if (scene.control[row] != Control::Gamma) continue;
+    if (const Path* path = sim.road.path(scene.path[row])) update_halt(*path, sim.dt, scene, row);
+    apply(sim.commands[row], sim.dt, scene, row);
+    ++sim.times.agent_steps;
   }
+  remember_tick(traffic, sim.traffic);
   ++scene.tick;
   scene.time += sim.dt;
   clock.end(sim.times.track);

@@ -4,11 +4,10 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "model/approaches.h"
 #include "model/gamma_velocity.h"
-#include "model/lane_choice.h"
 #include "model/tracking.h"
 #include "simulation/world.h"
+#include "traffic/pipeline.h"
 
 namespace sumogamma {
 
@@ -27,11 +26,9 @@ struct Simulation {
   double dt = 0.05;  ///< [s]
   std::unique_ptr<Workers> workers = std::make_unique<Workers>(1);
   PhaseTimes times;
-  std::uint64_t detours = 0;  ///< taken by drivers whose way was shut
+  Traffic traffic;
 
   // scratch, meaning nothing between ticks
-  ApproachTable approaches;
-  LaneChoiceWork lane_choice;
   TickGeometry geometry;
   std::vector<Workspace> workspaces;
   std::vector<BodyState> commands;

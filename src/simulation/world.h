@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/road_state.h"
+#include "scene/road_state.h"
 #include "scene/scene.h"
 
 namespace sumogamma {

@@ -48,7 +48,7 @@ StuckAgent stuck_agent(const Scene& scene, std::size_t row, double since) {
 }
 
 bool at_planned_halt(const Scene& scene, std::size_t row) {
-  if (scene.control[row] == Control::Parked || scene.stop_left[row] > 0.0) return true;
+  if (scene.control[row] == Control::Parked || scene.halt[row].left > 0.0) return true;
   return scene.context[row].active && scene.context[row].reason == LimitReason::Stop;
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "model/road_state.h"
 #include "scene/agent_type.h"
+#include "scene/road_state.h"
 #include "scene/scene.h"
 #include "study/agent_track.h"
 #include "study/red_lights.h"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "model/road_state.h"
 #include "road/road_network.h"
+#include "scene/road_state.h"
 #include "scene/scene.h"
 
 namespace sumogamma {

@@ -29,7 +29,7 @@ void EdgeSpeeds::add(const RoadNetwork& network, const Scene& scene) {
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const LaneId id = scene.lane[row].lane;
     // who halts by plan holds up nobody's reckoning
-    if (id == kNoLane || scene.path[row] == kNoPath || scene.stop_left[row] > 0.0) continue;
+    if (id == kNoLane || scene.path[row] == kNoPath || scene.halt[row].left > 0.0) continue;
     const Lane& lane = network.lane(id);
     if (lane.kind != LaneKind::Normal) continue;
     Sum& sum = sums_[index_of(lane.edge)];

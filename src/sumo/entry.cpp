@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/units.h"
 #include "geometry/oriented_box.h"
 #include "geometry/rotation.h"
-#include "model/approaches.h"
-#include "model/following.h"
 #include "model/obstacle_constraints.h"
+#include "scene/extent.h"
+#include "traffic/longitudinal/car_following.h"
 
 namespace sumogamma {
 
@@ -70,86 +71,143 @@ constexpr double kSameWay = 0.95;
 /// Least gap to others with which people start in a crowd [m].
 constexpr double kCrowd = 0.15;
 
-}  // namespace
+/// Nobody further along the path or further aside of it matters to who starts there [m].
+constexpr double kAlong = 80.0, kAside = 30.0;
 
-std::optional<double> entry_speed(const Model& model, const Path& path, const AgentState& agent,
-                                  const Ground& ground, const RoadState& road, const Scene& scene) {
+/// Who may start, where, and what it would like.
+struct Newcomer {
+  const Path& path;
+  const AgentState& agent;
+  const Ground& ground;
+  const AgentType& type;
+  bool on_foot;
+  Vec2 direction;                  ///< of the path
+  double half_length, half_width;  ///< [m]
+  double gap;                      ///< that it keeps to others [m]
+  double ease;                     ///< twice the deceleration at which it stops at ease [m/s^2]
+  double wish;                     ///< speed, if nobody were there [m/s]
+  OrientedBox wanted;              ///< room for the body now, and for what comes from behind
+  OrientedBox alone;               ///< likewise for who comes from aside
+};
+
+/// The speed at which somebody can stop before the first line where it may have to.
+double free_entry_speed(const Model& model, const Newcomer& one) {
+  double speed = one.on_foot ? 0.0 : std::min(one.path.profile_at(0.0), one.agent.preferred_speed);
+  for (const PathLink& link : one.path.links) {
+    if (one.ease * link.stop_line > speed * speed + one.ease * (one.half_length + 1.0)) break;
+    if (needs_care(model, link))
+      speed = std::min(speed,
+                       std::sqrt(one.ease * std::max(link.stop_line - one.half_length - 1.0, 0.0)));
+  }
+  return speed;
+}
+
+Newcomer newcomer_at(const Model& model, const Path& path, const AgentState& agent,
+                     const Ground& ground) {
   const AgentType& type = type_of(model.types, agent.type);
   const bool on_foot = type.kinematics == Kinematics::Holonomic;
-  const Vec2 direction = path.line.direction_at(0.0);
-  const double half_length = agent.footprint.vertices[0].x(),
-               half_width = agent.footprint.vertices[1].y();
-  // room for the body now, and for what comes from behind and goes ahead
+  const Vec2 half(agent.footprint.vertices[0].x(), agent.footprint.vertices[1].y());
   const double gap = on_foot ? kCrowd : type.min_gap;
   const double ease = 2.0 * 0.7 * type.comfortable_deceleration;
-  const Vec2 heading = direction_of(agent.heading);
-  const OrientedBox wanted{agent.position, heading,
-                           Vec2(half_length + gap, half_width + (on_foot ? 0.1 : 0.2))};
-  double speed = on_foot ? 0.0 : std::min(path.profile_at(0.0), agent.preferred_speed);
-  for (const PathLink& link : path.links) {
-    if (ease * link.stop_line > speed * speed + ease * (half_length + 1.0)) break;
-    if (needs_care(model, link))
-      speed = std::min(speed, std::sqrt(ease * std::max(link.stop_line - half_length - 1.0, 0.0)));
-  }
-  const double wish = speed;
+  const Vec2 heading = direction_of(agent.heading), direction = path.line.direction_at(0.0);
+  const OrientedBox wanted{agent.position, heading, half + Vec2(gap, on_foot ? 0.1 : 0.2)};
+  Newcomer one{path,     agent, ground, type, on_foot, direction, half.x(),
+               half.y(), gap,   ease,   0.0,  wanted,  wanted};
+  one.wish = free_entry_speed(model, one);
   // whoever drives on for so long, beside who comes from aside, has nowhere to go [s]
   constexpr double kAlone = 1.0;
-  const double way = on_foot ? 0.0 : kAlone * wish;
-  const OrientedBox alone{agent.position + 0.5 * way * direction, heading,
-                          wanted.half + Vec2(0.5 * way, 0)};
+  const double way = on_foot ? 0.0 : kAlone * one.wish;
+  one.alone.center += 0.5 * way * direction;
+  one.alone.half.x() += 0.5 * way;
+  return one;
+}
+
+/// What an agent that is there already means to who would start.
+struct Bearing {
+  bool bars = false;     ///< there is no room
+  bool follows = false;  ///< it comes from behind, at `speed`, `gap` behind
+  double allowed = std::numeric_limits<double>::infinity();  ///< behind it [m/s]
+  double gap = 0, speed = 0;                                 ///< [m], [m/s]
+};
+
+/// Nor does anybody start before somebody who comes from aside or towards it, or on foot before who
+/// drives.
+bool comes_into_its_way(const EntryView& view, const Newcomer& one, std::size_t row,
+                        const OrientedBox& body) {
+  const Vec2& velocity = view.scene.velocity[row];
+  const AgentType& kind = type_of(view.model.types, view.scene.type[row]);
+  const bool drives = kind.kinematics != Kinematics::Holonomic;
+  const bool from_aside = velocity.dot(one.direction) < kSameWay * velocity.norm();
+  const bool comes_towards = velocity.dot(one.direction) < -0.5 * velocity.norm();
+  return (one.on_foot ? drives : from_aside) &&
+         comes_over(view.model, view.road, view.scene, row, body,
+                    comes_towards ? one.wanted : one.alone);
+}
+
+Bearing bearing_of(const EntryView& view, const Newcomer& one, std::size_t row) {
+  const Scene& scene = view.scene;
+  const Vec2 relative = to_body(scene.position[row] - one.agent.position, one.direction);
+  if (std::abs(relative.x()) > kAlong || std::abs(relative.y()) > kAside) return {};
+  if (on_other_storey(view.model.road, one.ground, ground_of(scene, row))) return {};
+  const OrientedBox other = box_of(scene, row);
+  if (overlap(one.wanted, other)) return {.bars = true};
+  if (comes_into_its_way(view, one, row, other)) return {.bars = true};
+  if (one.on_foot) return {};
+  // who is ahead and not quite in this lane may be on its way into it, and is if it says so
+  const LaneId lane = one.path.stretches.front().lane;
+  const bool comes_in = scene.lane[row].lane == lane || scene.context[row].merge_to == lane;
+  const bool is_ahead = relative.x() > 0.0;
+  const double aside = !is_ahead ? 0.3 : comes_in ? 3.5 : 0.7;
+  // a long body ahead, amid a lane change, has its tail further aside than its middle
+  const double across = is_ahead ? half_extent(scene, row, left_of(one.direction)) : other.half.y();
+  if (std::abs(relative.y()) > one.half_width + across + aside)
+    // who comes from behind out of a bend is beside the line straight back
+    return {.bars = relative.x() < 0.0 &&
+                    comes_over(view.model, view.road, scene, row, other, one.wanted)};
+  const double ahead = scene.velocity[row].dot(one.direction);
+  const double free =
+      std::abs(relative.x()) - one.half_length - scene.footprint[row].radius - one.gap;
+  if (!is_ahead) return {.follows = ahead > 0.1, .gap = free, .speed = ahead};
+  // no faster than stops behind it at ease and than keeps most of its headway; where the gap is
+  // opening, waiting a moment is better than to start slowly in front of others
+  const double leader = std::max(ahead, 0.0);
+  const double safe =
+      std::min(std::sqrt(leader * leader + one.ease * std::max(free - 1.0, 0.0)),
+               std::max(free, 0.0) / (0.6 * one.agent.manners.headway_factor * one.type.headway));
+  return {.bars = safe < 0.8 * std::min(one.wish, leader), .allowed = safe};
+}
+
+}  // namespace
+
+std::optional<double> entry_speed(const EntryView& view, const Path& path, const AgentState& agent,
+                                  const Ground& ground, std::optional<AgentId>& blocker) {
+  const Scene& scene = view.scene;
+  const Newcomer one = newcomer_at(view.model, path, agent, ground);
+  if (blocker) {
+    const std::size_t row = find_row(scene, *blocker);
+    if (row < scene.size() && bearing_of(view, one, row).bars) return std::nullopt;
+  }
+  blocker.reset();
   struct Follower {
     std::size_t row;
     double gap, speed;
   };
   std::vector<Follower> followers;
-  for (std::size_t row = 0; row < scene.size(); ++row) {
-    const Vec2 relative = to_body(scene.position[row] - agent.position, direction);
-    if (std::abs(relative.x()) > 80.0 || std::abs(relative.y()) > 30.0) continue;
-    if (on_other_storey(model.road, ground, ground_of(scene, row))) continue;
-    const OrientedBox other = box_of(scene, row);
-    if (overlap(wanted, other)) return std::nullopt;
-    // nor does anybody start before somebody who comes from aside or towards it, or on foot before
-    // who drives
-    const Vec2 velocity = scene.velocity[row];
-    const AgentType& kind = type_of(model.types, scene.type[row]);
-    const bool drives = kind.kinematics != Kinematics::Holonomic;
-    const bool from_aside = velocity.dot(direction) < kSameWay * velocity.norm();
-    const bool comes_towards = velocity.dot(direction) < -0.5 * velocity.norm();
-    if ((on_foot ? drives : from_aside) &&
-        comes_over(model, road, scene, row, other, comes_towards ? wanted : alone))
-      return std::nullopt;
-    // who is ahead and not quite in this lane may be on its way into it, and is if it says so
-    const LaneId lane = path.stretches.front().lane;
-    const bool comes_in = scene.lane[row].lane == lane || scene.merge_to[row] == lane;
-    const double aside = relative.x() <= 0.0 ? 0.3 : comes_in ? 3.5 : 0.7;
-    if (on_foot) continue;
-    // a long body ahead, amid a lane change, has its tail further aside than its middle
-    const double across =
-        relative.x() > 0.0 ? half_extent(scene, row, left_of(direction)) : other.half.y();
-    if (std::abs(relative.y()) > half_width + across + aside) {
-      // who comes from behind out of a bend is beside the line straight back
-      if (relative.x() < 0.0 && comes_over(model, road, scene, row, other, wanted))
-        return std::nullopt;
-      continue;
-    }
-    const double ahead = scene.velocity[row].dot(direction);
-    const double free = std::abs(relative.x()) - half_length - scene.footprint[row].radius - gap;
-    if (relative.x() > 0.0) {
-      // no faster than stops behind it at ease and than keeps most of its headway; where the gap is
-      // opening, waiting a moment is better than to start slowly in front of others
-      const double leader = std::max(ahead, 0.0);
-      const double safe =
-          std::min(std::sqrt(leader * leader + ease * std::max(free - 1.0, 0.0)),
-                   std::max(free, 0.0) / (0.6 * agent.manners.headway_factor * type.headway));
-      if (safe < 0.8 * std::min(wish, leader)) return std::nullopt;
-      speed = std::min(speed, safe);
-    } else if (ahead > 0.1) {
-      followers.push_back({row, free, ahead});
-    }
-  }
+  double speed = one.wish;
+  const auto look_at = [&](std::size_t row) {
+    if (blocker) return;
+    const Bearing bearing = bearing_of(view, one, row);
+    if (bearing.bars) blocker = scene.id[row];
+    if (bearing.follows) followers.push_back({row, bearing.gap, bearing.speed});
+    speed = std::min(speed, bearing.allowed);
+  };
+  view.grid.visit_within(agent.position, std::hypot(kAlong, kAside) + 1.0,
+                         [&](std::uint32_t row, double) { look_at(row); });
+  for (std::size_t row = view.grid.entries().size(); row < scene.size(); ++row) look_at(row);
+  if (blocker) return std::nullopt;
   for (const Follower& other : followers) {
-    const AgentType& kind = type_of(model.types, scene.type[other.row]);
-    if (following_acceleration(kind, other.speed, std::max(other.speed, 5.0), other.gap + gap,
+    const AgentType& kind = type_of(view.model.types, scene.type[other.row]);
+    if (following_acceleration(kind, other.speed, std::max(other.speed, 5.0), other.gap + one.gap,
                                speed) < -kind.comfortable_deceleration)
       return std::nullopt;
   }

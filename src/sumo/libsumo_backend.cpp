@@ -13,10 +13,8 @@
 
 #include "base/error.h"
 #include "scene/sumo_defaults.h"
-#include "sumo/backend.h"
-#include "sumo/ghost.h"
+#include "sumo/stepped_backend.h"
 #include "sumo/sumo_process.h"
-#include "sumo/watch_list.h"
 
 namespace sumogamma {
 namespace {
@@ -134,7 +132,7 @@ SumoAgentDetails person_details(const std::string& id) {
   return details;
 }
 
-class LibsumoBackend final : public SumoBackend {
+class LibsumoBackend final : public SteppedBackend {
  public:
   explicit LibsumoBackend(const SumoStart& start);
   ~LibsumoBackend() override { shut(); }
@@ -143,23 +141,17 @@ class LibsumoBackend final : public SumoBackend {
   std::string option(const std::string& name) override {
     return guarded([&] { return libsumo::Simulation::getOption(name); });
   }
-  const std::vector<std::string>& signal_ids() const override { return signal_ids_; }
   std::vector<std::string> edge_ids() override {
     return guarded([] { return libsumo::Edge::getIDList(); });
   }
-  double time() const override { return time_; }
   double next_switch(std::size_t signal) override {
     return guarded([&] {
       return value_or(std::numeric_limits<double>::infinity(),
                       [&] { return libsumo::TrafficLight::getNextSwitch(signal_ids_[signal]); });
     });
   }
-  void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
-            SumoStep& result) override;
   std::vector<SumoAgentDetails> details(std::span<const std::string> vehicles,
                                         std::span<const std::string> persons) override;
-  void watch(const std::string& id, bool is_person) override { watched_.add(id, is_person); }
-  void unwatch(const std::string& id, bool is_person) override { watched_.drop(id, is_person); }
   void remove_vehicle(const std::string& id) override;
   StageKind finish_stage(const std::string& person) override;
   std::vector<std::string> present_vehicles() override {
@@ -184,7 +176,6 @@ class LibsumoBackend final : public SumoBackend {
   void set_parameter(const std::string& vehicle, const std::string& key,
                      const std::string& value) override;
   void override_detectors(std::span<const std::pair<std::string, double>> detectors) override;
-  const std::vector<Detector>& detectors() const override { return detectors_; }
   std::vector<std::string> take_warnings() override {
     std::vector<std::string> all = std::exchange(warnings_, {});
     for (const std::string& line : output_.take_first_warnings()) all.push_back("SUMO: " + line);
@@ -192,6 +183,18 @@ class LibsumoBackend final : public SumoBackend {
   }
   long sumo_warnings() const override { return output_.warnings(); }
   void close() override { shut(); }
+
+ protected:
+  void talk_to_sumo(const std::function<void()>& talk) override { guarded(talk); }
+  void move_and_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
+                     SumoStep& result) override;
+  std::vector<std::string> route_of(const std::string& vehicle) override {
+    return value_or(std::vector<std::string>(),
+                    [&] { return libsumo::Vehicle::getRoute(vehicle); });
+  }
+  std::optional<GhostObservation> observe(const std::string& id, bool is_person) override;
+  void read_watched(const std::vector<WatchList::Entry>& entries, std::vector<SumoAgent>& agents,
+                    std::vector<WatchList::Entry>& gone) override;
 
  private:
   void shut();
@@ -202,22 +205,12 @@ class LibsumoBackend final : public SumoBackend {
   void read_inventory();
   void move(std::span<const SumoPose> poses, bool is_person, SumoStep& result);
   void read_step(SumoStep& result);
-  void read_watched(SumoStep& result);
-  void finish_test(GhostSelfTest& test, bool is_person, std::span<const SumoPose> poses,
-                   const SumoStep& result, GhostObservation sent);
 
   SumoStart start_;
   bool open_ = false;
-  bool started_ = false;
   bool moves_pending_ = false;
   std::string version_;
-  double time_ = 0;
-  std::vector<std::string> signal_ids_;
-  std::vector<Detector> detectors_;
-  std::vector<std::string> warnings_;
   SumoOutput output_;
-  WatchList watched_;
-  GhostSelfTest vehicle_test_{false}, person_test_{true};
 };
 
 LibsumoBackend::LibsumoBackend(const SumoStart& start) : start_(start) {
@@ -303,8 +296,7 @@ void LibsumoBackend::read_inventory() {
 }
 
 void LibsumoBackend::move(std::span<const SumoPose> poses, bool is_person, SumoStep& result) {
-  const GhostArguments arguments =
-      ghost_arguments((is_person ? person_test_ : vehicle_test_).mode());
+  const GhostArguments arguments = ghost_arguments(mode(is_person));
   static const std::string kNoHint;
   for (const SumoPose& pose : poses) {
     const double angle = wrapped_degrees(pose.angle);
@@ -342,104 +334,72 @@ void LibsumoBackend::read_step(SumoStep& result) {
     result.signal_states[i] = libsumo::TrafficLight::getRedYellowGreenState(signal_ids_[i]);
 }
 
-void LibsumoBackend::step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
-                          SumoStep& result) {
-  guarded([&] {
-    for (const SumoPose& pose : vehicles)
-      require_finite_pose(*pose.id, pose.position, pose.angle, pose.speed);
-    for (const SumoPose& pose : persons)
-      require_finite_pose(*pose.id, pose.position, pose.angle, pose.speed);
-    result.lost.clear();
-    result.gone.clear();
-    GhostObservation sent_vehicle;
-    if (vehicle_test_.pending() && !vehicles.empty())
-      sent_vehicle.route = value_or(std::vector<std::string>(), [&] {
-        return libsumo::Vehicle::getRoute(*vehicles.front().id);
-      });
-    moves_pending_ = !vehicles.empty() || !persons.empty();
-    move(vehicles, false, result);
-    move(persons, true, result);
-    libsumo::Simulation::step();
-    moves_pending_ = false;
-    read_step(result);
-    time_ = result.time;
-    started_ = true;
-    finish_test(vehicle_test_, false, vehicles, result, sent_vehicle);
-    finish_test(person_test_, true, persons, result, GhostObservation());
-    for (const std::string& id : result.arrived_vehicles) unwatch(id, false);
-    for (const std::string& id : result.arrived_persons) unwatch(id, true);
-    read_watched(result);
-  });
+void LibsumoBackend::move_and_step(std::span<const SumoPose> vehicles,
+                                   std::span<const SumoPose> persons, SumoStep& result) {
+  moves_pending_ = !vehicles.empty() || !persons.empty();
+  move(vehicles, false, result);
+  move(persons, true, result);
+  libsumo::Simulation::step();
+  moves_pending_ = false;
+  read_step(result);
 }
 
 template <typename Kind>
-bool observe(const std::string& id, GhostObservation& reported) {
+std::optional<GhostObservation> observe_as(const std::string& id) {
   try {
     const libsumo::TraCIPosition position = Kind::getPosition(id);
-    reported.position = {position.x, position.y};
-    reported.angle = Kind::getAngle(id);
-    reported.lane = Kind::getLaneID(id);
+    return GhostObservation{{position.x, position.y}, Kind::getAngle(id), Kind::getLaneID(id), {}};
   } catch (const std::exception&) {
-    return false;
+    return std::nullopt;
   }
-  return true;
 }
 
-void LibsumoBackend::finish_test(GhostSelfTest& test, bool is_person,
-                                 std::span<const SumoPose> poses, const SumoStep& result,
-                                 GhostObservation sent) {
-  if (!test.pending() || poses.empty()) return;
-  const SumoPose& pose = poses.front();
-  if (std::find(result.lost.begin(), result.lost.end(), *pose.id) != result.lost.end()) return;
-  sent.position = pose.position;
-  sent.angle = wrapped_degrees(pose.angle);
-  GhostObservation reported;
-  const bool there = is_person ? observe<libsumo::Person>(*pose.id, reported)
-                               : observe<libsumo::Vehicle>(*pose.id, reported);
-  if (!there) return;  // it left within this very step: the next one is tested
-  if (!is_person)
-    reported.route =
-        value_or(std::vector<std::string>(), [&] { return libsumo::Vehicle::getRoute(*pose.id); });
-  const std::string warning = test.judge(sent, reported);
-  if (!warning.empty()) warnings_.push_back(warning);
+std::optional<GhostObservation> LibsumoBackend::observe(const std::string& id, bool is_person) {
+  if (is_person) return observe_as<libsumo::Person>(id);
+  auto seen = observe_as<libsumo::Vehicle>(id);
+  if (seen) seen->route = route_of(id);
+  return seen;
 }
 
-void LibsumoBackend::read_watched(SumoStep& result) {
-  const std::vector<WatchList::Entry>& entries = watched_.entries();
-  result.agents.resize(entries.size());
+template <typename Kind>
+void read_agent_as(const std::string& id, SumoAgent& agent) {
+  const libsumo::TraCIPosition position = Kind::getPosition(id);
+  agent.position = {position.x, position.y};
+  agent.angle = Kind::getAngle(id);
+  agent.speed = Kind::getSpeed(id);
+  agent.lane = Kind::getLaneID(id);
+  agent.lane_position = Kind::getLanePosition(id);
+}
+
+void read_agent(const WatchList::Entry& entry, SumoAgent& agent) {
+  agent.id = entry.id;
+  agent.is_person = entry.is_person;
+  agent.stop_state = agent.stages_left = 0;
+  agent.rides.clear();
+  if (entry.is_person) {
+    read_agent_as<libsumo::Person>(entry.id, agent);
+    agent.rides = libsumo::Person::getVehicle(entry.id);
+    agent.stages_left = libsumo::Person::getRemainingStages(entry.id);
+  } else {
+    read_agent_as<libsumo::Vehicle>(entry.id, agent);
+    agent.stop_state = libsumo::Vehicle::getStopState(entry.id);
+  }
+}
+
+void LibsumoBackend::read_watched(const std::vector<WatchList::Entry>& entries,
+                                  std::vector<SumoAgent>& agents,
+                                  std::vector<WatchList::Entry>& gone) {
+  agents.resize(entries.size());
   std::size_t kept = 0;
-  std::vector<WatchList::Entry> gone;
   for (const WatchList::Entry& entry : entries) {
-    SumoAgent& agent = result.agents[kept];
     try {
-      const libsumo::TraCIPosition position = entry.is_person
-                                                  ? libsumo::Person::getPosition(entry.id)
-                                                  : libsumo::Vehicle::getPosition(entry.id);
-      agent.position = {position.x, position.y};
-      agent.angle = entry.is_person ? libsumo::Person::getAngle(entry.id)
-                                    : libsumo::Vehicle::getAngle(entry.id);
-      agent.speed = entry.is_person ? libsumo::Person::getSpeed(entry.id)
-                                    : libsumo::Vehicle::getSpeed(entry.id);
-      agent.lane = entry.is_person ? libsumo::Person::getLaneID(entry.id)
-                                   : libsumo::Vehicle::getLaneID(entry.id);
-      agent.lane_position = entry.is_person ? libsumo::Person::getLanePosition(entry.id)
-                                            : libsumo::Vehicle::getLanePosition(entry.id);
-      agent.stop_state = entry.is_person ? 0 : libsumo::Vehicle::getStopState(entry.id);
-      agent.rides = entry.is_person ? libsumo::Person::getVehicle(entry.id) : std::string();
-      agent.stages_left = entry.is_person ? libsumo::Person::getRemainingStages(entry.id) : 0;
+      read_agent(entry, agents[kept]);
+      ++kept;
     } catch (const std::exception&) {
       gone.push_back(entry);
-      continue;
     }
-    agent.id = entry.id;
-    agent.is_person = entry.is_person;
-    ++kept;
   }
-  result.agents.resize(kept);
-  for (const WatchList::Entry& entry : gone) {
-    result.gone.emplace_back(entry.is_person, entry.id);
-    unwatch(entry.id, entry.is_person);
-  }
+  agents.resize(kept);
 }
 
 std::vector<SumoAgentDetails> LibsumoBackend::details(std::span<const std::string> vehicles,

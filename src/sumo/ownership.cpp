@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "model/approaches.h"
-#include "sumo/sumo_agents.h"
+#include "scene/extent.h"
+#include "sumo/ghosts.h"
 #include "sumo/sumo_world.h"
 
 namespace sumogamma {
@@ -42,7 +42,7 @@ bool SumoWorld::changes_hands() const {
 
 /// Does a rule, or another client, want an agent at a place now? `ours`: it is already; else only
 /// rules count that depend on place or time.
-bool SumoWorld::is_wanted(const Known& known, const Vec2& position, bool ours) const {
+bool SumoWorld::is_wanted(const KnownAgent& known, const Vec2& position, bool ours) const {
   if (known.sumos_own) return false;
   if (!known.wish.empty()) return known.wish == "take";
   for (std::size_t i = 0; i < options_.control.rules.size(); ++i) {
@@ -72,8 +72,8 @@ void SumoWorld::read_wishes() {
   if (!options_.others_steer || time_ < next_wishes_) return;
   next_wishes_ = time_ + kInterval;
   std::vector<std::string> ids;
-  std::vector<Known*> whose;
-  for (Known& known : known_) {
+  std::vector<KnownAgent*> whose;
+  for (KnownAgent& known : known_) {
     if (known.is_person || !journeys_.contains({false, known.sumo_id})) continue;
     ids.push_back(known.sumo_id);
     whose.push_back(&known);
@@ -85,21 +85,21 @@ void SumoWorld::read_wishes() {
 
 /// Is an agent in no conflict that the driver before has to solve?
 bool SumoWorld::may_take(const Scene& scene, std::size_t row) const {
-  const Known& known = known_[scene.id[row].value];
+  const KnownAgent& known = known_[scene.id[row].value];
   if (touches(scene, row)) return false;
   if (known.is_person) return true;
   const bool on_lane =
       known.lane == kNoLane || model_.road.lane(known.lane).kind == LaneKind::Normal;
-  return on_lane && !overtakes(scene, row) && has_room_for(scene, row);
+  return on_lane && !overtakes(scene, row) && has_room_for(scene, ghosts_, row);
 }
 
 /// Is a vehicle of ours where SUMO can go on with it as it drives: on the middle of a lane, along
 /// that, with room about it?
 bool SumoWorld::may_give(const Scene& scene, std::size_t row) const {
   constexpr double kOffset = 0.1, kAngle = 0.03, kBeforeEnd = 8.0;  // [m], [rad], [m]
-  const Known& known = known_[scene.id[row].value];
+  const KnownAgent& known = known_[scene.id[row].value];
   const LanePosition& place = scene.lane[row];
-  if (place.lane == kNoLane || known.service != Service::None) return false;
+  if (place.lane == kNoLane || known.service != StopService::None) return false;
   const Lane& lane = model_.road.lane(place.lane);
   const double half = 0.5 * known.length;
   if (lane.kind != LaneKind::Normal || place.along < half ||
@@ -113,7 +113,7 @@ bool SumoWorld::may_give(const Scene& scene, std::size_t row) const {
   const PathStretch& stretch = road_->path(scene.path[row])->stretch_at(scene.path_along[row]);
   return now.distance < kOffset && std::abs(cross(forward, along)) < kAngle &&
          std::abs(cross(before, ahead)) < kAngle && along.dot(forward) > 0.0 &&
-         stretch.lane == place.lane && !stretch.changing && has_room_for(scene, row);
+         stretch.lane == place.lane && !stretch.changing && has_room_for(scene, ghosts_, row);
 }
 
 /// Gives back those whom no rule wants any more, once they may be.
@@ -123,9 +123,9 @@ void SumoWorld::hand_back(Scene& scene) {
   for (std::size_t row = 0; row < scene.size(); ++row) {
     if (scene.control[row] != Control::Gamma) continue;
     const AgentId id = scene.id[row];
-    Known& known = known_[id.value];
+    KnownAgent& known = known_[id.value];
     if (is_wanted(known, scene.position[row], true)) {
-      if (std::exchange(known.leaves, false)) scene.path_offset[row] = known.liked_offset;
+      if (std::exchange(known.leaves, false)) scene.manners[row].path_offset = known.liked_offset;
       continue;
     }
     if (known.is_person) {
@@ -137,15 +137,15 @@ void SumoWorld::hand_back(Scene& scene) {
       continue;
     }
     if (!std::exchange(known.leaves, true)) {
-      known.liked_offset = scene.path_offset[row];
-      scene.path_offset[row] = 0.0;
+      known.liked_offset = scene.manners[row].path_offset;
+      scene.manners[row].path_offset = 0.0;
     }
     if (may_give(scene, row)) give(id, scene, row);
   }
 }
 
 void SumoWorld::give(AgentId id, Scene& scene, std::size_t row) {
-  Known& known = known_[id.value];
+  KnownAgent& known = known_[id.value];
   const Vec2 forward = direction_of(scene.heading[row]);
   const Vec2 front = scene.position[row] + 0.5 * known.length * forward;
   const SumoPose pose{&known.sumo_id, front, sumo_from_heading(scene.heading[row])};
@@ -158,52 +158,50 @@ void SumoWorld::give(AgentId id, Scene& scene, std::size_t row) {
   known.leaves = false;
   known.lane_name.clear();
   known.lane = kNoLane;
-  known.keeps_lane_until = time_ + kSettles;
-  known.watched_steps = 0;
-  known.hand_back = {};
-  known.last_front = front;
-  known.last_angle = scene.heading[row];
-  known.last_speed = scene.speed[row];
+  known.hold.keeps_lane_until = time_ + kSettles;
+  known.hand_back = {0, {}, front, scene.heading[row], scene.speed[row]};
   scene.control[row] = Control::External;
   ++life_cycle_.handed_back;
   spdlog::debug("{:.2f} s: {} is SUMO's again", time_, known.sumo_id);
 }
 
 /// The step in which it was put onto its lane shows the very pose that was written.
-void SumoWorld::watch_hand_back(const SumoAgent& seen, Known& known) {
+void SumoWorld::watch_hand_back(const SumoAgent& seen, HandBackWatch& watch) {
   const double heading = heading_from_sumo(seen.angle);
-  if (known.watched_steps > 0) {
-    const Vec2 led = known.last_front + 0.5 * (known.last_speed + seen.speed) * options_.dt *
-                                            direction_of(known.last_angle);
-    HandBack& most = known.hand_back;
+  if (watch.steps > 0) {
+    const Vec2 led = watch.last_front + 0.5 * (watch.last_speed + seen.speed) * options_.dt *
+                                            direction_of(watch.last_heading);
+    HandBack& most = watch.seen;
     most.position = std::max(most.position, (seen.position - led).norm());
     most.heading =
-        std::max(most.heading, std::abs(std::remainder(heading - known.last_angle, 2.0 * kPi)));
-    const double change = std::abs(seen.speed - known.last_speed);
+        std::max(most.heading, std::abs(std::remainder(heading - watch.last_heading, 2.0 * kPi)));
+    const double change = std::abs(seen.speed - watch.last_speed);
     most.speed = std::max(most.speed, change);
     most.acceleration = std::max(most.acceleration, change / options_.dt);
   }
-  known.last_front = seen.position;
-  known.last_angle = heading;
-  known.last_speed = seen.speed;
-  if (++known.watched_steps <= kWatched) return;
-  known.watched_steps = -1;
-  coupling_.hand_backs.push_back(known.hand_back);
+  watch.last_front = seen.position;
+  watch.last_heading = heading;
+  watch.last_speed = seen.speed;
+  if (++watch.steps <= kWatched) return;
+  watch.steps = -1;
+  coupling_.hand_backs.push_back(watch.seen);
 }
 
 /// From SUMO to us, in motion: the pose stays, only who decides on the next one changes. It stays
 /// ours until it arrives, but for its halts.
 void SumoWorld::take_over(AgentId id, Scene& scene, std::size_t row) {
-  Known& known = known_[id.value];
+  KnownAgent& known = known_[id.value];
   backend_.unwatch(known.sumo_id, known.is_person);
   if (!known.is_person) backend_.take_over(known.sumo_id, scene.speed[row]);
-  known.external = known.speed_held = known.lane_held = known.resumes = known.keeps_place = false;
-  known.service = Service::None;
-  known.watched_steps = -1;
-  scene.stop_left[row] = 0.0;
+  known.external = known.hold.speed = known.hold.lane = known.resumes = known.keeps_place = false;
+  known.service = StopService::None;
+  known.hand_back.steps = -1;
+  scene.halt[row].left = 0.0;
   scene.control[row] = Control::Gamma;
+  const double liked = scene.manners[row].path_offset;
   scene.manners[row] =
       draw_manners(type_of(model_.types, scene.type[row]).compliance, options_.seed, id.value);
+  scene.manners[row].path_offset = liked;
   scene.steering[row] = 0.0;
   external_ids_.erase({known.is_person, known.sumo_id});
 }

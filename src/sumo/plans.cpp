@@ -10,8 +10,9 @@
 #include <utility>
 
 #include "base/units.h"
-#include "model/approaches.h"
 #include "road/lane_locator.h"
+#include "scene/extent.h"
+#include "sumo/ghosts.h"
 #include "sumo/sumo_agents.h"
 #include "sumo/sumo_world.h"
 
@@ -50,23 +51,11 @@ std::shared_ptr<const Path> SumoWorld::way_of(SumoAgentDetails& details, AgentTy
   choose_speed_factor(type_of(model_.types, type), options_.seed, details);
   choose_mid_block(type_of(model_.types, type), options_.seed, details);
   std::string why;
-  auto path = path_of(model_, details, type, why, limits_);
+  auto path = path_of(model_, details, type, why, limits_.limits);
   if (path) return path;
   ++life_cycle_.left_to_sumo[why];
   spdlog::warn("{}: left to SUMO: {}", details.id, why);
   return nullptr;
-}
-
-/// Does a row's body touch another? SUMO inserts and parks vehicles over one another, and drives
-/// them apart; we couldn't.
-bool SumoWorld::touches(const Scene& scene, std::size_t row) const {
-  constexpr double kApart = 0.05, kReach = 20.0;  // [m]
-  const OrientedBox own = box_of(scene, row);
-  for (std::size_t other = 0; other < scene.size(); ++other)
-    if (other != row && (scene.position[other] - own.center).norm() < kReach &&
-        separation(own, box_of(scene, other)) < kApart)
-      return true;
-  return false;
 }
 
 bool SumoWorld::is_out_of_sight(const SumoAgent& seen, double length, const Scene& scene) const {
@@ -93,8 +82,8 @@ bool SumoWorld::is_out_of_sight(const SumoAgent& seen, double length, const Scen
 
 void SumoWorld::leave_sight(const SumoAgent& seen, AgentId id, std::size_t row, Scene& scene,
                             RoadState& road, std::vector<bool>& removed) {
-  const Known& known = known_[id.value];
-  Pending absent;
+  const KnownAgent& known = known_[id.value];
+  PendingAgent absent;
   absent.details.id = seen.id;
   absent.details.is_person = seen.is_person;
   absent.details.length = known.length;
@@ -109,7 +98,7 @@ void SumoWorld::leave_sight(const SumoAgent& seen, AgentId id, std::size_t row, 
 void SumoWorld::watch_absent(const SumoAgent& seen, const Scene& scene) {
   const auto absent = absent_.find({seen.is_person, seen.id});
   if (is_out_of_sight(seen, absent->second.details.length, scene)) return;
-  Pending pending = std::move(absent->second);
+  PendingAgent pending = std::move(absent->second);
   absent_.erase(absent);
   if (pending.resumes && rejoin(seen, !seen.is_person)) return;
   // SUMO moves it on, or it waits for its next ride
@@ -126,10 +115,10 @@ bool SumoWorld::rejoin(const SumoAgent& seen, bool parked) {
   if (!details || (seen.is_person && details->stage != StageKind::Walking)) return false;
   const auto type = agent_type_of(model_.types, *details);
   if (!type) return false;
-  Pending pending;
+  PendingAgent pending;
   pending.type = rows_.row_of(*type, *details);
-  pending.path = way_of(*details, pending.type);
-  if (!pending.path) return false;
+  pending.entry.path = way_of(*details, pending.type);
+  if (!pending.entry.path) return false;
   if (parked) {
     pending.waits_at = seen.position;
     pending.waiting_angle = seen.angle;
@@ -158,7 +147,7 @@ bool SumoWorld::walk_on(Scene& scene, RoadState& road, std::size_t row) {
 
 /// A person whose walk is over and who waits now, for a time or for a ride: SUMO tells where.
 void SumoWorld::hand_over_person(AgentId id, std::size_t row, Scene& scene, RoadState& road) {
-  Known& known = known_[id.value];
+  KnownAgent& known = known_[id.value];
   known.external = known.resumes = known.keeps_place = true;
   known.stages_left = 0;
   written_.erase(known.sumo_id);
@@ -176,13 +165,13 @@ void SumoWorld::hand_over_person(AgentId id, std::size_t row, Scene& scene, Road
 bool SumoWorld::take_back(const SumoAgent& seen, AgentId id, std::size_t row, Scene& scene,
                           RoadState& road) {
   constexpr double kPatience = 5.0;  // [s]
-  Known& known = known_[id.value];
+  KnownAgent& known = known_[id.value];
   if (seen.is_person) {
     const int before = std::exchange(known.stages_left, seen.stages_left);
     if (before == 0 || before == seen.stages_left) return false;
   } else {
-    if (stop_state::stopped(seen.stop_state)) known.service = Service::Standing;
-    const bool to_stop = known.service == Service::Asked && time_ < known.asked_at + kPatience;
+    if (stop_state::stopped(seen.stop_state)) known.service = StopService::Standing;
+    const bool to_stop = known.service == StopService::Asked && time_ < known.asked_at + kPatience;
     if (stop_state::stopped(seen.stop_state) || to_stop || scene.control[row] == Control::Parked)
       return false;
     const auto lane = model_.road.lane_by_name.find(seen.lane);
@@ -202,7 +191,7 @@ bool SumoWorld::take_back(const SumoAgent& seen, AgentId id, std::size_t row, Sc
   known.route = std::move(details->route);
   scene.path[row] = static_cast<PathId>(id.value);
   scene.path_along[row] = path->line.project(scene.position[row]).along;
-  scene.next_stop[row] = 0;
+  scene.halt[row].next = 0;
   road.paths[id.value] = std::move(path);
   take_over(id, scene, row);
   return true;
@@ -212,13 +201,13 @@ bool SumoWorld::take_back(const SumoAgent& seen, AgentId id, std::size_t row, Sc
 void SumoWorld::begin_services(Scene& scene, const RoadState& road) {
   constexpr double kBefore = 0.1;  // SUMO refuses a stop that a vehicle has passed [m]
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (scene.stop_left[row] != kForever || scene.control[row] != Control::Gamma) continue;
+    if (scene.halt[row].left != kForever || scene.control[row] != Control::Gamma) continue;
     const AgentId id = scene.id[row];
-    Known& known = known_[id.value];
-    if (known.service != Service::None) continue;
+    KnownAgent& known = known_[id.value];
+    if (known.service != StopService::None) continue;
     const Path& path = *road.path(scene.path[row]);
     const auto plan =
-        static_cast<std::size_t>(path.stops[static_cast<std::size_t>(scene.next_stop[row])].plan);
+        static_cast<std::size_t>(path.stops[static_cast<std::size_t>(scene.halt[row].next)].plan);
     const SumoAgentDetails::Stop& stop = known.stops[plan];
     const Lane& lane = model_.road.lane(model_.road.lane_by_name.at(stop.lane));
     const Vec2 forward = direction_of(scene.heading[row]);
@@ -243,7 +232,7 @@ void SumoWorld::begin_services(Scene& scene, const RoadState& road) {
     backend_.watch(known.sumo_id, false);
     external_ids_.insert_or_assign({false, known.sumo_id}, id);
     written_.erase(known.sumo_id);
-    known.service = Service::Asked;
+    known.service = StopService::Asked;
     known.asked_at = time_;
     spdlog::debug("{:.2f} s: {} halts on {} for its stop, {}", time_, known.sumo_id, stop.lane,
                   listed ? "which SUMO has" : "which SUMO is told again");
@@ -255,10 +244,10 @@ void SumoWorld::follow_service(const SumoAgent& seen, AgentId id, std::size_t ro
                                RoadState& road, std::vector<bool>& removed) {
   constexpr double kSettles = 2.0, kPatience = 10.0;  // [s]
   constexpr double kDrivesOn = 0.3;                   // [m/s]
-  Known& known = known_[id.value];
+  KnownAgent& known = known_[id.value];
   if (stop_state::stopped(seen.stop_state)) {
-    if (known.service == Service::Asked) ++life_cycle_.stops_served;
-    known.service = Service::Standing;
+    if (known.service == StopService::Asked) ++life_cycle_.stops_served;
+    known.service = StopService::Standing;
     if (!stop_state::parked(seen.stop_state)) return;
     backend_.allow_lane_changes(known.sumo_id, true);
     known.external = known.resumes = true;
@@ -269,12 +258,12 @@ void SumoWorld::follow_service(const SumoAgent& seen, AgentId id, std::size_t ro
     follow(seen, id, row, scene, road, removed);
     return;
   }
-  if (known.service == Service::Asked) {
+  if (known.service == StopService::Asked) {
     // until SUMO counts it as there; who finds its parking place full may wait, or be sent on
     if (seen.speed < kDrivesOn && time_ < known.asked_at + kPatience) return;
     if (time_ < known.asked_at + kSettles) return;
     const auto details = details_of(known.sumo_id, false);
-    const std::size_t next = static_cast<std::size_t>(scene.next_stop[row]);
+    const std::size_t next = static_cast<std::size_t>(scene.halt[row].next);
     const auto plan = static_cast<std::size_t>(road.path(scene.path[row])->stops[next].plan);
     if (seen.speed < kDrivesOn && details && !details->stops.empty() &&
         same_stop(details->stops.front(), known.stops[plan])) {
@@ -286,16 +275,16 @@ void SumoWorld::follow_service(const SumoAgent& seen, AgentId id, std::size_t ro
 }
 
 void SumoWorld::end_service(AgentId id, std::size_t row, Scene& scene, RoadState& road) {
-  Known& known = known_[id.value];
+  KnownAgent& known = known_[id.value];
   spdlog::debug("{:.2f} s: {} goes on {}", time_, known.sumo_id,
-                known.service == Service::Standing ? "from its stop" : "without its stop");
-  known.service = Service::None;
+                known.service == StopService::Standing ? "from its stop" : "without its stop");
+  known.service = StopService::None;
   backend_.unwatch(known.sumo_id, false);
   backend_.allow_lane_changes(known.sumo_id, true);
   backend_.take_over(known.sumo_id, 0.0);
   external_ids_.erase({false, known.sumo_id});
-  scene.stop_left[row] = 0.0;
-  ++scene.next_stop[row];
+  scene.halt[row].left = 0.0;
+  ++scene.halt[row].next;
   auto details = details_of(known.sumo_id, false);
   if (!details) return;
   const Path& path = *road.path(scene.path[row]);

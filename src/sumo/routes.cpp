@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "base/units.h"
-#include "model/locate.h"
+#include "scene/locate.h"
 #include "sumo/sumo_agents.h"
 #include "sumo/sumo_world.h"
 
@@ -30,12 +30,12 @@ bool SumoWorld::follow_sumos_route(SumoAgentDetails& details, AgentId id, std::s
                                    Scene& scene, RoadState& road) {
   auto path = way_of(details, scene.type[row]);
   if (!path) return false;
-  Known& known = known_[id.value];
+  KnownAgent& known = known_[id.value];
   known.stops = std::move(details.stops);
   known.route = std::move(details.route);
   known.trip = path->trip;
   scene.path_along[row] = path->line.project(scene.position[row]).along;
-  scene.next_stop[row] = 0;
+  scene.halt[row].next = 0;
   road.paths[id.value] = std::move(path);
   return true;
 }
@@ -62,7 +62,7 @@ bool SumoWorld::enters_rerouter(const Scene& scene, std::size_t row) {
   if (at_rerouter_.empty() || scene.lane[row].lane == kNoLane) return false;
   const Lane& lane = model_.road.lane(scene.lane[row].lane);
   if (lane.kind != LaneKind::Normal) return false;
-  Known& known = known_[scene.id[row].value];
+  KnownAgent& known = known_[scene.id[row].value];
   if (known.edge == lane.edge) return false;
   known.edge = lane.edge;
   return at_rerouter_[index_of(lane.edge)];
@@ -72,7 +72,7 @@ bool SumoWorld::enters_rerouter(const Scene& scene, std::size_t row) {
 void SumoWorld::tell_routes(const Scene& scene, const RoadState& road) {
   for (std::size_t row = 0; row < scene.size(); ++row) {
     if (scene.control[row] != Control::Gamma) continue;
-    Known& known = known_[scene.id[row].value];
+    KnownAgent& known = known_[scene.id[row].value];
     const Path* path = road.path(scene.path[row]);
     if (path == nullptr || !path->trip || path->trip == known.trip) continue;
     const bool first = known.trip == nullptr;
@@ -99,8 +99,9 @@ void SumoWorld::look_for_faster_routes(Scene& scene, RoadState& road) {
   bool told = false;
   for (std::size_t row = 0; row < scene.size(); ++row) {
     if (scene.control[row] != Control::Gamma) continue;
-    Known& known = known_[scene.id[row].value];
-    if (known.reroute_period <= 0.0 || time_ < known.next_reroute || known.service != Service::None)
+    KnownAgent& known = known_[scene.id[row].value];
+    if (known.reroute_period <= 0.0 || time_ < known.next_reroute ||
+        known.service != StopService::None)
       continue;
     const Path& path = *road.path(scene.path[row]);
     const PathStretch& here = path.stretch_at(scene.path_along[row]);
@@ -130,38 +131,17 @@ void SumoWorld::look_for_faster_routes(Scene& scene, RoadState& road) {
   }
 }
 
-/// Variable speed signs, and what another client sets: lanes' present limits, once a second.
-void SumoWorld::read_speed_limits(const Scene& scene, RoadState& road) {
-  constexpr double kInterval = 1.0;  // [s]
-  if (!limits_ || time_ < next_limits_) return;
-  next_limits_ = time_ + kInterval;
-  std::vector<std::string> names;
-  for (const LaneId lane : limited_) names.push_back(model_.road.lane(lane).name);
-  const std::vector<double> speeds = backend_.lane_speeds(names);
-  std::vector<bool> changed(model_.road.lanes.size(), false);
-  bool any = false;
-  for (std::size_t i = 0; i < limited_.size(); ++i) {
-    double& limit = (*limits_)[index_of(limited_[i])];
-    if (speeds[i] < 0.0 || speeds[i] == limit) continue;
-    limit = speeds[i];
-    changed[index_of(limited_[i])] = any = true;
-  }
-  if (!any) return;
-  const auto concerns = [&](const Path& path) {
-    return path.trip && std::any_of(path.stretches.begin(), path.stretches.end(),
-                                    [&](const PathStretch& stretch) {
-                                      return stretch.lane != kNoLane &&
-                                             changed[index_of(stretch.lane)];
-                                    });
+/// Paths by the limits that hold now.
+void SumoWorld::follow_limits(const Scene& scene, RoadState& road) {
+  const std::vector<bool> changed = read_limits(model_.road, time_, backend_, limits_);
+  if (changed.empty()) return;
+  const auto renew = [&](std::shared_ptr<const Path>& path) {
+    if (path && uses_lanes(*path, changed))
+      path = std::make_shared<const Path>(with_speed_limits(*path, *limits_.limits));
   };
-  for (const PathId id : scene.path) {
-    if (id == kNoPath || !concerns(*road.path(id))) continue;
-    auto& path = road.paths[static_cast<std::size_t>(id)];
-    path = std::make_shared<const Path>(with_speed_limits(*path, *limits_));
-  }
-  for (Pending& pending : pending_)
-    if (pending.path && concerns(*pending.path))
-      pending.path = std::make_shared<const Path>(with_speed_limits(*pending.path, *limits_));
+  for (const PathId id : scene.path)
+    if (id != kNoPath) renew(road.paths[static_cast<std::size_t>(id)]);
+  for (PendingAgent& pending : pending_) renew(pending.entry.path);
 }
 
 }  // namespace sumogamma

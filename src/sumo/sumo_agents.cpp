@@ -212,4 +212,13 @@ double draw_path_offset(const Model& model, const AgentType& type, std::uint64_t
   return 0.3 * (draw - 0.5);
 }
 
+bool departs_at_stop(const SumoAgentDetails& details) {
+  constexpr double kAt = 0.1;  // [m]
+  if (details.is_person || details.stops.empty()) return false;
+  if (stop_state::stopped(details.stop_state)) return true;
+  const SumoAgentDetails::Stop& first = details.stops.front();
+  return first.lane == details.lane && first.speed <= 0.0 &&
+         details.lane_position > first.start - kAt && details.lane_position < first.end + kAt;
+}
+
 }  // namespace sumogamma

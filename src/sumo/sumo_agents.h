@@ -47,4 +47,7 @@ BehaviorState draw_behavior(const AgentType& type, std::uint64_t seed, AgentId i
 /// opposite flows part [m].
 double draw_path_offset(const Model& model, const AgentType& type, std::uint64_t seed, AgentId id);
 
+/// Does a vehicle depart at the first stop of its plan?
+bool departs_at_stop(const SumoAgentDetails& details);
+
 }  // namespace sumogamma

@@ -8,13 +8,11 @@
 #include <utility>
 
 #include "base/error.h"
-#include "scene/sumo_defaults.h"
-#include "sumo/backend.h"
-#include "sumo/ghost.h"
+#include "sumo/stepped_backend.h"
 #include "sumo/sumo_process.h"
+#include "sumo/traci_answers.h"
 #include "sumo/traci_client.h"
 #include "sumo/traci_message.h"
-#include "sumo/watch_list.h"
 
 namespace sumogamma {
 namespace {
@@ -38,7 +36,6 @@ constexpr std::uint8_t kStepVariables[] = {traci::kTime,
 constexpr std::uint8_t kWatchedVariables[] = {traci::kPosition, traci::kAngle, traci::kSpeed,
                                               traci::kLane, traci::kLanePosition};
 constexpr double kInvalidDouble = -1073741824.0;  // SUMO's word for none
-constexpr double kNoTime = -1.0;  // what stops that name no duration or end have [s]
 
 // moveToXY (docs/coupling.md): SUMO's own number for it, a compound of 7 items for vehicles and 6
 // for persons, who are on no lane
@@ -64,161 +61,7 @@ void append_ghost(TraciWriter& message, const SumoPose& pose, bool is_person, Gh
   append_move(message, pose, {}, is_person, ghost_arguments(mode));
 }
 
-// one command's status and, where it is fine, its value; empty: refused, with the reason in status
-std::optional<TraciReader> read_answer(TraciReader& reply, std::uint8_t domain,
-                                       std::uint8_t variable) {
-  const TraciStatus status = reply.status();
-  if (status.command != domain) throw SumoError("SUMO", "an answer to another command over TraCI");
-  if (!status.ok()) return std::nullopt;
-  return reply.value(domain, variable);
-}
-
-TraciReader require_answer(TraciReader& reply, std::uint8_t domain, std::uint8_t variable,
-                           const std::string& question) {
-  const TraciStatus status = reply.status();
-  if (!status.ok()) throw SumoError("SUMO", "can't tell " + question + ": " + status.text);
-  return reply.value(domain, variable);
-}
-
-std::string read_text(TraciReader& reply, std::uint8_t domain, std::uint8_t variable) {
-  std::optional<TraciReader> value = read_answer(reply, domain, variable);
-  return value ? value->typed_string() : std::string();
-}
-
-double read_number(TraciReader& reply, std::uint8_t domain, std::uint8_t variable,
-                   double otherwise) {
-  std::optional<TraciReader> value = read_answer(reply, domain, variable);
-  return value ? value->typed_double() : otherwise;
-}
-
-int read_integer(TraciReader& reply, std::uint8_t domain, std::uint8_t variable) {
-  std::optional<TraciReader> value = read_answer(reply, domain, variable);
-  return value ? value->typed_integer() : 0;
-}
-
-std::vector<std::string> read_texts(TraciReader& reply, std::uint8_t domain,
-                                    std::uint8_t variable) {
-  std::optional<TraciReader> value = read_answer(reply, domain, variable);
-  return value ? value->typed_strings() : std::vector<std::string>();
-}
-
-// 16 items a stop in 1.15
-std::vector<SumoAgentDetails::Stop> read_stops(TraciReader value) {
-  std::vector<SumoAgentDetails::Stop> stops;
-  value.compound();
-  for (std::int32_t left = value.typed_integer(); left > 0; --left) {
-    SumoAgentDetails::Stop stop;
-    stop.lane = value.typed_string();
-    stop.end = value.typed_double();
-    stop.place = value.typed_string();
-    stop.flags = value.typed_integer();
-    stop.duration = std::max(value.typed_double(), kNoTime);
-    stop.until = std::max(value.typed_double(), kNoTime);
-    stop.start = value.typed_double();
-    // arrivals, departure, parts of trains, activity, trip, line
-    for (int rest = 8; rest > 0; --rest) value.skip_value();
-    stop.speed = value.typed_double();
-    stops.push_back(std::move(stop));
-  }
-  return stops;
-}
-
-struct Stage {
-  int type = 0;
-  std::vector<std::string> edges;
-  double arrival_position = -1;
-};
-
-Stage read_stage(TraciReader value) {
-  Stage stage;
-  value.compound();
-  stage.type = value.typed_integer();
-  for (int i = 0; i < 3; ++i) value.skip_value();  // type, line, stop
-  stage.edges = value.typed_strings();
-  for (int i = 0; i < 6; ++i)
-    value.skip_value();  // travel time, cost, length, intended vehicle, depart, its position
-  stage.arrival_position = value.typed_double();
-  return stage;
-}
-
-StageKind stage_kind(int type) {
-  return type == traci::kStageWaiting   ? StageKind::Waiting
-         : type == traci::kStageWalking ? StageKind::Walking
-         : type == traci::kStageDriving ? StageKind::Riding
-                                        : StageKind::Other;
-}
-
-constexpr std::uint8_t kDetailVariables[] = {
-    traci::kType,     traci::kVehicleClass, traci::kLength, traci::kWidth,       traci::kHeight,
-    traci::kMaxSpeed, traci::kSpeedFactor,  traci::kLane,   traci::kLanePosition};
-
-constexpr std::uint8_t kTypeVariables[] = {
-    traci::kAcceleration, traci::kDeceleration, traci::kEmergencyDeceleration,
-    traci::kHeadway,      traci::kMinGap,       traci::kImperfection};
-
-void ask_details(TraciWriter& message, const std::string& id, bool is_person) {
-  const std::uint8_t domain = is_person ? traci::kPerson : traci::kVehicle;
-  for (const std::uint8_t variable : kDetailVariables) message.get(domain, variable, id);
-  if (is_person) {
-    message.get(domain, traci::kStage, id, 0);
-    message.get(domain, traci::kStagesLeft, id);
-  } else {
-    for (const std::uint8_t variable : kTypeVariables) message.get(domain, variable, id);
-    message.get(domain, traci::kAllowedSpeed, id);
-    message.get(domain, traci::kEdges, id);
-    message.get(domain, traci::kStops, id, 0);
-    message.get(domain, traci::kStopState, id);
-    message.get(domain, traci::kRouteIndex, id);
-    message.get(domain, traci::kParameter, id, "has.taxi.device");
-    message.get(domain, traci::kParameter, id, "has.rerouting.device");
-  }
-}
-
-SumoAgentDetails read_details(TraciReader& reply, const std::string& id, bool is_person) {
-  const std::uint8_t domain = is_person ? traci::kPerson : traci::kVehicle;
-  SumoAgentDetails details;
-  details.id = id;
-  details.is_person = is_person;
-  details.type_id = read_text(reply, domain, traci::kType);
-  details.vehicle_class = read_text(reply, domain, traci::kVehicleClass);
-  details.length = read_number(reply, domain, traci::kLength, 0);
-  details.width = read_number(reply, domain, traci::kWidth, 0);
-  details.height = read_number(reply, domain, traci::kHeight, 0);
-  details.max_speed = read_number(reply, domain, traci::kMaxSpeed, 0);
-  details.speed_factor = read_number(reply, domain, traci::kSpeedFactor, 1);
-  details.lane = read_text(reply, domain, traci::kLane);
-  details.lane_position = read_number(reply, domain, traci::kLanePosition, 0);
-  if (is_person) {
-    details.max_speed = walking_speed(details.max_speed);
-    if (std::optional<TraciReader> value = read_answer(reply, domain, traci::kStage)) {
-      const Stage stage = read_stage(*value);
-      details.stage = stage_kind(stage.type);
-      if (details.stage == StageKind::Walking) {
-        details.route = stage.edges;
-        details.arrival_position = stage.arrival_position;
-      }
-    }
-    details.stages_left = read_integer(reply, domain, traci::kStagesLeft);
-  } else {
-    SumoVehicleType& type = details.type;
-    double* const fields[] = {&type.acceleration, &type.deceleration, &type.emergency_deceleration,
-                              &type.headway,      &type.min_gap,      &type.imperfection};
-    for (std::size_t k = 0; k < std::size(kTypeVariables); ++k)
-      *fields[k] = read_number(reply, domain, kTypeVariables[k], -1);
-    details.allowed_speed = read_number(reply, domain, traci::kAllowedSpeed, 0);
-    details.route = read_texts(reply, domain, traci::kEdges);
-    if (std::optional<TraciReader> value = read_answer(reply, domain, traci::kStops))
-      details.stops = read_stops(*value);
-    details.stop_state = read_integer(reply, domain, traci::kStopState);
-    details.route_index = std::max(read_integer(reply, domain, traci::kRouteIndex), 0);
-    details.is_taxi = read_text(reply, domain, traci::kParameter) == "true";
-    // how often is asked of those that have one: SUMO counts other questions as errors
-    if (read_text(reply, domain, traci::kParameter) == "true") details.reroute_period = 0.0;
-  }
-  return details;
-}
-
-class TraciBackend final : public SumoBackend {
+class TraciBackend final : public SteppedBackend {
  public:
   explicit TraciBackend(const SumoStart& start) : start_(start) {
     if (start.connect_host.empty()) {
@@ -237,16 +80,10 @@ class TraciBackend final : public SumoBackend {
 
   std::string version() const override { return version_; }
   std::string option(const std::string& name) override;
-  const std::vector<std::string>& signal_ids() const override { return signal_ids_; }
   std::vector<std::string> edge_ids() override;
-  double time() const override { return time_; }
   double next_switch(std::size_t signal) override;
-  void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
-            SumoStep& result) override;
   std::vector<SumoAgentDetails> details(std::span<const std::string> vehicles,
                                         std::span<const std::string> persons) override;
-  void watch(const std::string& id, bool is_person) override;
-  void unwatch(const std::string& id, bool is_person) override;
   void remove_vehicle(const std::string& id) override;
   StageKind finish_stage(const std::string& person) override;
   std::vector<std::string> present_vehicles() override { return id_list(traci::kVehicle); }
@@ -288,10 +125,18 @@ class TraciBackend final : public SumoBackend {
       queued_.set_double(traci::kInductionLoop, traci::kVirtualDetection, id, age);
     }
   }
-  const std::vector<Detector>& detectors() const override { return detectors_; }
   std::vector<std::string> take_warnings() override;
   long sumo_warnings() const override { return process_ ? process_->output().warnings() : -1; }
   void close() override;
+
+ protected:
+  void talk_to_sumo(const std::function<void()>& talk) override { guarded(talk); }
+  void move_and_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
+                     SumoStep& result) override;
+  std::vector<std::string> route_of(const std::string& vehicle) override;
+  std::optional<GhostObservation> observe(const std::string& id, bool is_person) override;
+  void read_watched(const std::vector<WatchList::Entry>& entries, std::vector<SumoAgent>& agents,
+                    std::vector<WatchList::Entry>& gone) override;
 
  private:
   void spawn();
@@ -315,32 +160,21 @@ class TraciBackend final : public SumoBackend {
                  SumoStep& result);
   void read_subscriptions(TraciReader& reply, SumoStep& result);
   void read_simulation(TraciReader& reply, int variables, SumoStep& result);
-  void poll_watched(SumoStep& result);
-  void prepare_test(GhostSelfTest& test, bool is_person, std::span<const SumoPose> poses,
-                    GhostObservation& sent);
-  void finish_test(GhostSelfTest& test, bool is_person, std::span<const SumoPose> poses,
-                   const SumoStep& result, const GhostObservation& sent);
+  void compose_watch(const std::vector<WatchList::Entry>& entries);
+  bool read_agent(TraciReader& reply, const WatchList::Entry& entry, SumoAgent& agent);
 
   SumoStart start_;
   // declared before the client, which looks at it
   std::unique_ptr<SumoProcess> process_;
   std::unique_ptr<TraciClient> client_;
-  bool started_ = false;  // one step was made: what goes wrong from now on is not the user's input
   bool closed_ = false;
   std::string version_;
-  double time_ = 0;
-  std::vector<std::string> signal_ids_;
   std::unordered_map<std::string, std::size_t> signal_index_;
-  std::vector<Detector> detectors_;
   std::map<std::string, std::string> options_;
-  std::vector<std::string> warnings_;
 
   TraciWriter queued_;  // commands that can wait for the next step
   TraciWriter message_;
-  WatchList watched_;
   TraciWriter watch_message_;
-  bool watch_changed_ = false;
-  GhostSelfTest vehicle_test_{false}, person_test_{true};
 };
 
 std::string TraciBackend::scenario() const {
@@ -531,15 +365,11 @@ double TraciBackend::next_switch(std::size_t signal) {
 
 void TraciBackend::compose_step(std::span<const SumoPose> vehicles,
                                 std::span<const SumoPose> persons) {
-  for (const SumoPose& pose : vehicles)
-    require_finite_pose(*pose.id, pose.position, pose.angle, pose.speed);
-  for (const SumoPose& pose : persons)
-    require_finite_pose(*pose.id, pose.position, pose.angle, pose.speed);
   message_.clear();
   // ghosts first: what other commands leave on SUMO's stack is best not below them
   // (docs/coupling.md, hazards)
-  for (const SumoPose& pose : vehicles) append_ghost(message_, pose, false, vehicle_test_.mode());
-  for (const SumoPose& pose : persons) append_ghost(message_, pose, true, person_test_.mode());
+  for (const SumoPose& pose : vehicles) append_ghost(message_, pose, false, mode(false));
+  for (const SumoPose& pose : persons) append_ghost(message_, pose, true, mode(true));
   message_.append(queued_);
   for (const SumoPose& pose : vehicles)
     message_.set_double(traci::kVehicle, traci::kSpeed, *pose.id, pose.speed);
@@ -638,49 +468,20 @@ void TraciBackend::read_simulation(TraciReader& reply, int variables, SumoStep& 
   }
 }
 
-void TraciBackend::step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
-                        SumoStep& result) {
-  guarded([&] {
-    result.departed_vehicles.clear();
-    result.departed_persons.clear();
-    result.arrived_vehicles.clear();
-    result.arrived_persons.clear();
-    result.lost.clear();
-    result.gone.clear();
-    result.signal_states.resize(signal_ids_.size());
-    GhostObservation sent_vehicle, sent_person;
-    prepare_test(vehicle_test_, false, vehicles, sent_vehicle);
-    prepare_test(person_test_, true, persons, sent_person);
-    compose_step(vehicles, persons);
-    read_step(vehicles, persons, result);
-    time_ = result.time;
-    started_ = true;
-    finish_test(vehicle_test_, false, vehicles, result, sent_vehicle);
-    finish_test(person_test_, true, persons, result, sent_person);
-    for (const std::string& id : result.arrived_vehicles) unwatch(id, false);
-    for (const std::string& id : result.arrived_persons) unwatch(id, true);
-    poll_watched(result);
-  });
+void TraciBackend::move_and_step(std::span<const SumoPose> vehicles,
+                                 std::span<const SumoPose> persons, SumoStep& result) {
+  compose_step(vehicles, persons);
+  read_step(vehicles, persons, result);
 }
 
-void TraciBackend::prepare_test(GhostSelfTest& test, bool is_person,
-                                std::span<const SumoPose> poses, GhostObservation& sent) {
-  if (!test.pending() || poses.empty()) return;
-  const SumoPose& pose = poses.front();
-  sent.position = pose.position;
-  sent.angle = wrapped_degrees(pose.angle);
-  if (is_person) return;
+std::vector<std::string> TraciBackend::route_of(const std::string& vehicle) {
   message_.clear();
-  message_.get(traci::kVehicle, traci::kEdges, *pose.id);
+  message_.get(traci::kVehicle, traci::kEdges, vehicle);
   TraciReader reply = exchange(message_);
-  sent.route = read_texts(reply, traci::kVehicle, traci::kEdges);
+  return read_texts(reply, traci::kVehicle, traci::kEdges);
 }
 
-void TraciBackend::finish_test(GhostSelfTest& test, bool is_person, std::span<const SumoPose> poses,
-                               const SumoStep& result, const GhostObservation& sent) {
-  if (!test.pending() || poses.empty()) return;
-  const std::string& id = *poses.front().id;
-  if (std::find(result.lost.begin(), result.lost.end(), id) != result.lost.end()) return;
+std::optional<GhostObservation> TraciBackend::observe(const std::string& id, bool is_person) {
   const std::uint8_t domain = is_person ? traci::kPerson : traci::kVehicle;
   message_.clear();
   for (const std::uint8_t variable : {traci::kPosition, traci::kAngle, traci::kLane})
@@ -688,68 +489,66 @@ void TraciBackend::finish_test(GhostSelfTest& test, bool is_person, std::span<co
   // persons need a further argument here, without which SUMO 1.15 ends itself
   if (!is_person) message_.get(domain, traci::kEdges, id);
   TraciReader reply = exchange(message_);
-  GhostObservation reported;
-  const std::optional<TraciReader> position = read_answer(reply, domain, traci::kPosition);
-  if (position) {
-    const auto [x, y] = TraciReader(*position).typed_position();
-    reported.position = {x, y};
-  }
-  reported.angle = read_number(reply, domain, traci::kAngle, 0);
-  reported.lane = read_text(reply, domain, traci::kLane);
-  if (!is_person) reported.route = read_texts(reply, domain, traci::kEdges);
-  if (!position) return;  // it left within this very step: the next one is tested
-  const std::string warning = test.judge(sent, reported);
-  if (!warning.empty()) warnings_.push_back(warning);
+  GhostObservation seen;
+  std::optional<TraciReader> position = read_answer(reply, domain, traci::kPosition);
+  seen.angle = read_number(reply, domain, traci::kAngle, 0);
+  seen.lane = read_text(reply, domain, traci::kLane);
+  if (!is_person) seen.route = read_texts(reply, domain, traci::kEdges);
+  if (!position) return std::nullopt;
+  const auto [x, y] = position->typed_position();
+  seen.position = {x, y};
+  return seen;
 }
 
-void TraciBackend::poll_watched(SumoStep& result) {
-  const std::vector<WatchList::Entry>& entries = watched_.entries();
-  result.agents.resize(entries.size());
-  if (entries.empty()) return;
-  if (watch_changed_) {
-    watch_message_.clear();
-    for (const WatchList::Entry& entry : entries) {
-      const std::uint8_t domain = entry.is_person ? traci::kPerson : traci::kVehicle;
-      for (const std::uint8_t variable : kWatchedVariables)
-        watch_message_.get(domain, variable, entry.id);
-      watch_message_.get(domain, entry.is_person ? traci::kRidesIn : traci::kStopState, entry.id);
-      if (entry.is_person) watch_message_.get(domain, traci::kStagesLeft, entry.id);
-    }
-    watch_changed_ = false;
-  }
-  TraciReader reply = exchange(watch_message_);
-  std::size_t kept = 0;
-  std::vector<WatchList::Entry> gone;
+void TraciBackend::compose_watch(const std::vector<WatchList::Entry>& entries) {
+  watch_message_.clear();
   for (const WatchList::Entry& entry : entries) {
     const std::uint8_t domain = entry.is_person ? traci::kPerson : traci::kVehicle;
-    SumoAgent& agent = result.agents[kept];
-    std::optional<TraciReader> position = read_answer(reply, domain, traci::kPosition);
-    std::optional<TraciReader> angle = read_answer(reply, domain, traci::kAngle);
-    std::optional<TraciReader> speed = read_answer(reply, domain, traci::kSpeed);
-    std::optional<TraciReader> lane = read_answer(reply, domain, traci::kLane);
-    std::optional<TraciReader> along = read_answer(reply, domain, traci::kLanePosition);
-    agent.rides = entry.is_person ? read_text(reply, domain, traci::kRidesIn) : std::string();
-    agent.stop_state = entry.is_person ? 0 : read_integer(reply, domain, traci::kStopState);
-    agent.stages_left = entry.is_person ? read_integer(reply, domain, traci::kStagesLeft) : 0;
-    if (!position || !angle || !speed || !lane || !along) {
+    for (const std::uint8_t variable : kWatchedVariables)
+      watch_message_.get(domain, variable, entry.id);
+    watch_message_.get(domain, entry.is_person ? traci::kRidesIn : traci::kStopState, entry.id);
+    if (entry.is_person) watch_message_.get(domain, traci::kStagesLeft, entry.id);
+  }
+}
+
+/// The answers to compose_watch() for one entry; false: SUMO doesn't know it any more.
+bool TraciBackend::read_agent(TraciReader& reply, const WatchList::Entry& entry, SumoAgent& agent) {
+  const std::uint8_t domain = entry.is_person ? traci::kPerson : traci::kVehicle;
+  std::optional<TraciReader> position = read_answer(reply, domain, traci::kPosition);
+  std::optional<TraciReader> angle = read_answer(reply, domain, traci::kAngle);
+  std::optional<TraciReader> speed = read_answer(reply, domain, traci::kSpeed);
+  std::optional<TraciReader> lane = read_answer(reply, domain, traci::kLane);
+  std::optional<TraciReader> along = read_answer(reply, domain, traci::kLanePosition);
+  agent.rides = entry.is_person ? read_text(reply, domain, traci::kRidesIn) : std::string();
+  agent.stop_state = entry.is_person ? 0 : read_integer(reply, domain, traci::kStopState);
+  agent.stages_left = entry.is_person ? read_integer(reply, domain, traci::kStagesLeft) : 0;
+  if (!position || !angle || !speed || !lane || !along) return false;
+  const auto [x, y] = position->typed_position();
+  agent.position = {x, y};
+  agent.angle = angle->typed_double();
+  agent.speed = speed->typed_double();
+  agent.lane = lane->typed_string();
+  agent.lane_position = along->typed_double();
+  agent.id = entry.id;
+  agent.is_person = entry.is_person;
+  return true;
+}
+
+void TraciBackend::read_watched(const std::vector<WatchList::Entry>& entries,
+                                std::vector<SumoAgent>& agents,
+                                std::vector<WatchList::Entry>& gone) {
+  agents.resize(entries.size());
+  if (entries.empty()) return;
+  if (std::exchange(watch_changed_, false)) compose_watch(entries);
+  TraciReader reply = exchange(watch_message_);
+  std::size_t kept = 0;
+  for (const WatchList::Entry& entry : entries) {
+    if (read_agent(reply, entry, agents[kept]))
+      ++kept;
+    else
       gone.push_back(entry);
-      continue;
-    }
-    const auto [x, y] = position->typed_position();
-    agent.position = {x, y};
-    agent.angle = angle->typed_double();
-    agent.speed = speed->typed_double();
-    agent.lane = lane->typed_string();
-    agent.lane_position = along->typed_double();
-    agent.id = entry.id;
-    agent.is_person = entry.is_person;
-    ++kept;
   }
-  result.agents.resize(kept);
-  for (const WatchList::Entry& entry : gone) {
-    result.gone.emplace_back(entry.is_person, entry.id);
-    unwatch(entry.id, entry.is_person);
-  }
+  agents.resize(kept);
 }
 
 std::vector<SumoAgentDetails> TraciBackend::details(std::span<const std::string> vehicles,
@@ -776,14 +575,6 @@ std::vector<std::string> TraciBackend::take_warnings() {
       all.push_back("SUMO: " + line);
   }
   return all;
-}
-
-void TraciBackend::watch(const std::string& id, bool is_person) {
-  if (watched_.add(id, is_person)) watch_changed_ = true;
-}
-
-void TraciBackend::unwatch(const std::string& id, bool is_person) {
-  if (watched_.drop(id, is_person)) watch_changed_ = true;
 }
 
 void TraciBackend::take_over(const std::string& vehicle, double speed) {

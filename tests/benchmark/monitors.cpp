@@ -7,6 +7,7 @@
 #include "study/rule_metrics.h"
 #include "study/smoothness_metrics.h"
 #include "support/small_net.h"
+#include "support/synthetic_traffic.h"
 
 namespace sumogamma {
 namespace {
@@ -54,17 +55,31 @@ void rules_flow_smoothness(benchmark::State& state) {
   const LaneLocator locator(net);
   RoadState road;
   road.signal_states = {"Gr"};
+  Workers workers;
   RuleMonitor rules(0.05, net, locator);
   FlowMonitor flow(0.05, net);
   SmoothnessMonitor smoothness(0.05);
   for (auto _ : state) {
-    rules.add(scene, types, road);
+    rules.add(scene, types, road, workers);
     flow.add(scene, types, road);
     smoothness.add(scene, types);
   }
   per_agent(state, count);
 }
 BENCHMARK(rules_flow_smoothness)->Arg(100)->Arg(300);
+
+// who is on its lane, as most are; the crowd above is off every road
+void rules_on_lanes(benchmark::State& state) {
+  const auto count = static_cast<std::size_t>(state.range(0));
+  const RoadNetwork net = testing::small_net();
+  const testing::SyntheticTraffic traffic(net, count, 0.05);
+  const LaneLocator locator(net);
+  Workers workers(static_cast<std::size_t>(state.range(1)));
+  RuleMonitor rules(0.05, net, locator);
+  for (auto _ : state) rules.add(traffic.scene, traffic.types, traffic.road, workers);
+  per_agent(state, count);
+}
+BENCHMARK(rules_on_lanes)->ArgsProduct({{300, 3000}, {1, 2}})->UseRealTime();
 
 }  // namespace
 }  // namespace sumogamma

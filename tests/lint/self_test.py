@@ -8,16 +8,36 @@ import subprocess
 import sys
 import tempfile
 
+LINTS = ("layers", "words", "format", "scripts", "functions", "traffic", "page")
 HERE = os.path.dirname(os.path.abspath(__file__))
 MODULES = """
 sumogamma_module(base)
 sumogamma_module(geometry DEPENDS base)
+sumogamma_module(model DEPENDS geometry)
+sumogamma_module(traffic DEPENDS model)
 sumogamma_module(osm DEPENDS geometry)
 sumogamma_module(sumo DEPENDS geometry)
 sumogamma_program(town app DEPENDS sumo)
+sumogamma_embed(io kReplayPageJs replay/a.js replay/b.js)
 """
 UNFINISHED = "TO" + "DO"
 MACHINE = "/wo" + "rk/main"
+# what the rules of the road remember, a rule that reads it and one that writes it
+STATE = """struct TrafficState {
+  std::vector<double> wait;  ///< [s]
+  std::vector<LanePosition> aim;
+};
+"""
+READER = """double read(const TrafficState& state, std::size_t row) {
+  const double& entry = state.wait[row];
+  const std::vector<double>& all = state.wait;
+  // state.wait[row] = 1.0;
+  if (state.wait[row] == entry || state.wait[row] <= 1.0 || state.wait[row] >= 2.0) return 1.0;
+  return all.size() + state.wait[std::size_t{row}] - state.wait[row];
+}
+"""
+WRITER = "void write(TrafficState& state, std::size_t row) { state.wait[row] = 1.0; }\n"
+BODY = "  f();\n"
 GOOD = {
     "CMakeLists.txt": MODULES,
     "src/base/units.h": "#pragma once\n",
@@ -25,9 +45,17 @@ GOOD = {
     "src/osm/reader.cpp": "#include <osmium/io/any_input.hpp>\n",
     "src/sumo/libsumo_backend.cpp": "#include <libsumo/libsumo.h>\n",
     "src/app/main.cpp": '#include "base/units.h"\n#include "geometry/vec2.h"\n\nint main() { return 0; }\n',
+    "src/model/model.cpp": '#include "geometry/vec2.h"\n',
+    "src/traffic/traffic_state.h": STATE,
+    "src/traffic/traffic_state.cpp": "void append(TrafficState& state) { state.wait.push_back(0.0); }\n",
+    "src/traffic/parameters.h": "inline constexpr double kGap = 4.0;  ///< [s]\n",
+    "src/traffic/patience.cpp": READER + WRITER,
+    "src/traffic/rules/gaps.cpp": READER,
+    "src/io/replay/a.js": "const one = await 1;\nif (!one) return;\n",
+    "src/io/replay/b.js": "const two = one + 1;\n",
     "tools/hello.sh": "#!/usr/bin/env bash\nset -euo pipefail\necho hello\n",
 }
-# lint, file and what is put there, what the lint must say
+# lint, file and what is put there, what the lint must say (None: nothing)
 FAULTS = [
     ("layers", "src/geometry/vec2.h", '#include "sumo/backend.h"\n', "src/geometry/vec2.h:1: module geometry may not know sumo"),
     ("layers", "src/base/units.h", '#include "geometry/vec2.h"\n', "src/base/units.h:1: module base may not know geometry"),
@@ -42,12 +70,28 @@ FAULTS = [
     ("layers", "src/extra/new.cpp", "int x;\n", "folder extra is no module"),
     ("layers", "src/base/lost.cpp", '#include "lost.h"\n', '"lost.h" is no file under src/'),
     ("layers", "CMakeLists.txt", "sumogamma_module(base DEPENDS geometry)\n" + MODULES, "which is not declared above it"),
+    ("layers", "src/model/model.cpp", '#include "traffic/parameters.h"\n', "src/model/model.cpp:1: module model may not know traffic"),
+    ("functions", "src/base/units.h", "void f() {\n" + 60 * BODY + "}\n", "src/base/units.h:1: f has 61 lines"),
+    ("functions", "src/base/a.cpp", "namespace a {\n\nint A::f(int b,\n         int c) const {\n" + 61 * BODY + "}\n\n}\n", "src/base/a.cpp:3: A::f has 62"),
+    ("functions", "src/base/a.cpp", "void f(int a, std::map<int, int> b, int c, int d, int e, int g, int h) {\n}\n", "f has 7 parameters"),
+    ("traffic", "src/traffic/rules/a.cpp", "constexpr double kA = 1.0;\n", "src/traffic/rules/a.cpp:1: kA belongs into src/traffic/parameters.h"),
+    ("traffic", "src/traffic/rules/a.h", "  constexpr int kNone = kA,\n    kB = 12;\n", "src/traffic/rules/a.h:2: kB belongs"),
+    ("traffic", "src/traffic/traffic_state.h", "struct Other {\n};\n", "no struct TrafficState"),
+    *[("traffic", "src/traffic/rules/gaps.cpp", READER + f"void g(TrafficState& state, std::size_t row) {{ {change} }}\n",
+       "src/traffic/traffic_state.h:2: wait has 2 writers, one at the most: src/traffic/patience, src/traffic/rules/gaps")
+      for change in ("state.wait[row] = 2.0;", "state.wait[other[row]] += dt;", "++state.wait[row];", "state.wait[row]--;", "double& w = state.wait[row];",
+                     "state.wait.assign(3, 0.0);", "auto* w = &state.wait;", "for (double& w : state.wait) w = 0.0;", "auto& [w] = state.wait[row];",
+                     "view.state->wait.back() = 0.0;", "std::vector<double>& all = state.wait;")],
+    ("traffic", "src/traffic/a.cpp", "void g(TrafficState& state) { state.aim[0].offset = 0.0; }\nvoid h() {}\n", None),
     ("words", "src/base/units.h", f"// {UNFINISHED}: later\n", "src/base/units.h:1: unfinished: " + UNFINISHED),
     ("words", "tools/hello.sh", f"ls {MACHINE}\n", "tools/hello.sh:1: a path of one machine"),
     ("words", "README.md", f"see {MACHINE}\n", "README.md:1: a path of one machine"),
     ("format", "src/base/units.h", "int  f( int x ){return x ;}\n", "src/base/units.h:1: not as clang-format-14"),
     ("scripts", "tools/hello.sh", "#!/usr/bin/env bash\nrm $1\n", "SC2086"),
     ("scripts", "tools/hello.sh", "#!/usr/bin/env bash\nif true; then\n", "syntax error"),
+    ("page", "src/io/replay/a.js", "const one = 1;\nconst two = ;\n", "SyntaxError"),
+    ("page", "src/io/replay/b.js", "const one = 2;\n", "'one' has already been declared"),
+    ("page", "src/io/replay/forgotten.js", "const three = 3;\n", "not embedded"),
     ("scripts", "tools/not_executable.sh", "#!/usr/bin/env bash\necho hello\n", "needs its executable bit"),
 ]
 
@@ -73,7 +117,7 @@ def run(lint, files):
 
 def main():
     complaints = []
-    for lint in ("layers", "words", "format", "scripts"):
+    for lint in LINTS:
         code, said = run(lint, GOOD)
         if code not in (0, 77):
             complaints.append(f"{lint} complains about a good project:\n{said}")
@@ -83,7 +127,7 @@ def main():
         code, said = run(lint, {**GOOD, path: text})
         if code == 77:
             print(f"skipped one fault: {said.strip()}")
-        elif code != 1 or wanted not in said:
+        elif code != (wanted is not None) or (wanted or "") not in said:
             complaints.append(f"{lint} ended with {code} on {path} = {text!r}, expected a complaint '{wanted}':\n{said}")
     print("\n".join(complaints))
     print(f"self-test: {len(FAULTS)} faults planted, {len(complaints)} complaints")

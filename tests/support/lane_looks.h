@@ -1,8 +1,8 @@
 #pragma once
 
-#include "model/lane_choice.h"
 #include "support/road_scene.h"
 #include "support/small_net.h"
+#include "traffic/lateral/lane_choice.h"
 
 namespace sumogamma::testing {
 
@@ -19,7 +19,7 @@ inline void let_all_look(RoadScene& here) {
   LaneChoiceWork work;
   Workers alone(1);
   for (here.scene.tick = 0; here.scene.tick < 8; ++here.scene.tick)
-    choose_lanes(here.model, here.geometry.grid, 0.05, alone, here.road, here.scene, work);
+    choose_lanes(here.tick(alone), work);
 }
 
 }  // namespace sumogamma::testing

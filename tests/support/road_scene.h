@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "base/units.h"
-#include "model/locate.h"
 #include "model/model.h"
-#include "model/occupation.h"
-#include "model/road_context.h"
-#include "model/road_view.h"
 #include "model/tick_geometry.h"
+#include "scene/locate.h"
 #include "support/plain_net.h"
+#include "traffic/junction/occupation.h"
+#include "traffic/road_context.h"
+#include "traffic/traffic_view.h"
 
 namespace sumogamma::testing {
 
@@ -66,6 +66,7 @@ class RoadScene {
     road.paths.push_back(std::move(path));
     append_agent(scene, agent);
     scene.path_along.back() = along;
+    match_rows(scene, road, traffic);
     return scene.size() - 1;
   }
 
@@ -88,8 +89,9 @@ class RoadScene {
     for (int k = 0; k < times; ++k) {
       for (std::size_t row = 0; row < scene.size(); ++row)
         locate_on_path(model.road, road, scene, row);
+      match_rows(scene, road, traffic);
       prepare_tick(model, scene, workers, geometry);
-      update_road_contexts(model, road, geometry.grid, dt, workers, approaches, scene);
+      update_road_contexts(tick(workers, dt));
     }
   }
 
@@ -106,7 +108,10 @@ class RoadScene {
 
   const Path& path(std::size_t row) const { return *road.path(scene.path[row]); }
   const RoadContext& context(std::size_t row) const { return scene.context[row]; }
-  RoadView view() const { return {model, road, scene, geometry.grid, approaches}; }
+  TrafficView view() const { return {model, road, scene, traffic, geometry.grid, approaches}; }
+  TrafficTick tick(Workers& workers, double dt = 0.05) {
+    return {model, geometry, workers, dt, road, scene, traffic, approaches};
+  }
   /// Front of a row past a link's stop line [m].
   double past_line(std::size_t row, std::size_t link = 0) const {
     return scene.path_along[row] + half_extent(scene, row, direction_of(scene.heading[row])) -
@@ -125,6 +130,7 @@ class RoadScene {
   Model model;
   RoadState road;
   Scene scene;
+  TrafficState traffic;
   TickGeometry geometry;
   ApproachTable approaches;
 

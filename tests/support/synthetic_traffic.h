@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/random.h"
-#include "model/road_state.h"
 #include "road/road_network.h"
 #include "scene/agent_type.h"
+#include "scene/road_state.h"
 #include "scene/scene.h"
 
 namespace sumogamma::testing {
@@ -97,9 +97,9 @@ class SyntheticTraffic {
     if (lane.centerline.length() - plan.along > 6.0) return false;
     bool any = false;
     for (const ConnectionId id : lane.outgoing) {
-      const char shown = road.signal(network_.connection(id));
-      any = any || shown == 'r' || shown == 'y';
-      if (shown == 'G' || shown == 'O') return false;
+      const Light shown = road.signal(network_.connection(id));
+      any = any || is_red(shown) || is_amber(shown);
+      if (shown == Light::GreenFirst || shown == Light::None) return false;
     }
     return any;
   }

@@ -16,7 +16,7 @@ constexpr double kBack = 0.9;             // [m], likewise
 bool leads_back(const RoadNetwork& road, ConnectionId id) {
   const Connection& turn = road.connection(id);
   // not is_driven(): a junction that SUMO doesn't rule has turns, too
-  if (turn.via == kNoLane || turn.direction == 't' ||
+  if (turn.via == kNoLane || turn.direction == TurnDirection::Turnaround ||
       road.lane(turn.from).kind != LaneKind::Normal || road.lane(turn.to).kind != LaneKind::Normal)
     return false;
   const std::vector<Vec2>&lane = road.lane(turn.from).centerline.points(),

@@ -176,7 +176,7 @@ std::vector<BodyLink> make_body_links(const RoadNetwork& road,
   std::map<std::pair<EdgeId, EdgeId>, double> straight;
   for (const Connection& connection : road.connections) {
     const Lane &from = road.lane(connection.from), &to = road.lane(connection.to);
-    if (connection.direction != 's' || from.kind != LaneKind::Normal ||
+    if (connection.direction != TurnDirection::Straight || from.kind != LaneKind::Normal ||
         to.kind != LaneKind::Normal || lane_use(from) != LaneUse::Driving)
       continue;
     const double distance =

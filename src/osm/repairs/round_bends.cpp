@@ -193,8 +193,8 @@ void redraw(const Road& road, const Line& line, const LocalMetric& metric, OsmMa
   const auto place_of = [&](const Vec2& p) { return metric.place(p.x(), p.y()); };
   for (std::size_t n = 0; n + 1 < road.size(); ++n) {
     if (n > 0) map.nodes.at(road[n]).place = place_of(line.points[line.places[n]]);
-    const std::vector<Vec2> piece(line.points.begin() + line.places[n],
-                                  line.points.begin() + line.places[n + 1] + 1);
+    const Vec2* points = line.points.data();
+    const std::vector<Vec2> piece(points + line.places[n], points + line.places[n + 1] + 1);
     const std::vector<bool> needed = needed_points(piece, kTolerance);
     std::vector<std::int64_t>& nodes = added[{road[n], road[n + 1]}];
     for (std::size_t i = 1; i + 1 < piece.size(); ++i) {

@@ -55,7 +55,7 @@ double weight_of(const RoadNetwork& road, const Connection& link) {
   const auto is_path = [&](LaneId lane) {
     return (road.lane(lane).allowed & ~vehicle_class::kOnFootOrBicycle) == 0;
   };
-  return (link.direction == 's' ? 1.0 : kTurning) *
+  return (link.direction == TurnDirection::Straight ? 1.0 : kTurning) *
          (is_path(link.from) == is_path(link.to) ? 1.0 : kFew);
 }
 
@@ -64,7 +64,9 @@ std::vector<Passage> close_passages(const RoadNetwork& road,
   std::map<std::string, const SignalProgram*> by_name;
   for (const SignalProgram& program : programs) by_name[program.name] = &program;
   auto program_of = [&](const Connection& link) -> const SignalProgram* {
-    if (link.signal == kNoSignal || link.signal_link < 0 || link.direction == 't') return nullptr;
+    if (link.signal == kNoSignal || link.signal_link < 0 ||
+        link.direction == TurnDirection::Turnaround)
+      return nullptr;
     const auto found = by_name.find(road.signals[index_of(link.signal)].name);
     return found == by_name.end() ? nullptr : found->second;
   };
@@ -141,12 +143,13 @@ std::map<std::string, int> signal_offsets(const RoadNetwork& road,
   for (int round = 0; better && round < kRounds; ++round) {
     better = false;
     for (auto& [name, offset] : offsets) {
+      const std::vector<const Passage*>& here = at[name];
       auto cost_here = [&] {
         double sum = 0.0;
-        for (const Passage* passage : at[name]) sum += cost(*passage, offsets);
+        for (const Passage* passage : here) sum += cost(*passage, offsets);
         return sum;
       };
-      const int cycle = static_cast<int>(at[name].front()->waits.size());
+      const int cycle = static_cast<int>(here.front()->waits.size());
       double least = cost_here();
       int best = offset;
       for (offset = 0; offset < cycle; ++offset) {

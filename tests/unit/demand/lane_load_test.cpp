@@ -71,10 +71,11 @@ class SignalledLaneLoad : public LaneLoad {
 TEST_F(SignalledLaneLoad, ASignalGivesItsShareOfGreen) {
   ASSERT_EQ(road_.signals.size(), 1u);
   double cycle = 0, green = 0;
-  const auto way = std::find_if(
-      road_.connections.begin(), road_.connections.end(), [&](const Connection& connection) {
-        return road_.lane(connection.from).name == "WC_0" && connection.direction == 's';
-      });
+  const auto way = std::find_if(road_.connections.begin(), road_.connections.end(),
+                                [&](const Connection& connection) {
+                                  return road_.lane(connection.from).name == "WC_0" &&
+                                         connection.direction == TurnDirection::Straight;
+                                });
   ASSERT_NE(way, road_.connections.end());
   for (const SignalPhase& phase : road_.signals[0].phases) {
     cycle += phase.duration;

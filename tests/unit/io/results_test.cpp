@@ -28,9 +28,9 @@ class Results : public ::testing::Test {
 
 TEST_F(Results, EveryKeyIsThereInAnEmptyRun) {
   const nlohmann::json json = nlohmann::json::parse(results_json(RunResults{}));
-  for (const char* key : {"sumo_version", "sumo_gamma_version", "scenario", "seed", "step",
-                          "duration", "backend", "threads", "agents", "timing", "collisions",
-                          "flow", "rules", "smoothness", "coupling", "state_hash"})
+  for (const char* key : {"sumo_version", "sumo_gamma_version", "metrics_version", "scenario",
+                          "seed", "step", "duration", "backend", "threads", "agents", "timing",
+                          "collisions", "flow", "rules", "smoothness", "coupling", "state_hash"})
     EXPECT_TRUE(json.contains(key)) << key;
   const std::map<std::string, std::vector<std::string>> inner{
       {"agents",
@@ -123,6 +123,15 @@ TEST_F(Results, ReportPutsRunsSideBySide) {
   EXPECT_NE(html.find("+25 %"), std::string::npos);
   EXPECT_NE(html.find("a|b&lt;c&gt;"), std::string::npos);
   EXPECT_EQ(html.find("http"), std::string::npos) << "nothing from the network";
+}
+
+TEST_F(Results, FiguresOfOtherDefinitionsAreNotCompared) {
+  const RunColumn::Value one{"metrics_version", "1", 1, true}, two{"metrics_version", "2", 2, true};
+  const std::vector<RunColumn> same{{"a", {one}}, {"b", {one}}};
+  const std::vector<RunColumn> changed{{"a", {one}}, {"b", {two}}}, older{{"a", {one}}, {"b", {}}};
+  EXPECT_TRUE(same_metrics(same));
+  EXPECT_FALSE(same_metrics(changed));
+  EXPECT_FALSE(same_metrics(older));
 }
 
 TEST_F(Results, ReportRefusesWhatIsNoResult) {

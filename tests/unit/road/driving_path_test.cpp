@@ -7,7 +7,9 @@
 #include "base/units.h"
 #include "road/lane_locator.h"
 #include "road/path.h"
-#include "road/path_profile.h"
+#include "road/path_pieces.h"
+#include "road/smoothing.h"
+#include "road/speed_profile.h"
 #include "support/plain_net.h"
 #include "support/small_net.h"
 
@@ -104,7 +106,7 @@ TEST_F(Crossroads, StraightOnKeepsTheLane) {
   const Lane& target = right().lane(right().lane_by_name.at("CE_1"));
   EXPECT_NEAR((path.line.point_at(path.links[0].end) - target.centerline.points().front()).norm(),
               0.0, 1e-6);
-  EXPECT_EQ(right().connection(path.links[0].connection).direction, 's');
+  EXPECT_EQ(right().connection(path.links[0].connection).direction, TurnDirection::Straight);
 }
 
 TEST_F(Crossroads, ATurnThatNeedsTheOtherLaneChangesBeforeTheStopLine) {

@@ -102,7 +102,7 @@ TEST(SweptWays, StraightOnSweepsNothing) {
   const SweptWayTable table = find_swept_ways(network, build_conflict_table(network));
   for (std::size_t i = 0; i < table.size(); ++i)
     for (const SweptWay& way : table[i])
-      EXPECT_FALSE(!way.foe_sweeps && network.connections[i].direction == 's');
+      EXPECT_FALSE(!way.foe_sweeps && network.connections[i].direction == TurnDirection::Straight);
 }
 
 }  // namespace

@@ -35,13 +35,11 @@ Scene three_agents() {
 void expect_parallel(const Scene& scene) {
   const std::size_t n = scene.size();
   for (const std::size_t size :
-       {scene.type.size(),       scene.footprint.size(),    scene.position.size(),
-        scene.heading.size(),    scene.velocity.size(),     scene.speed.size(),
-        scene.steering.size(),   scene.acceleration.size(), scene.preferred_speed.size(),
-        scene.behavior.size(),   scene.control.size(),      scene.path.size(),
-        scene.path_along.size(), scene.path_offset.size(),  scene.standing_time.size(),
-        scene.next_stop.size(),  scene.stop_left.size(),    scene.lane.size(),
-        scene.height.size(),     scene.context.size()})
+       {scene.type.size(), scene.footprint.size(), scene.position.size(), scene.heading.size(),
+        scene.velocity.size(), scene.speed.size(), scene.steering.size(), scene.acceleration.size(),
+        scene.preferred_speed.size(), scene.behavior.size(), scene.manners.size(),
+        scene.control.size(), scene.path.size(), scene.path_along.size(), scene.halt.size(),
+        scene.held.size(), scene.lane.size(), scene.height.size(), scene.context.size()})
     EXPECT_EQ(size, n);
 }
 
@@ -109,74 +107,10 @@ TEST(HashState, SeesEveryBitOfTheStateAndNothingElse) {
   expect_new([](Scene& s) { remove_agents(s, {false, false, true}); });
   Scene other = scene;
   other.time = 5;
-  other.standing_time[0] = 3;
+  other.held[0].standing = 3;
   EXPECT_EQ(hash_state(other), hash_state(scene));
   // continued from another hash it is another one
   EXPECT_NE(hash_state(scene, 1), hash_state(scene));
-}
-
-// a vehicle that creeps from zone to zone has not got on
-TEST(CountStanding, CreepingIsStillWaiting) {
-  Scene scene;
-  AgentState car, walker;
-  car.id = {1};
-  walker.id = {2};
-  car.preferred_speed = 13.0;
-  walker.preferred_speed = 1.3;
-  append_agent(scene, car);
-  append_agent(scene, walker);
-  auto tick = [&](double speed) {
-    for (std::size_t row = 0; row < scene.size(); ++row) {
-      scene.velocity[row] = {speed, 0};
-      count_standing(0.5, row == 0 ? Kinematics::SingleTrack : Kinematics::Holonomic, scene, row);
-    }
-  };
-  EXPECT_EQ(scene.stood_at[0], -std::numeric_limits<double>::infinity()) << "never";
-  scene.time = 7.0;
-  tick(0.0);
-  scene.time = 7.5;
-  tick(0.5);
-  EXPECT_EQ(scene.stood_at[0], 7.0);
-  EXPECT_EQ(scene.standing_time[0], 0.0);
-  EXPECT_EQ(scene.waiting_time[0], 1.0);
-  EXPECT_EQ(scene.waiting_time[1], 0.0) << "on foot this is walking";
-  tick(1.5);
-  EXPECT_EQ(scene.waiting_time[0], 0.0);
-}
-
-// somebody who was pressed half a step forward at the kerb had waited for nothing
-TEST(CountStanding, AStepDoesNotEndTheWaitOfPeople) {
-  Scene scene;
-  AgentState walker;
-  walker.preferred_speed = 1.3;
-  append_agent(scene, walker);
-  auto waits_after = [&](double seconds, double speed) {
-    scene.velocity[0] = {speed, 0};
-    for (int k = 0; k < 10; ++k) count_standing(0.1 * seconds, Kinematics::Holonomic, scene, 0);
-    return scene.waiting_time[0];
-  };
-  EXPECT_NEAR(waits_after(60.0, 0.0), 60.0, 1e-9);
-  EXPECT_NEAR(waits_after(0.5, 1.0), 55.0, 1e-9);
-  EXPECT_EQ(waits_after(6.0, 1.0), 0.0);
-}
-
-TEST(CountStanding, WhoIsPressedBackDoesNotGetOn) {
-  Scene scene;
-  AgentState walker;
-  walker.id = {1};
-  walker.preferred_speed = 1.3;
-  append_agent(scene, walker);
-  scene.context[0].active = true;
-  scene.context[0].tangent = {1, 0};
-  auto waits_after = [&](double vx, double vy) {
-    scene.velocity[0] = {vx, vy};
-    count_standing(0.5, Kinematics::Holonomic, scene, 0);
-    return scene.waiting_time[0];
-  };
-  EXPECT_EQ(waits_after(1.0, 0.0), 0.0);
-  EXPECT_EQ(waits_after(-1.0, 0.0), 0.5) << "back along its way";
-  EXPECT_EQ(waits_after(0.0, 1.0), 1.0) << "aside";
-  EXPECT_EQ(scene.standing_time[0], 0.0) << "it moves all the same";
 }
 
 TEST(Footprint, ABoxIsCounterClockwiseAboutItsCentre) {

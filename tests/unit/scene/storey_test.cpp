@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "road/lane_crossings.h"
 #include "road/overpasses.h"
 #include "support/small_net.h"
 
@@ -18,7 +19,8 @@ class StoreyTest : public ::testing::Test {
   Ground at(const char* lane, double along, double height) const {
     return {net_.lane_by_name.at(lane), along, height};
   }
-  bool apart(const Ground& a, const Ground& b) const {
+  bool apart(const Ground& a, const Ground& b) {
+    find_lane_crossings(net_);
     EXPECT_EQ(on_other_storey(net_, a, b), on_other_storey(net_, b, a));
     return on_other_storey(net_, a, b);
   }

@@ -30,7 +30,7 @@ class Rules : public ::testing::Test {
       scene_.time += kStep;
       for (std::size_t row = 0; row < scene_.size(); ++row)
         scene_.position[row] += kStep * scene_.velocity[row];
-      monitor_.add(scene_, types_, road_);
+      monitor_.add(scene_, types_, road_, workers_);
       events_ += monitor_.new_events().size();
     }
   }
@@ -41,6 +41,7 @@ class Rules : public ::testing::Test {
   AgentTypeTable types_ = default_agent_types();
   RoadState road_;
   Scene scene_;
+  Workers workers_;
   RuleMonitor monitor_{kStep, net_, locator_};
   std::uint32_t next_ = 0;
   std::size_t events_ = 0;
@@ -72,6 +73,43 @@ TEST_F(Rules, WhoIsOnAnotherWayOnlyDrivesOverTheLine) {
   EXPECT_EQ(counts().red_light_crossings, 1u);
 }
 
+// offences of all kinds, in an order that only the rows may decide
+TEST_F(Rules, AnyNumberOfWorkersFindsTheSame) {
+  road_.signal_states = {"rr"};
+  for (int k = 0; k < 5; ++k) {
+    add("car", {60.0 - 8 * k, 0}, {10, 0});
+    add("car", {80.0 + 3 * k, 0}, {-5, 0});
+    add("pedestrian", {101, 3.5 + k}, {0, -1.3});
+    add("truck", {20.0 + 5 * k, 30}, {0, 1});
+    add("motorcycle", {20.0 + 5 * k, 2.6}, {1, 0});
+  }
+  const Scene start = scene_;
+  run(6);
+  EXPECT_GT(counts().red_light_crossings, 5u);
+  EXPECT_GT(counts().red_lights_met, 5u);
+  EXPECT_GT(counts().off_road_s, 5.0);
+  EXPECT_GT(counts().wrong_way_s, 5.0);
+  EXPECT_GT(counts().sidewalk_by_vehicle_s, 5.0);
+  Workers three(3);
+  RuleMonitor monitor(kStep, net_, locator_);
+  scene_ = start;
+  for (int tick = 0; tick < 60; ++tick) {
+    scene_.time += kStep;
+    for (std::size_t row = 0; row < scene_.size(); ++row)
+      scene_.position[row] += kStep * scene_.velocity[row];
+    monitor.add(scene_, types_, road_, three);
+  }
+  ASSERT_EQ(monitor.offences().size(), monitor_.offences().size());
+  for (std::size_t i = 0; i < monitor.offences().size(); ++i) {
+    const OffenceSpan &one = monitor_.offences()[i], &other = monitor.offences()[i];
+    EXPECT_EQ(one.id, other.id);
+    EXPECT_EQ(one.kind, other.kind);
+    EXPECT_EQ(one.since, other.since);
+    EXPECT_EQ(one.duration, other.duration);
+  }
+  EXPECT_EQ(monitor.result(types_).all.red_lights_met, counts().red_lights_met);
+}
+
 TEST_F(Rules, AmberIsNoOffence) {
   road_.signal_states = {"yr"};
   add("car", {70, 0}, {10, 0});
@@ -95,6 +133,7 @@ TEST(RulesBetweenLanes, WhoDrivesBetweenTwoLanesGoesByTheLightOfEither) {
                       [static_cast<std::size_t>(connection.signal_link)] = 'r';
   }
   const auto red_lights = [&](const char* type, double offset) {
+    Workers workers;
     RuleMonitor monitor(kStep, net, locator);
     AgentState agent;
     agent.type = find_agent_type(types, type);
@@ -109,7 +148,7 @@ TEST(RulesBetweenLanes, WhoDrivesBetweenTwoLanesGoesByTheLightOfEither) {
     for (int tick = 0; tick < 40; ++tick) {
       scene.time += kStep;
       scene.position[0] += kStep * scene.velocity[0];
-      monitor.add(scene, types, road);
+      monitor.add(scene, types, road, workers);
     }
     return monitor.result(types).all.red_light_crossings;
   };
@@ -133,6 +172,7 @@ TEST(RulesBetweenLanes, TheStopLineRunsThroughTheEndsOfLanesSideBySide) {
   RoadState road;
   road.signal_states.assign(net.signals.size(), std::string(32, 'r'));
   const auto red_lights = [&](double offset, double past) {
+    Workers workers;
     RuleMonitor monitor(kStep, net, locator);
     AgentState agent;
     agent.type = find_agent_type(types, "car");
@@ -146,7 +186,7 @@ TEST(RulesBetweenLanes, TheStopLineRunsThroughTheEndsOfLanesSideBySide) {
       const double left = std::max(8.0 - 4.0 * scene.time, 0.0);
       scene.time += kStep;
       scene.position[0] = halt - (0.5 * car.length + left) * forward;
-      monitor.add(scene, types, road);
+      monitor.add(scene, types, road, workers);
     }
     return monitor.result(types).all.red_light_crossings;
   };
@@ -344,7 +384,7 @@ TEST_F(Rules, OvertakingOverTheMiddleIsNoOffence) {
     scene_ = Scene{};
     add("car", {80, 0}, {-speed, 0});
     add(other, {80 - ahead, -3.2}, velocity);
-    for (int tick = 0; tick < 10; ++tick) monitor.add(scene_, types_, road_);
+    for (int tick = 0; tick < 10; ++tick) monitor.add(scene_, types_, road_, workers_);
     return monitor.result(types_).all;
   };
   EXPECT_NEAR(counted("bicycle", {-4, 0}).wrong_way_s, 1.0, 1e-9) << "the network doesn't let it";
@@ -414,6 +454,7 @@ TEST(RulesInGaps, TheStripBetweenLanesIsRoad) {
   const LaneLocator locator(net);
   const AgentTypeTable types = default_agent_types();
   const auto off_road = [&](const Vec2& position, double heading) {
+    Workers workers;
     RuleMonitor monitor(kStep, net, locator);
     Scene scene;
     AgentState agent;
@@ -422,7 +463,7 @@ TEST(RulesInGaps, TheStripBetweenLanesIsRoad) {
     agent.position = position;
     agent.heading = heading;
     append_agent(scene, agent);
-    for (int tick = 0; tick < 10; ++tick) monitor.add(scene, types, {});
+    for (int tick = 0; tick < 10; ++tick) monitor.add(scene, types, {}, workers);
     return monitor.result(types).all.off_road_s;
   };
   for (const double heading : {0.0, 0.4, 1.2}) {
@@ -440,7 +481,7 @@ TEST_F(Rules, NobodyIsOverAnEdgeByCentimetres) {
     RuleMonitor monitor(kStep, net_, locator_);
     scene_ = Scene{};
     add("car", {80, y}, {-speed, 0});
-    for (int tick = 0; tick < 10; ++tick) monitor.add(scene_, types_, road_);
+    for (int tick = 0; tick < 10; ++tick) monitor.add(scene_, types_, road_, workers_);
     const RuleCounts counted = monitor.result(types_).all;
     return counted.wrong_way_s + counted.sidewalk_by_vehicle_s;
   };
@@ -520,6 +561,7 @@ TEST_P(Fork, MixedLightsAreJudgedByTheTurnTaken) {
   const RoadNetwork net = read_sumo_net(file);
   std::filesystem::remove(file);
   const LaneLocator locator(net);
+  Workers workers;
   RuleMonitor monitor(kStep, net, locator);
   const AgentTypeTable types = default_agent_types();
   RoadState road;
@@ -535,7 +577,7 @@ TEST_P(Fork, MixedLightsAreJudgedByTheTurnTaken) {
     scene.position[0] = turned ? Vec2(55, 55 - s) : Vec2(s, 0);
     scene.heading[0] = turned ? -kPi / 2 : 0.0;
     scene.velocity[0] = 10 * direction_of(scene.heading[0]);
-    monitor.add(scene, types, road);
+    monitor.add(scene, types, road, workers);
   }
   EXPECT_EQ(monitor.result(types).all.signal_crossings, 1u);
   EXPECT_EQ(monitor.result(types).all.red_light_crossings, GetParam() ? 0u : 1u);

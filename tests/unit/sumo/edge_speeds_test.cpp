@@ -52,7 +52,7 @@ TEST_F(EdgeSpeedsTest, AQueueIsToldAsItLasts) {
 
 TEST_F(EdgeSpeedsTest, WhoHaltsByPlanHoldsNobodyUp) {
   put("AS_0", 0.0);
-  scene_.stop_left.back() = 20.0;
+  scene_.halt.back().left = 20.0;
   EdgeSpeeds speeds(network_);
   for (int second = 0; second < 90; ++second) speeds.add(network_, scene_);
   EXPECT_TRUE(speeds.take_changes(network_).empty());

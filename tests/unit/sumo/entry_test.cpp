@@ -95,7 +95,10 @@ class EntryTest : public ::testing::Test {
     agent.position = path.line.point_at(0.0);
     agent.heading = heading_of(path.line.direction_at(0.0));
     agent.preferred_speed = preferred;
-    return entry_speed(here_.model, path, agent, Ground{}, here_.road, here_.scene);
+    SpatialGrid grid;
+    grid.rebuild(here_.scene.position);
+    return entry_speed({here_.model, here_.road, here_.scene, grid}, path, agent, Ground{},
+                       blocker_);
   }
   /// Puts a row so far from where newcomers start.
   void put(std::size_t row, const Vec2& away, double heading, double speed) {
@@ -105,9 +108,21 @@ class EntryTest : public ::testing::Test {
   }
   testing::RoadScene here_{testing::small_net()};
   std::size_t first_ = here_.add("car", {"in", "out"}, 120, 10);
+  std::optional<AgentId> blocker_;
 };
 
 TEST_F(EntryTest, AFreePlaceIsTaken) { EXPECT_TRUE(speed_of_newcomer()); }
+
+TEST_F(EntryTest, WhoIsInTheWayIsLookedAtFirst) {
+  const std::size_t other = here_.add("car", {"in", "out"}, 0, 0);
+  EXPECT_FALSE(speed_of_newcomer());
+  ASSERT_TRUE(blocker_);
+  EXPECT_EQ(*blocker_, here_.scene.id[other]);
+  EXPECT_FALSE(speed_of_newcomer()) << "it still is";
+  put(other, Vec2(200, 0), 0, 0);
+  EXPECT_TRUE(speed_of_newcomer());
+  EXPECT_FALSE(blocker_);
+}
 
 TEST_F(EntryTest, NobodyStartsInFrontOfWhoComesAcross) {
   const std::size_t other = here_.add("car", {"in", "out"}, 0, 0);

@@ -1,0 +1,295 @@
+#include "app/run_observers.h"
+
+#include <algorithm>
+
+#include "base/hash.h"
+#include "io/output_file.h"
+#include "io/results.h"
+#include "io/trajectories.h"
+#include "prediction/live_predictor.h"
+
+namespace sumogamma {
+
+namespace {
+
+class Collisions final : public RunObserver {
+ public:
+  explicit Collisions(const WatchedRun& run)
+      : RunObserver(run), monitor_(run.sim.dt, &run.sim.model.road) {}
+  void add(std::vector<RunEvent>& events) override {
+    monitor_.add(run_.sim.scene, run_.sim.model.types);
+    for (; marked_ < monitor_.pairs().size(); ++marked_) {
+      const CollisionPair& pair = monitor_.pairs()[marked_];
+      events.push_back({ReplayEventKind::Collision, pair.since, pair.position, pair.a, pair.b});
+    }
+  }
+  void fill(RunResults& results) const override { results.collisions = monitor_.result(); }
+  void close() override {
+    write_file(run_.plan.options.output / "collisions.csv",
+               collisions_csv(monitor_.pairs(), run_.sim.model.types,
+                              [&](AgentId id) { return run_.name_of(id); }));
+  }
+
+ private:
+  CollisionMonitor monitor_;
+  std::size_t marked_ = 0;
+};
+
+class Rules final : public RunObserver {
+ public:
+  explicit Rules(const WatchedRun& run)
+      : RunObserver(run), monitor_(run.sim.dt, run.sim.model.road, run.locator) {}
+  void add(std::vector<RunEvent>& events) override {
+    monitor_.add(run_.sim.scene, run_.sim.model.types, run_.sim.road, *run_.sim.workers);
+    for (const RedLightEvent& red : monitor_.new_events())
+      events.push_back({ReplayEventKind::RedLight, red.time, red.position, red.id});
+  }
+  void fill(RunResults& results) const override {
+    results.rules = monitor_.result(run_.sim.model.types);
+  }
+  void close() override {
+    write_file(run_.plan.options.output / "offences.csv",
+               offences_csv(monitor_.offences(), run_.sim.model.types,
+                            [&](AgentId id) { return run_.name_of(id); }));
+  }
+
+ private:
+  RuleMonitor monitor_;
+};
+
+class Flow final : public RunObserver {
+ public:
+  explicit Flow(const WatchedRun& run)
+      : RunObserver(run), monitor_(run.sim.dt, run.sim.model.road) {}
+  void add(std::vector<RunEvent>& events) override {
+    monitor_.add(run_.sim.scene, run_.sim.model.types, run_.sim.road);
+    for (; marked_ < monitor_.stuck().size(); ++marked_) {
+      const StuckAgent& stuck = monitor_.stuck()[marked_];
+      events.push_back({ReplayEventKind::Stuck, run_.sim.scene.time, stuck.position, stuck.id});
+    }
+  }
+  void fill(RunResults& results) const override {
+    results.flow = monitor_.result(run_.sim.model.types);
+  }
+  void close() override {
+    write("stuck.csv", monitor_.stuck());
+    write("held.csv", monitor_.held());
+  }
+
+ private:
+  void write(const char* file, const std::vector<StuckAgent>& stays) const {
+    write_file(run_.plan.options.output / file,
+               stuck_csv(stays, run_.sim.model.types, run_.sim.model.road,
+                         [&](AgentId id) { return run_.name_of(id); }));
+  }
+
+  FlowMonitor monitor_;
+  std::size_t marked_ = 0;
+};
+
+class Smoothness final : public RunObserver {
+ public:
+  explicit Smoothness(const WatchedRun& run) : RunObserver(run), monitor_(run.sim.dt) {}
+  void add(std::vector<RunEvent>&) override { monitor_.add(run_.sim.scene, run_.sim.model.types); }
+  void fill(RunResults& results) const override {
+    results.smoothness = monitor_.result(run_.sim.model.types);
+  }
+
+ private:
+  SmoothnessMonitor monitor_;
+};
+
+class Trajectories final : public RunObserver {
+ public:
+  explicit Trajectories(const WatchedRun& run)
+      : RunObserver(run),
+        writer_(run.plan.options.output / "trajectories.fcd.xml.gz",
+                run.plan.options.trajectory_period, run.sim.dt, run.sim.model.road, &run.locator) {}
+  void add(std::vector<RunEvent>&) override {
+    writer_.add(run_.sim.scene, run_.sim.model.types, [&](AgentId id) { return run_.name_of(id); });
+  }
+  void close() override { writer_.close(); }
+
+ private:
+  TrajectoryWriter writer_;
+};
+
+class Prediction final : public RunObserver {
+ public:
+  explicit Prediction(const WatchedRun& run)
+      : RunObserver(run),
+        predictor_(run.sim.model.types, live_predictor_parameters(), &run.sim.model.road) {}
+  static bool is_wanted(const RunOptions& options) { return options.predict; }
+  void add(std::vector<RunEvent>&) override {
+    predictor_.observe(run_.sim.scene, &run_.sim.model.types);
+  }
+  void fill(RunResults& results) const override {
+    results.prediction = {true, predictor_.score(), predictor_.scores()};
+  }
+
+ private:
+  LivePredictor predictor_;
+};
+
+class Replay final : public RunObserver {
+ public:
+  explicit Replay(const WatchedRun& run)
+      : RunObserver(run),
+        recorder_(run.plan.options.output / "replay.bin", run.plan.input.name, run.sim.model.road,
+                  run.sim.model.types, run.plan.options.replay_period) {}
+  static bool is_wanted(const RunOptions& options) { return options.replay; }
+  void add(std::vector<RunEvent>& events) override {
+    recorder_.add(
+        run_.sim.scene, &run_.sim.road, [&](AgentId id) { return run_.name_of(id); },
+        &run_.sim.model.types);
+    for (const RunEvent& event : events)
+      recorder_.add_event(event.kind, event.time, event.position, event.a, event.b);
+  }
+  void close() override {
+    recorder_.close();
+    const std::filesystem::path& output = run_.plan.options.output;
+    write_replay_page(output / "replay.html", output / "replay.bin");
+  }
+
+ private:
+  ReplayRecorder recorder_;
+};
+
+/// Who came, went and was driven by us; the bits of everybody's state.
+class Agents final : public RunObserver {
+ public:
+  using RunObserver::RunObserver;
+  void add(std::vector<RunEvent>&) override {
+    const Scene& scene = run_.sim.scene;
+    hash_ = hash_state(scene, hash_);
+    driven_ = static_cast<std::uint64_t>(
+        std::count(scene.control.begin(), scene.control.end(), Control::Gamma));
+    driven_sum_ += driven_;
+    driven_most_ = std::max(driven_most_, driven_);
+    ++ticks_;
+  }
+  void fill(RunResults& results) const override {
+    AgentCounts& agents = results.agents;
+    const LifeCycle& life = run_.world.life_cycle();
+    results.state_hash = hash_;
+    agents.controlled_now = driven_;
+    agents.controlled_peak = driven_most_;
+    agents.controlled_mean =
+        ticks_ > 0 ? static_cast<double>(driven_sum_) / static_cast<double>(ticks_) : 0.0;
+    agents.detours = run_.sim.traffic.detours;
+    agents.stops_served = static_cast<std::uint64_t>(life.stops_served);
+    agents.rides = static_cast<std::uint64_t>(life.rides);
+    agents.taken_over = static_cast<std::uint64_t>(life.taken_over);
+    agents.handed_back = static_cast<std::uint64_t>(life.handed_back);
+    agents.kept_on_foot = static_cast<std::uint64_t>(life.kept_on_foot);
+    agents.insertions_delayed = static_cast<std::uint64_t>(life.insertions_delayed);
+    for (const auto& [reason, count] : life.removed)
+      agents.removed[reason] = static_cast<std::uint64_t>(count);
+    for (const auto& [reason, count] : life.left_to_sumo)
+      agents.left_to_sumo[reason] = static_cast<std::uint64_t>(count);
+    fill_trips(life, agents);
+  }
+  void close() override {
+    write_file(run_.plan.options.output / "trips.csv",
+               trips_csv(run_.world.life_cycle().trips, run_.sim.model.types,
+                         [&](AgentId id) { return run_.name_of(id); }));
+  }
+
+ private:
+  void fill_trips(const LifeCycle& life, AgentCounts& agents) const {
+    for (const auto& [type, count] : life.by_type) {
+      AgentCounts::ByType& counts = agents.by_type[type];
+      counts.inserted = static_cast<std::uint64_t>(count.inserted);
+      counts.arrived = static_cast<std::uint64_t>(count.arrived);
+      agents.inserted += counts.inserted;
+      agents.arrived += counts.arrived;
+    }
+    for (const FinishedTrip& trip : life.trips) {
+      const double time = trip.arrived - trip.departed;
+      AgentCounts::ByType& counts = agents.by_type[type_of(run_.sim.model.types, trip.type).name];
+      counts.mean_travel_time += time / static_cast<double>(counts.arrived);
+      agents.mean_travel_time += time / static_cast<double>(agents.arrived);
+    }
+  }
+
+  std::uint64_t hash_ = kFnvBasis, driven_ = 0, driven_sum_ = 0, driven_most_ = 0, ticks_ = 0;
+};
+
+Quantiles quantiles_of(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  };
+  return {at(0.5), at(0.95), values.back()};
+}
+
+HandBackResult summary_of(const std::vector<HandBack>& backs) {
+  const auto spread = [&](double HandBack::*figure) {
+    std::vector<double> values;
+    for (const HandBack& back : backs) values.push_back(back.*figure);
+    return quantiles_of(std::move(values));
+  };
+  return {backs.size(), spread(&HandBack::position), spread(&HandBack::heading),
+          spread(&HandBack::speed), spread(&HandBack::acceleration)};
+}
+
+/// What SUMO made of what was written.
+class Coupling final : public RunObserver {
+ public:
+  explicit Coupling(const WatchedRun& run) : RunObserver(run) {
+    run.world.coupling().compare = [this](const Vec2& written, const Vec2& reported) {
+      monitor_.add(written, reported);
+    };
+  }
+  ~Coupling() override { run_.world.coupling().compare = nullptr; }
+  void add(std::vector<RunEvent>&) override {}
+  void fill(RunResults& results) const override {
+    const CouplingCheck& seen = run_.world.coupling();
+    results.coupling = monitor_.result();
+    results.hand_back = summary_of(seen.hand_backs);
+    results.teleports = static_cast<std::uint64_t>(seen.teleports);
+    results.emergency_stops = static_cast<std::uint64_t>(seen.emergency_stops);
+  }
+
+ private:
+  CouplingMonitor monitor_;
+};
+
+using Make = std::unique_ptr<RunObserver> (*)(const WatchedRun&);
+
+/// Null where an output wasn't asked for.
+template <typename Observer>
+std::unique_ptr<RunObserver> make(const WatchedRun& run) {
+  if constexpr (requires { Observer::is_wanted(run.plan.options); })
+    if (!Observer::is_wanted(run.plan.options)) return nullptr;
+  return std::make_unique<Observer>(run);
+}
+
+/// All there are. The replay comes behind those whose events it marks.
+constexpr Make kObservers[] = {make<Agents>,     make<Coupling>,     make<Collisions>,
+                               make<Rules>,      make<Flow>,         make<Smoothness>,
+                               make<Prediction>, make<Trajectories>, make<Replay>};
+
+}  // namespace
+
+RunObservers::RunObservers(const RunPlan& plan, const Simulation& sim, SumoWorld& world)
+    : run_{plan, sim, world, LaneLocator(sim.model.road)} {
+  for (const Make maker : kObservers)
+    if (auto observer = maker(run_)) list_.push_back(std::move(observer));
+}
+
+void RunObservers::add() {
+  events_.clear();
+  for (const auto& observer : list_) observer->add(events_);
+}
+
+void RunObservers::fill(RunResults& results) const {
+  for (const auto& observer : list_) observer->fill(results);
+}
+
+void RunObservers::close() {
+  for (const auto& observer : list_) observer->close();
+}
+
+}  // namespace sumogamma

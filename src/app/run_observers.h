@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "app/run_plan.h"
+#include "io/replay.h"
+#include "road/lane_locator.h"
+#include "simulation/simulation.h"
+#include "sumo/sumo_world.h"
+
+namespace sumogamma {
+
+/// A run as those see it who watch it.
+struct WatchedRun {
+  const RunPlan& plan;
+  const Simulation& sim;
+  SumoWorld& world;
+  LaneLocator locator;
+
+  /// SUMO's id of an agent.
+  std::string_view name_of(AgentId id) const { return world.names()[id.value]; }
+};
+
+/// A moment of the present tick worth a mark in the replay.
+struct RunEvent {
+  ReplayEventKind kind{};
+  double time = 0;  ///< [s]
+  Vec2 position = Vec2::Zero();
+  AgentId a;
+  AgentId b{ReplayRecorder::kNobody};
+};
+
+/// Watches a run and writes about it: keys of results.json, or files of its own. One output is one
+/// of them in run_observers.cpp, and its line in the list there.
+class RunObserver {
+ public:
+  explicit RunObserver(const WatchedRun& run) : run_(run) {}
+  virtual ~RunObserver() = default;
+  RunObserver(const RunObserver&) = delete;
+  RunObserver& operator=(const RunObserver&) = delete;
+
+  /// Called after every tick. Adds to `events`, and may read what those before it in the list
+  /// added.
+  virtual void add(std::vector<RunEvent>& events) = 0;
+  /// Its part of results.json.
+  virtual void fill(RunResults&) const {}
+  /// Completes its files. Throws Error naming the file.
+  virtual void close() {}
+
+ protected:
+  const WatchedRun& run_;
+};
+
+/// All that watch a run.
+class RunObservers {
+ public:
+  /// What is handed over must outlive them.
+  RunObservers(const RunPlan& plan, const Simulation& sim, SumoWorld& world);
+
+  void add();
+  void fill(RunResults& results) const;
+  void close();
+
+ private:
+  WatchedRun run_;
+  std::vector<std::unique_ptr<RunObserver>> list_;
+  std::vector<RunEvent> events_;  ///< of one tick
+};
+
+}  // namespace sumogamma

@@ -1,0 +1,48 @@
+// The page's clock, and how it starts.
+
+let before = null;
+function frame(now) {
+  if (playing) {
+    const elapsed = before === null ? 0 : Math.min((now - before) / 1000, 0.25);
+    time += elapsed * rate;
+    if (time >= end) { time = end; setPlaying(false); }
+    dirty = true;
+  }
+  before = now;
+  if (dirty) { dirty = false; drawScene(now); }
+  requestAnimationFrame(frame);
+}
+
+
+// #t=12&x=..&y=..&s=px per metre&theme=light&play=0&follow=NAME&paint=speed&rate=5: a view to link to
+const wish = new URLSearchParams(location.hash.slice(1));
+document.title = map.title + ' · sumo-gamma replay';
+$('title').textContent = map.title;
+$('scrub').min = begin; $('scrub').max = end;
+buildMap();
+width = window.innerWidth; height = window.innerHeight;
+root.dataset.theme = wish.get('theme') || (matchMedia('(prefers-color-scheme: light)').matches ? 'light' : 'dark');
+readTheme();
+resize();
+const busy = busyBox();
+fit(map.lanes.length ? busy : bounds);
+view.scale = Math.min(view.scale, 14);
+if (wish.has('s')) view.scale = +wish.get('s');
+if (wish.has('x')) view.x = +wish.get('x');
+if (wish.has('y')) view.y = +wish.get('y');
+if (wish.has('t')) seek(+wish.get('t'));
+if (wish.has('follow')) follow(agents.find(agent => agent.name === wish.get('follow')) || null);
+if (wish.get('paths') === '1') trails = true;
+const rateIndex = [...$('rate').options].findIndex(option => option.value === wish.get('rate'));
+if (rateIndex >= 0) setRate(rateIndex);
+setPaint(kPaints.includes(wish.get('paint')) ? wish.get('paint') : 'type');
+buildMarks();
+if (times.length) {
+  setPlaying(wish.get('play') !== '0');
+  canvas.focus();
+  drawScene(performance.now());
+  requestAnimationFrame(frame);
+} else {
+  $('notice').textContent = 'The recording holds no step.';
+}
+Object.assign(root.dataset, {state: times.length ? 'ready' : 'empty', steps: times.length, agents: agents.length, events: events.length});

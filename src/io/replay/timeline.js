@@ -1,0 +1,36 @@
+// How many are alive when, and what happened when, along the slider.
+
+const timeline = {canvas: $('timeline'), picture: document.createElement('canvas')};
+function drawTimeline() {
+  const w = Math.round(timeline.canvas.clientWidth * dpr), h = Math.round(timeline.canvas.clientHeight * dpr);
+  if (!w || !h) return;
+  timeline.canvas.width = timeline.picture.width = w;
+  timeline.canvas.height = timeline.picture.height = h;
+  const ctx = timeline.picture.getContext('2d'), most = Math.max(1, ...[...recording.alive].filter((_, i) => i % 10 === 0));
+  const span = Math.max(end - begin, 1e-9);
+  ctx.fillStyle = css.dim;
+  ctx.globalAlpha = 0.28;
+  for (let px = 0; px < w; ++px) {
+    const step = stepAt(begin + px / w * span);
+    const tall = (recording.alive[step] || 0) / most * (h - 8 * dpr);
+    ctx.fillRect(px, h - tall, 1, tall);
+  }
+  ctx.globalAlpha = 0.95;
+  for (const event of events) {
+    ctx.fillStyle = kEventColours[event.kind];
+    ctx.fillRect((event.time - begin) / span * w - dpr, 0, 2 * dpr, 7 * dpr);
+  }
+}
+
+function moveCursor() {
+  const {canvas: target, picture} = timeline, ctx = target.getContext('2d');
+  if (!target.width || !picture.width) return;
+  const x = (time - begin) / Math.max(end - begin, 1e-9) * target.width;
+  ctx.clearRect(0, 0, target.width, target.height);
+  ctx.drawImage(picture, 0, 0);
+  ctx.fillStyle = css.accent;
+  ctx.globalAlpha = 0.16;
+  ctx.fillRect(0, 0, x, target.height);
+  ctx.globalAlpha = 1;
+  ctx.fillRect(Math.min(Math.max(x - dpr, 0), target.width - 2 * dpr), 0, 2 * dpr, target.height);
+}

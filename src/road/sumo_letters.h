@@ -1,0 +1,26 @@
+#pragma once
+
+#include "road/road_network.h"
+
+namespace sumogamma {
+
+// What the letters of SUMO's networks and signals mean (SUMO pages Networks/SUMO_Road_Networks and
+// Simulation/Traffic_Lights). Nobody else knows them.
+
+/// What a signal shows to a link.
+enum class Light : std::uint8_t {
+  None,  ///< no signal, or it is off or not known yet
+  Red,   ///< with amber, too
+  Amber,
+  Green,       ///< who turns gives way, or everybody where it blinks
+  GreenFirst,  ///< nobody who crosses goes first
+};
+
+/// Of `dir`; straight where the letter is none of SUMO's.
+TurnDirection direction_from_letter(char letter);
+/// Of `state`; Other where the letter is none of a link without a signal.
+LinkPriority priority_from_letter(char letter);
+/// Of a signal's state string.
+Light light_from_letter(char letter);
+
+}  // namespace sumogamma

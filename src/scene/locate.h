@@ -1,0 +1,18 @@
+#pragma once
+
+#include "road/road_network.h"
+#include "scene/road_state.h"
+#include "scene/scene.h"
+
+namespace sumogamma {
+
+/// Updates path_along, lane and height of one row from its position: the nearest place on its own
+/// path not far from the last one, so that a path that crosses itself is followed in order. Leaves
+/// agents without a path alone. Returns the signed distance to the path [m], positive to the left.
+double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& scene,
+                      std::size_t row);
+
+/// Goes on by another path on which the row is `along` [m]; the halts ahead are its first ones.
+void take_path(Path path, double along, std::size_t row, RoadState& road, Scene& scene);
+
+}  // namespace sumogamma

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sumo/backend.h"
+#include "sumo/ghost.h"
+#include "sumo/watch_list.h"
+
+namespace sumogamma {
+
+/// What the back ends have in common: the order of a step, the start-up self-test in it, and who is
+/// watched. How to talk to SUMO is left to them.
+class SteppedBackend : public SumoBackend {
+ public:
+  const std::vector<std::string>& signal_ids() const final { return signal_ids_; }
+  const std::vector<Detector>& detectors() const final { return detectors_; }
+  double time() const final { return time_; }
+  void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
+            SumoStep& result) final;
+  void watch(const std::string& id, bool is_person) final {
+    if (watched_.add(id, is_person)) watch_changed_ = true;
+  }
+  void unwatch(const std::string& id, bool is_person) final {
+    if (watched_.drop(id, is_person)) watch_changed_ = true;
+  }
+
+ protected:
+  /// Runs `talk` where SUMO is there to talk to; failures come out as SumoError, or Error for what
+  /// the user gave.
+  virtual void talk_to_sumo(const std::function<void()>& talk) = 0;
+  /// Moves the ghosts as mode() says, makes the step and reads what happened into `result`, whose
+  /// lists are empty. Whom SUMO refuses is in result.lost.
+  virtual void move_and_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
+                             SumoStep& result) = 0;
+  virtual std::vector<std::string> route_of(const std::string& vehicle) = 0;
+  /// Nothing where it has left.
+  virtual std::optional<GhostObservation> observe(const std::string& id, bool is_person) = 0;
+  /// Reads the entries of the watch list into `agents`, in order; those whom SUMO doesn't know any
+  /// more into `gone` instead.
+  virtual void read_watched(const std::vector<WatchList::Entry>& entries,
+                            std::vector<SumoAgent>& agents,
+                            std::vector<WatchList::Entry>& gone) = 0;
+
+  GhostMode mode(bool is_person) const { return (is_person ? person_test_ : vehicle_test_).mode(); }
+
+  bool started_ = false;  ///< a step was made: what fails from now on isn't the user's input
+  double time_ = 0;       ///< [s]
+  std::vector<std::string> signal_ids_;
+  std::vector<Detector> detectors_;
+  std::vector<std::string> warnings_;  ///< of our own
+  bool watch_changed_ = false;         ///< since the back end last put it back to false
+
+ private:
+  void finish_test(GhostSelfTest& test, bool is_person, std::span<const SumoPose> poses,
+                   const SumoStep& result, const std::vector<std::string>& route);
+
+  WatchList watched_;
+  GhostSelfTest vehicle_test_{false}, person_test_{true};
+};
+
+}  // namespace sumogamma

@@ -1,0 +1,210 @@
+#include "traffic/junction/arbitration.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "geometry/oriented_box.h"
+#include "scene/extent.h"
+#include "traffic/junction/laws.h"
+#include "traffic/junction/signals.h"
+#include "traffic/junction/turning_room.h"
+#include "traffic/junction/waiting_place.h"
+#include "traffic/longitudinal/car_following.h"
+
+namespace sumogamma {
+
+namespace {
+
+constexpr double kFillsLane = 1.2;  ///< nobody overtakes what is wider than this on a link [m]
+/// Zones are kept free for so long at the most [s].
+constexpr double kKeepsZonesFree = 20.0;
+
+/// What a link asks of a traveller, whoever comes.
+struct LinkDuty {
+  double stop_at = 0;  ///< where its front comes to rest before it [m along its path]
+  SignalDuty signal = SignalDuty::None;
+};
+
+LinkDuty duty_of(const TrafficView& view, const Traveller& traveller, const PathLink& link) {
+  const AgentType& type = type_of(view.model.types, view.scene.type[traveller.row]);
+  // where a front that waits comes to rest: short of the line where others turn by close, at the
+  // line where it has come too far or is too fast for that
+  const bool stops_short = traveller.front < link.halt &&
+                           stops_at_ease(traveller.speed, link.halt - traveller.front, type);
+  const double halt = stops_short ? link.halt : link.stop_line;
+  const Light signal = view.road.signal(view.model.road.connection(link.connection));
+  const double drawn = is_amber(signal) ? drawn_line(view, traveller, link) : halt;
+  return {halt - kStopMargin, signal_duty(view, traveller, link, halt, drawn)};
+}
+
+/// Who has to halt first, at a stop sign or before it goes at red, and hasn't.
+bool has_to_halt_first(const TrafficView& view, const Traveller& traveller, const PathLink& link,
+                       bool at_red) {
+  const Connection& connection = view.model.road.connection(link.connection);
+  const Path& path = *view.road.path(view.scene.path[traveller.row]);
+  const bool stop_sign =
+      halts_first(connection.priority) && view.road.signal(connection) == Light::None;
+  const bool has_to_halt = stop_sign || (at_red && !path.walking && connection.storage == 0.0);
+  return has_to_halt && link.stop_line - traveller.front > -0.2 &&
+         view.traffic.halted_for[traveller.row] !=
+             halt_counts_for(view.model.road, path, link, traveller.length);
+}
+
+/// Does somebody ride so far beside the middle of its lane that on the junction it might wait where
+/// a foe's long body sweeps? Whether that one turns isn't asked.
+bool is_aside_for(const Approach& foe, const TrafficState& traffic, std::size_t row) {
+  constexpr double kAside = 0.7, kLong = 7.0;  // [m]
+  return foe.length > kLong && std::abs(traffic.passing_offset[row]) >= kAside;
+}
+
+/// Where the subject halts for its foe [m along its path]: at its line, inside the junction where
+/// there is a place for that, or before the area where its body is past the line already. None
+/// where it is too late for that.
+std::optional<double> line_before(const Encounter& e, double stop_at) {
+  const Traveller& subject = e.subject;
+  const bool on_foot = is_on_foot(e, subject.row);
+  const WaitingPlace place = waiting_place(e.link, e.zone.begin);
+  const bool has_place =
+      place.inside && !e.at_red &&
+      (e.own_link.signal != kNoSignal || !is_aside_for(e.foe, e.traffic, subject.row));
+  const double line = has_place && subject.front < place.along + 0.3 ? place.along
+                      : e.to_line() > -0.2                           ? stop_at
+                                           : e.link.stop_line + e.zone.begin - kStopMargin;
+  // on foot one halts at the kerb still
+  const double last = on_foot ? std::max(line, e.link.stop_line) : line;
+  const double hardest = 0.8 * e.own_type.max_deceleration;
+  if (deceleration_to_stop(subject.speed, last - subject.front) <= hardest || subject.speed <= 1.0)
+    return line;
+  // too late to halt there, but not for driving on towards who is in the way already
+  if (on_foot || !has_entered(e.foe.front, e.zone.foe_begin)) return std::nullopt;
+  return subject.front + subject.speed * subject.speed / (2.0 * hardest);
+}
+
+/// Does the encounter need no judge: is the subject in the area, or at its edge with a way past a
+/// foe that stands? Then it goes on, avoidance does the rest.
+bool goes_on(const Encounter& e) {
+  if (has_entered(-e.to_line(), e.zone.begin)) return true;
+  const bool at_edge = e.to_line() + e.zone.begin < kZoneEdge;
+  return at_edge && e.foe.stands &&
+         (is_on_foot(e, e.subject.row) ||
+          stands_beside(e, e.subject, e.link, e.zone.begin, e.zone.end, e.foe));
+}
+
+/// Looks at all who come to one conflict zone, foremost first, and tightens the decision for those
+/// who block.
+void decide_zone(const TrafficView& view, const Traveller& traveller, const PathLink& link,
+                 const LinkDuty& duty, const ConflictZone& of_table, LinkDecision& decision) {
+  const bool wide = is_wide(view.scene, traveller.row);
+  for (const Approach& foe : view.approaches.of(of_table.foe)) {
+    if (foe.row == traveller.row) continue;
+    const auto zone = zone_for(of_table, wide || foe.wide);
+    if (!zone) continue;
+    const Encounter e = meet(view, traveller, link, duty.signal == SignalDuty::GoAtRed, *zone, foe);
+    if (goes_on(e)) continue;
+    const Verdict verdict = judge(e);
+    // who comes behind a vehicle that lets us go can't get past it
+    if (verdict == Verdict::Held && e.foe_type.width > kFillsLane) return;
+    if (verdict != Verdict::Blocks) continue;
+    const auto line = line_before(e, duty.stop_at);
+    if (!line || (decision.must_stop && *line >= decision.stop_at)) continue;
+    decision = {true, *line, e.zone.foe_is_crossing ? LimitReason::Crossing : LimitReason::Yield,
+                static_cast<std::int64_t>(view.scene.id[foe.row].value)};
+  }
+}
+
+}  // namespace
+
+LinkDecision decide_link(const TrafficView& view, const Traveller& traveller,
+                         const PathLink& link) {
+  const Model& model = view.model;
+  const LinkDuty duty = duty_of(view, traveller, link);
+  if (duty.signal == SignalDuty::Stop) return {true, duty.stop_at, LimitReason::Signal, -1};
+  const bool at_red = duty.signal == SignalDuty::GoAtRed;
+  LinkDecision decision;
+  if (has_to_halt_first(view, traveller, link, at_red))
+    decision = {true, duty.stop_at, at_red ? LimitReason::Signal : LimitReason::Yield, -1};
+
+  const bool free_green =
+      view.road.signal(model.road.connection(link.connection)) == Light::GreenFirst;
+  for (ConflictZone zone : model.conflicts[index_of(link.connection)]) {
+    if (runs_together(model, link.connection, zone.foe)) continue;
+    if (free_green) zone.yields = false;
+    // at red everybody else comes first
+    if (at_red) {
+      zone.yields = true;
+      zone.unruled = false;
+    }
+    decide_zone(view, traveller, link, duty, zone, decision);
+  }
+  if (decision.must_stop && decision.stop_at > link.stop_line &&
+      view.traffic.waiting_time[traveller.row] < kKeepsZonesFree)
+    keep_zones_free(view, traveller, link, decision);
+  return decision;
+}
+
+bool stands_beside(const TrafficView& view, const Traveller& traveller, const PathLink& link,
+                   double begin, double end, const Approach& foe) {
+  constexpr double kSide = 0.25, kStep = 0.5;  // [m]
+  const Scene& scene = view.scene;
+  const std::size_t row = traveller.row;
+  const Polyline& way = view.road.path(scene.path[row])->line;
+  const OrientedBox body = box_of(scene, foe.row);
+  Vec2 half = box_of(scene, row).half;
+  // on foot one steps back from a body that swings
+  if (type_of(view.model.types, scene.type[foe.row]).kinematics == Kinematics::Holonomic)
+    half.x() = 0.0;
+  // the middle follows the way, the rear axle the middle: in a bend the nose swings out
+  const double axle = type_of(view.model.types, scene.type[row]).rear_axle_to_center;
+  double along = scene.path_along[row];
+  double heading = scene.heading[row];
+  const double settles = link.stop_line + begin - 2.0 * traveller.length;
+  if (along < settles) {
+    along = settles;
+    heading = heading_of(way.direction_at(settles));
+  }
+  for (; along <= link.stop_line + end; along += kStep) {
+    const Vec2 forward = direction_of(heading);
+    if (along >= link.stop_line + begin &&
+        separation({way.point_at(along), forward, half}, body) < kSide)
+      return false;
+    heading += kStep * cross(forward, way.direction_at(along)) / std::max(axle, kStep);
+  }
+  return true;
+}
+
+bool runs_together(const Model& model, ConnectionId a, ConnectionId b) {
+  const Connection &own = model.road.connection(a), &other = model.road.connection(b);
+  return own.to == other.to && own.from != other.from &&
+         model.road.lane(own.from).edge == model.road.lane(other.from).edge;
+}
+
+bool has_crossing_traffic(const Model& model, ConnectionId link) {
+  const auto& zones = model.conflicts[index_of(link)];
+  return std::any_of(zones.begin(), zones.end(), [&](const ConflictZone& zone) {
+    return !runs_together(model, link, zone.foe);
+  });
+}
+
+ZipperLeader find_zipper_leader(const TrafficView& view, const Traveller& traveller,
+                                const PathLink& link) {
+  const auto& [model, road, scene, traffic, grid, approaches] = view;
+  ZipperLeader leader;
+  for (const ConflictZone& zone : model.conflicts[index_of(link.connection)]) {
+    if (!runs_together(model, link.connection, zone.foe)) continue;
+    const double own_way = link.stop_line + zone.end - traveller.front;
+    if (own_way < 0.0) continue;
+    for (const Approach& foe : approaches.of(zone.foe)) {
+      const double their_way = zone.foe_end - foe.front;
+      if (foe.row == traveller.row || their_way < -foe.length) continue;
+      const bool first = their_way < own_way ||
+                         (their_way == own_way && scene.id[foe.row] < scene.id[traveller.row]);
+      if (!first) continue;
+      const double gap = own_way - their_way - foe.length;
+      if (leader.id < 0 || gap < leader.gap)
+        leader = {gap, foe.speed, static_cast<std::int64_t>(scene.id[foe.row].value)};
+    }
+  }
+  return leader;
+}
+
+}  // namespace sumogamma

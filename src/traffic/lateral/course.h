@@ -1,0 +1,22 @@
+#pragma once
+
+#include "traffic/traffic_view.h"
+
+namespace sumogamma {
+
+/// One row's view of its path at this instant.
+struct Course {
+  const Path& path;
+  const AgentType& type;
+  std::size_t row;
+  double along, offset;
+  double half_length;
+  double speed;  ///< on foot along the path, on wheels along the heading [m/s]
+  double headway_factor;
+};
+
+/// Where the agent wants to go and what is free to its sides: tangent, sub-goal, bend and rooms of
+/// its context. How fast it may go is road_context's.
+void set_geometry(const TrafficView& view, const Course& course, RoadContext& context);
+
+}  // namespace sumogamma

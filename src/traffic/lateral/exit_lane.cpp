@@ -1,0 +1,42 @@
+#include "traffic/lateral/exit_lane.h"
+
+#include <algorithm>
+
+namespace sumogamma {
+
+LaneId free_entry(const Model& model, const RoadState& road, const LaneQueues& queues,
+                  const Path& path, const Surroundings& around) {
+  constexpr double kNear = 10.0;    // before its stop line [m]
+  constexpr double kAsWell = 0.5;   // lane changes more, later on
+  constexpr double kLongest = 6.5;  // others would come to stand over both lanes [m]
+  const double front = around.along + around.half_length, length = 2.0 * around.half_length;
+  const auto link = path.link_from(around.along);
+  if (length > kLongest || link == path.links.end() || link->stop_line - front > kNear ||
+      link->end - kEntryReach < std::max(front, link->stop_line))
+    return kNoLane;
+  const Connection& connection = model.road.connection(link->connection);
+  const Light signal = road.signal(connection);
+  if (link->stop_line > front && (is_red(signal) || is_amber(signal))) return kNoLane;
+  const Lane& own = model.road.lane(connection.to);
+  const bool keeps = path.stretch_at(link->end + 0.1).lane == connection.to;
+  const auto next = static_cast<std::size_t>(path.stretch_at(around.along).route_index) + 1;
+  if (!keeps || !is_full(queues, own, connection.to, length) || next >= path.trip->options.size())
+    return kNoLane;
+  const auto cost_from = [&](const Lane& lane) {
+    return path.trip->options[next][static_cast<std::size_t>(lane.index)].cost;
+  };
+  for (const LaneId id : {own.inner, own.outer}) {
+    if (id == kNoLane) continue;
+    const Lane& lane = model.road.lane(id);
+    const bool alone =
+        std::all_of(lane.incoming.begin(), lane.incoming.end(), [&](ConnectionId other) {
+          const Connection& into = model.road.connection(other);
+          return model.road.lane(into.from).kind == LaneKind::Internal || is_red(road.signal(into));
+        });
+    if (alone && !is_full(queues, lane, id, length) && cost_from(lane) <= cost_from(own) + kAsWell)
+      return id;
+  }
+  return kNoLane;
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,40 @@
+#include "traffic/lateral/lane_queues.h"
+
+#include "scene/extent.h"
+
+namespace sumogamma {
+
+namespace {
+constexpr double kGap = 2.0;  // [m]
+}
+
+void measure_queues(const Model& model, const RoadState& road, const Scene& scene,
+                    LaneQueues& queues) {
+  constexpr double kCreeps = 2.0;  // [m/s]
+  queues.assign(model.road.lanes.size(), 0.0);
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    const Path* path = road.path(scene.path[row]);
+    if (path == nullptr || path->walking || scene.speed[row] > kCreeps) continue;
+    const double along = scene.path_along[row];
+    queues[index_of(path->stretch_at(along).lane)] +=
+        2.0 * half_extent(scene, row, path->line.direction_at(along)) + kGap;
+  }
+}
+
+double queue_ahead(const LaneQueues& queues, const Path& path, double along, double reach) {
+  double length = 0.0;
+  LaneId last = kNoLane;
+  for (const PathStretch& stretch : path.stretches) {
+    if (stretch.from > along + reach) break;
+    if (stretch.to < along || stretch.lane == last) continue;
+    last = stretch.lane;
+    length += queues[index_of(stretch.lane)];
+  }
+  return length;
+}
+
+bool is_full(const LaneQueues& queues, const Lane& lane, LaneId id, double length) {
+  return queues[index_of(id)] + length + kGap > lane.length;
+}
+
+}  // namespace sumogamma

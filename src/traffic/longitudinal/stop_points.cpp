@@ -1,0 +1,213 @@
+#include "traffic/longitudinal/stop_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "traffic/junction/arbitration.h"
+#include "traffic/junction/keep_clear.h"
+#include "traffic/junction/turning_room.h"
+#include "traffic/lateral/passing.h"
+#include "traffic/longitudinal/car_following.h"
+#include "traffic/rule_breaking.h"
+
+namespace sumogamma {
+
+namespace {
+
+constexpr double kKeepsClearAtEase = 1.4;  // of the comfortable deceleration
+constexpr double kCourtesy = 2.0;          // braking for somebody who has to change lanes [m/s^2]
+constexpr double kSeesLight = 100.0;       // at the head of its queue by who stands [m]
+
+double looked_at(const Driver& driver) {
+  return driver.view.scene.held[driver.course.row].standing > 0.0 ? kSeesLight : driver.reach;
+}
+
+/// A halt before something at `stop_at` [m along the path]: the front comes to rest there.
+StopPoint halt_at(const Driver& driver, double stop_at, LimitReason reason, std::int64_t foe) {
+  StopPoint point;
+  point.gap = stop_at - driver.front + driver.course.type.min_gap;
+  point.reason = reason;
+  point.foe = foe;
+  return point;
+}
+
+void follow_leader(const Driver& driver, StopPoints& found) {
+  const Course& course = driver.course;
+  const Leader leader = find_leader(driver.view, course.row, driver.reach, found.ahead);
+  if (leader.id < 0) return;
+  found.points.push_back({leader.gap, leader.speed, course.headway_factor, StopPoint{}.most_braking,
+                          LimitReason::Leader, leader.id, leader.acceleration});
+}
+
+/// Cooperative lane changing: who waits for a gap gets one where that is easy, who is on its way
+/// gets it anyhow.
+void let_merge(const Driver& driver, StopPoints& found) {
+  const DrivingAhead::Vehicle& merging = found.ahead.merging;
+  if (merging.id < 0) return;
+  StopPoint point{merging.rear - driver.front, merging.speed,       driver.course.headway_factor,
+                  StopPoint{}.most_braking,    LimitReason::Leader, merging.id};
+  if (acceleration_behind(driver, point) <= -kCourtesy && !found.ahead.on_its_way) return;
+  point.most_braking = kCourtesy;
+  found.points.push_back(point);
+}
+
+/// Stop lines of neighbouring lanes need not be level: who reaches over the edge of its lane halts
+/// a little before its own [m].
+double beside_lane(const Model& model, const Course& course) {
+  constexpr double kEarlier = 0.6;  // [m]
+  const Lane& lane = model.road.lane(course.path.stretch_at(course.along).lane);
+  const bool beside = lane.kind == LaneKind::Normal &&
+                      std::abs(course.offset) + 0.5 * course.type.width > 0.5 * lane.width;
+  return beside ? kEarlier : 0.0;
+}
+
+/// Who rides wholly in the lane beside its own, past a queue, drives over that lane's line: at red
+/// it halts there, though its own lane be free to go.
+LinkDecision decide_beside(const TrafficView& view, const Course& course,
+                           const Traveller& traveller, const PathLink& link) {
+  const RoadNetwork& network = view.model.road;
+  const LaneId own = course.path.stretch_at(course.along).lane;
+  const Lane& lane = network.lane(own);
+  const double over = std::abs(course.offset) - 0.5 * course.type.width - 0.5 * lane.width;
+  if (over < 0.0 || network.connection(link.connection).from != own) return {};
+  const LaneId beside = lane_beside(network, lane, course.offset);
+  if (beside == kNoLane || network.lane(beside).outgoing.empty()) return {};
+  const auto& links = network.lane(beside).outgoing;
+  const bool red = std::all_of(links.begin(), links.end(), [&](ConnectionId id) {
+    return is_red(view.road.signal(network.connection(id)));
+  });
+  const double left = link.halt - traveller.front;
+  if (!red || left < -1.0 || goes_at_red(view.model, view.scene, course.row, link.connection) ||
+      deceleration_to_stop(traveller.speed, left) > course.type.max_deceleration)
+    return {};
+  return {true, link.halt - kStopMargin, LimitReason::Signal, -1};
+}
+
+/// Zipper merge: who is nearer to the end of the common ground is followed. Closer than later on:
+/// the gap opens while lanes run together.
+void follow_teeth(const Driver& driver, const Traveller& traveller, const PathLink& link,
+                  StopPoints& found) {
+  const AgentType& type = driver.course.type;
+  const ZipperLeader teeth = find_zipper_leader(driver.view, traveller, link);
+  if (teeth.id < 0) return;
+  const double headway = driver.course.headway_factor * kept_headway(type, driver.course.speed);
+  const double gap = std::max(teeth.gap, 0.3) + 0.6 * headway * driver.course.speed;
+  found.points.push_back({gap, teeth.speed, driver.course.headway_factor,
+                          type.comfortable_deceleration, LimitReason::Leader, teeth.id});
+}
+
+/// What signals and right of way say of a link, for a front that may reach over the edge of its
+/// lane (see beside_lane).
+LinkDecision go_by_law(const Driver& driver, const Traveller& traveller, const PathLink& link) {
+  const LinkDecision decision = decide_link(driver.view, traveller, link);
+  if (decision.must_stop || traveller.front <= driver.front) return decision;
+  // who gets over the edge of its lane just before its line isn't too near to halt for that
+  if (link.stop_line > driver.front) {
+    const Traveller own{traveller.row, driver.front, traveller.length, traveller.speed};
+    const LinkDecision held = decide_link(driver.view, own, link);
+    if (held.must_stop && held.reason == LimitReason::Signal) return held;
+  }
+  return decide_beside(driver.view, driver.course, traveller, link);
+}
+
+/// Signals and right of way, room behind the junction, room for others to turn, cooperative
+/// yielding: whether and where to halt before a link.
+LinkDecision halt_before(const Driver& driver, const Traveller& traveller, const PathLink& link,
+                         StopPoints& found, bool first) {
+  const auto& [view, course, front, free_speed, reach] = driver;
+  LinkDecision decision = go_by_law(driver, traveller, link);
+  if (first) found.at_red = decision.must_stop && decision.reason == LimitReason::Signal;
+  if (!decision.must_stop) decision = keep_clear(view, course, traveller, link, found.ahead);
+  // who may go on to a place on the junction leaves room before it all the same
+  if (!takes_turning_room(view, course, link)) {
+    const LinkDecision room = leave_turning_room(view, traveller, link);
+    if (room.must_stop && (!decision.must_stop || room.stop_at < decision.stop_at)) decision = room;
+  }
+  return decision.must_stop ? decision : let_one_in(view, course, traveller, link);
+}
+
+/// The links ahead, up to the first at which it has to halt.
+void obey_links(const Driver& driver, StopPoints& found) {
+  const Course& course = driver.course;
+  const Traveller traveller{course.row, driver.front + beside_lane(driver.view.model, course),
+                            2.0 * course.half_length, course.speed};
+  bool first = true;
+  for (PathLink link : course.path.links) {
+    if (link.end < course.along - course.half_length) continue;
+    if (link.stop_line > driver.front + looked_at(driver)) break;
+    link.halt = halt_for_long_bodies(driver.view, traveller, link);
+    follow_teeth(driver, traveller, link, found);
+    const LinkDecision decision = halt_before(driver, traveller, link, found, first);
+    first = false;
+    if (!decision.must_stop) continue;
+    StopPoint point = halt_at(driver, decision.stop_at, decision.reason, decision.foe);
+    point.gap = decision.stop_at - traveller.front + course.type.min_gap;
+    found.to_halt = std::max(decision.stop_at - traveller.front, 0.0);
+    // a junction is kept clear at ease or not at all
+    if (decision.reason == LimitReason::BlockedJunction)
+      point.most_braking = kKeepsClearAtEase * course.type.comfortable_deceleration;
+    found.points.push_back(point);
+    break;
+  }
+}
+
+/// Whose trip ends where long bodies sweep the lane's end leaves them room.
+void leave_room_behind(const Driver& driver, StopPoints& found) {
+  const Course& course = driver.course;
+  if (course.path.arrival >= driver.front + looked_at(driver)) return;
+  const double front = driver.front + beside_lane(driver.view.model, course);
+  const LinkDecision room = leave_room_at_end(
+      driver.view, course, {course.row, front, 2.0 * course.half_length, course.speed});
+  if (!room.must_stop) return;
+  StopPoint point = halt_at(driver, room.stop_at, room.reason, room.foe);
+  point.gap = room.stop_at - front + course.type.min_gap;
+  found.points.push_back(point);
+}
+
+/// Some way before its gate: who rolls over it by a hair begins its change, whoever is beside.
+void wait_at_gate(const Driver& driver, StopPoints& found) {
+  constexpr double kBefore = 0.3;  // [m]
+  const double gate = driver.view.traffic.gate[driver.course.row];
+  if (!std::isfinite(gate)) return;
+  StopPoint point = halt_at(driver, gate, LimitReason::Merge, -1);
+  point.gap = gate - kBefore - driver.course.along + driver.course.type.min_gap;
+  found.points.push_back(point);
+}
+
+/// Planned halts: stands for the stop's duration with the front at its end.
+void serve_stop(const Driver& driver, StopPoints& found) {
+  const Course& course = driver.course;
+  const auto next = static_cast<std::size_t>(driver.view.scene.halt[course.row].next);
+  if (next >= course.path.stops.size()) return;
+  StopPoint point = halt_at(driver, 0.0, LimitReason::Stop, -1);
+  point.gap =
+      course.path.stops[next].along - course.along - course.half_length + course.type.min_gap;
+  found.points.push_back(point);
+}
+
+using Rule = void (*)(const Driver&, StopPoints&);
+constexpr Rule kDriving[] = {follow_leader,     let_merge,    obey_links,
+                             leave_room_behind, wait_at_gate, serve_stop};
+
+}  // namespace
+
+double acceleration_behind(const Driver& driver, const StopPoint& point) {
+  const Course& course = driver.course;
+  const double acceleration =
+      point.acceleration
+          ? behind_acceleration(course.type, course.speed, driver.free_speed,
+                                {point.gap, point.speed, *point.acceleration}, point.headway_factor)
+          : following_acceleration(course.type, course.speed, driver.free_speed, point.gap,
+                                   point.speed, point.headway_factor);
+  return std::max(acceleration, -point.most_braking);
+}
+
+void find_stop_points(const Driver& driver, StopPoints& found) {
+  found.points.clear();
+  found.ahead = {};
+  found.to_halt = std::numeric_limits<double>::infinity();
+  found.at_red = false;
+  for (const Rule rule : kDriving) rule(driver, found);
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,107 @@
+#include "traffic/perception.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/extent.h"
+#include "scene/storey.h"
+
+namespace sumogamma {
+
+void look_around(const TrafficView& view, std::size_t row, double reach, double aside,
+                 Surroundings& around) {
+  const Model& model = view.model;
+  const RoadState& road = view.road;
+  const Scene& scene = view.scene;
+  const SpatialGrid& grid = view.grid;
+  const Path& path = *road.path(scene.path[row]);
+  const double along = scene.path_along[row];
+  const Vec2 tangent = path.line.direction_at(along);
+  around.along = along;
+  around.tangent = tangent;
+  around.offset = cross(tangent, scene.position[row] - path.line.point_at(along));
+  around.half_length = half_extent(scene, row, tangent);
+  around.half_width = half_extent(scene, row, left_of(direction_of(scene.heading[row])));
+  around.speed = scene.speed[row];
+  around.users.clear();
+  grid.visit_within(scene.position[row], reach, [&](std::size_t other, double) {
+    if (other == row || on_other_storey(model.road, scene, row, other)) return;
+    const PolylinePosition place =
+        path.line.project(scene.position[other], along - reach, along + reach);
+    const double farthest = aside + scene.footprint[other].radius;
+    if (place.distance > farthest && place.along > 0.0) return;
+    const Vec2 direction = path.line.direction_at(place.along);
+    const Vec2 from_line = scene.position[other] - path.line.point_at(place.along);
+    // a path may begin close behind its agent: who is further back is there straight on
+    const double beyond = place.along <= 0.0 ? std::min(direction.dot(from_line), 0.0) : 0.0;
+    const double offset = beyond < 0.0 ? cross(direction, from_line) : place.offset;
+    if (std::abs(offset) > farthest) return;
+    const double half_length = half_extent(scene, other, direction);
+    const double middle = place.along + beyond;
+    around.users.push_back(
+        {middle - half_length, middle + half_length, offset,
+         half_extent(scene, other, left_of(direction)), scene.velocity[other].dot(direction),
+         direction.dot(direction_of(scene.heading[other])) > 0.5,
+         type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic,
+         static_cast<std::uint32_t>(other)});
+  });
+  std::sort(around.users.begin(), around.users.end(),
+            [](const RoadUser& a, const RoadUser& b) { return a.row < b.row; });
+}
+
+void look_at_walls(const TrafficView& view, const Path& path, std::size_t row, double reach,
+                   double aside, Surroundings& around) {
+  constexpr double kPiece = 0.5;  // [m]
+  around.walls.clear();
+  if (view.model.obstacles.empty()) return;
+  view.model.obstacles.find_near(view.scene.position[row], reach, around.sides);
+  for (const std::uint32_t index : around.sides) {
+    const ObstacleIndex::Side& side = view.model.obstacles.side(index);
+    const Vec2 whole = side.to - side.from;
+    const int pieces = std::max(1, static_cast<int>(std::ceil(whole.norm() / kPiece)));
+    PolylinePosition last;
+    for (int k = 0; k <= pieces; ++k) {
+      const Vec2 point = side.from + (static_cast<double>(k) / pieces) * whole;
+      const PolylinePosition place =
+          path.line.project(point, around.along - reach, around.along + reach);
+      if (k > 0 && std::min(place.distance, last.distance) < aside)
+        around.walls.push_back(
+            {std::min(place.along, last.along), std::max(place.along, last.along),
+             0.5 * (place.offset + last.offset), 0.5 * std::abs(place.offset - last.offset)});
+      last = place;
+    }
+  }
+}
+
+void look_at_red_crossings(const TrafficView& view, const Path& path, std::size_t row,
+                           Surroundings& around) {
+  constexpr double kLong = 4.0;                // [s]
+  constexpr double kTip = 0.25, kReach = 4.0;  // [m]
+  const RoadContext& context = view.scene.context[row];
+  if (view.traffic.waiting_time[row] <= kLong || context.reason == LimitReason::Signal) return;
+  for (const Vec2& way : context.to_red) {
+    if (way.isZero()) continue;
+    const Vec2 onto = way.normalized();
+    const Vec2 tip = view.scene.position[row] + way + half_extent(view.scene, row, onto) * onto;
+    const PolylinePosition place =
+        path.line.project(tip, around.along - kReach, around.along + kReach);
+    around.walls.push_back({place.along - kTip, place.along + kTip, place.offset, kTip});
+  }
+}
+
+double hoped_speed(const Surroundings& around, double offset, double free_speed, double margin) {
+  constexpr double kOutlook = 4.0;  // [s]
+  const double front = around.along + around.half_length;
+  const double rear = around.along - around.half_length;
+  double hoped = free_speed;
+  for (const RoadUser& user : around.users) {
+    if (user.front < rear - 0.3) continue;
+    if (std::abs(user.offset - offset) > user.half_width + around.half_width + margin) continue;
+    const double gap = user.rear - front;
+    if (gap < 0.0) return -1.0;
+    hoped = std::min(hoped, std::max(user.speed + gap / kOutlook, 0.0));
+  }
+  return hoped;
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "traffic/traffic_view.h"
+
+namespace sumogamma {
+
+/// Somebody on the road near an agent, in the coordinates of the agent's path.
+struct RoadUser {
+  double rear = 0, front = 0;  ///< along the path [m]
+  double offset = 0;           ///< of the centre beside the path, positive left [m]
+  double half_width = 0;       ///< across the path [m]
+  double speed = 0;            ///< along the path; negative against it [m/s]
+  bool aligned = false;        ///< heads the same way
+  bool on_foot = false;
+  std::uint32_t row = 0;
+};
+
+/// What there is to the sides of a path, both positive [m].
+struct Sides {
+  double left = 0, right = 0;
+};
+
+/// An agent and whoever is on the road around it.
+struct Surroundings {
+  double along = 0, offset = 0;  ///< the agent's centre [m]
+  Vec2 tangent = Vec2(1, 0);     ///< unit direction of its path there
+  double half_length = 0, half_width = 0;
+  double speed = 0;
+  std::vector<RoadUser> users;       ///< in order of row
+  std::vector<RoadUser> walls;       ///< pieces of what is solid, as somebody who stands there
+  std::vector<std::uint32_t> sides;  ///< buffer
+};
+
+/// Fills `around` for a row with a path: everybody whose centre lies within `reach` ahead, or
+/// `reach` behind [m], and within `aside` of the path on the same storey.
+void look_around(const TrafficView& view, std::size_t row, double reach, double aside,
+                 Surroundings& around);
+
+/// Fills around.walls, after look_around, with what is solid within `reach` [m] of a row and within
+/// `aside` of its path, in pieces of half a metre.
+void look_at_walls(const TrafficView& view, const Path& path, std::size_t row, double reach,
+                   double aside, Surroundings& around);
+
+/// Adds to around.walls, after look_at_walls, where a row that has been held up for long is about
+/// to get onto a red crossing that it doesn't wait for (RoadContext::to_red): who walks along
+/// beside the tip of one presses on against it else, for as long as it is red.
+void look_at_red_crossings(const TrafficView& view, const Path& path, std::size_t row,
+                           Surroundings& around);
+
+/// Speed that can be hoped for over the next seconds with the body's centre at `offset` beside the
+/// path: as fast as `free_speed` where nobody is ahead, less the nearer and the slower somebody is,
+/// negative where somebody is beside. `margin` [m] is kept to the sides.
+double hoped_speed(const Surroundings& around, double offset, double free_speed, double margin);
+
+}  // namespace sumogamma

@@ -1,0 +1,120 @@
+#include "traffic/recovery/detour.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "road/route_search.h"
+#include "scene/extent.h"
+#include "traffic/junction/keep_clear.h"
+#include "traffic/lateral/lane_choice.h"
+
+namespace sumogamma {
+
+namespace {
+
+constexpr double kPeriod = 1.0;  ///< between two looks of an agent [s]
+constexpr double kShut = 15.0;   ///< stood before a way that is shut [s]
+constexpr double kBack = 20.0;   ///< of path kept behind the body [m]
+
+/// Is the way of a driver shut, and can it still take another one? The link before which it stands,
+/// null where not.
+const PathLink* shut_link(const TrafficView& view, const Path& path, std::size_t row) {
+  const LimitReason reason = view.scene.context[row].reason;
+  const bool waits_for_gap = reason == LimitReason::Merge && view.scene.held[row].standing > kShut;
+  if (!path.trip || (!waits_for_gap && view.traffic.keeps_clear[row] < kShut)) return nullptr;
+  if (2.0 * half_extent(view.scene, row, direction_of(view.scene.heading[row])) > kLongBody)
+    return nullptr;
+  const double along = view.scene.path_along[row];
+  const PathStretch& here = path.stretch_at(along);
+  if (here.changing || view.model.road.lane(here.lane).kind != LaneKind::Normal) return nullptr;
+  const double front = along + half_extent(view.scene, row, path.line.direction_at(along));
+  const auto link = path.link_after(along);
+  return link != path.links.end() && front < link->stop_line + 0.3 ? &*link : nullptr;
+}
+
+/// Time that each edge takes as the roads are now [s], by EdgeId.
+std::vector<double> travel_times(const RoadNetwork& network, const Scene& scene) {
+  constexpr double kQueued = 5.0;  // for everybody who stands in its lanes [s]
+  std::vector<double> times(network.edges.size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const Edge& edge = network.edges[i];
+    if (edge.lanes.empty()) continue;
+    const Lane& lane = network.lane(edge.lanes.back());
+    times[i] = lane.centerline.length() / std::max(lane.speed_limit, 1.0);
+  }
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    if (scene.lane[row].lane == kNoLane || scene.held[row].standing < 1.0) continue;
+    const Lane& lane = network.lane(scene.lane[row].lane);
+    if (lane.kind != LaneKind::Normal) continue;
+    times[index_of(lane.edge)] +=
+        kQueued / static_cast<double>(network.edge(lane.edge).lanes.size());
+  }
+  return times;
+}
+
+/// Is there room at the begin of a path's next road for its agent?
+bool has_room(const Model& model, const Path& path, double along, const Scene& scene,
+              std::size_t row) {
+  constexpr double kRoom = 3.0;  // besides its own length [m]
+  const auto link = path.link_after(along);
+  if (link == path.links.end()) return true;
+  const LaneId target = model.road.connection(link->connection).to;
+  const double own = 2.0 * half_extent(scene, row, direction_of(scene.heading[row]));
+  for (std::size_t other = 0; other < scene.size(); ++other) {
+    if (scene.lane[other].lane != target || scene.speed[other] > 2.0) continue;
+    const double half = half_extent(scene, other, direction_of(scene.heading[other]));
+    if (scene.lane[other].along - half < own + kRoom) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::uint64_t take_detours(const TrafficTick& tick) {
+  const Model& model = tick.model;
+  RoadState& road = tick.road;
+  Scene& scene = tick.scene;
+  TrafficState& traffic = tick.traffic;
+  const TrafficView view = tick.view();
+  std::uint64_t taken = 0;
+  std::vector<double> times;
+  const auto period = std::max<std::int64_t>(1, std::llround(kPeriod / model.options.step));
+  auto go_on = [&](Path way, double along, std::size_t row) {
+    change_path(std::move(way), along, row, road, scene, traffic);
+    forget_lane_change(traffic, row);
+  };
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    if ((scene.tick + scene.id[row].value) % period != 0) continue;
+    const Path* path = road.path(scene.path[row]);
+    if (path == nullptr || scene.control[row] != Control::Gamma) continue;
+    const PathLink* shut = shut_link(view, *path, row);
+    if (shut == nullptr) continue;
+    double along = scene.path_along[row];
+    if (scene.context[row].reason == LimitReason::Merge) {
+      // the lane may lead where it has to go as well, if not as easily
+      constexpr double kNotAsEasily = 10.0;  // lane changes more
+      if (auto kept = keep_lane(model.road, *path, along, kNotAsEasily, kBack)) {
+        go_on(std::move(*kept), along, row);
+        continue;
+      }
+    }
+    if (times.empty()) times = travel_times(model.road, scene);
+    const PathStretch& here = path->stretch_at(along);
+    // by any way but the one that is shut
+    const EdgeId full = model.road.lane(model.road.connection(shut->connection).to).edge;
+    const double passable = times[index_of(full)];
+    times[index_of(full)] = 1e6;
+    auto route = fastest_route(model.road, here.lane, path->trip->route.back(),
+                               path->trip->request.vehicle_class, times);
+    times[index_of(full)] = passable;
+    if (route.size() < 2 || route[1] == full) continue;
+    auto taken_path = take_route(model.road, *path, along, std::move(route), kBack);
+    if (!taken_path || !has_room(model, *taken_path, along, scene, row)) continue;
+    go_on(std::move(*taken_path), along, row);
+    forget_keeping_clear(traffic, row);
+    ++taken;
+  }
+  return taken;
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,141 @@
+#include "traffic/recovery/lost_way.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "road/route_search.h"
+#include "scene/extent.h"
+#include "scene/locate.h"
+#include "traffic/lateral/lane_choice.h"
+
+namespace sumogamma {
+
+namespace {
+
+constexpr double kLost = 12.0;       ///< driven without getting on [m]
+constexpr double kItsWay = 0.5;      ///< least cosine of the angle to a way that leads as one heads
+constexpr double kBackOnPath = 4.0;  ///< from its path, of who is on it again [m]
+constexpr double kBehind = 20.0;     ///< of path kept behind the body [m]
+
+/// The nearest place on the row's own path, up to some way ahead, that it stands on, headed as the
+/// path leads.
+std::optional<double> place_ahead(const Path& path, const Scene& scene, std::size_t row) {
+  constexpr double kAhead = 150.0, kStep = 1.0;  // [m]
+  const Vec2 forward = direction_of(scene.heading[row]);
+  const double from = scene.path_along[row], to = std::min(from + kAhead, path.arrival);
+  std::optional<double> best;
+  double nearest = kBackOnPath;
+  for (double along = from; along <= to; along += kStep) {
+    const double distance = (path.line.point_at(along) - scene.position[row]).norm();
+    if (distance >= nearest || path.line.direction_at(along).dot(forward) < kItsWay) continue;
+    nearest = distance;
+    best = along;
+  }
+  return best;
+}
+
+/// A lane that somebody may get onto.
+struct Candidate {
+  LaneId lane;
+  double distance, along;  ///< of its middle, and there [m]
+};
+
+/// Lanes near the row that lead as it heads, nearest first.
+std::vector<Candidate> lanes_near(const RoadNetwork& network, VehicleClassMask vehicle_class,
+                                  const Scene& scene, std::size_t row) {
+  constexpr double kReach = 15.0, kLeast = 10.0;  // of the lane ahead [m]
+  const Vec2 forward = direction_of(scene.heading[row]);
+  std::vector<Candidate> found;
+  for (std::size_t i = 0; i < network.lanes.size(); ++i) {
+    const Lane& lane = network.lanes[i];
+    if (lane.kind != LaneKind::Normal || (lane.allowed & vehicle_class) == 0) continue;
+    const PolylinePosition place = lane.centerline.project(scene.position[row]);
+    if (place.distance > kReach || place.along > lane.centerline.length() - kLeast ||
+        lane.centerline.direction_at(place.along).dot(forward) < kItsWay)
+      continue;
+    found.push_back({static_cast<LaneId>(i), place.distance, place.along});
+  }
+  std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.lane < b.lane;
+  });
+  return found;
+}
+
+/// Time that each edge takes on an empty road [s], by EdgeId.
+std::vector<double> free_times(const RoadNetwork& network) {
+  std::vector<double> times(network.edges.size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (network.edges[i].lanes.empty()) continue;
+    const Lane& lane = network.lane(network.edges[i].lanes.back());
+    times[i] = lane.centerline.length() / std::max(lane.speed_limit, 1.0);
+  }
+  return times;
+}
+
+/// A new path to the row's destination from a lane near it; `along` is its place on that.
+std::optional<Path> way_from_here(const RoadNetwork& network, const Path& path, const Scene& scene,
+                                  std::size_t row, double& along) {
+  const Trip& trip = *path.trip;
+  const std::vector<double> times = free_times(network);
+  for (const Candidate& candidate : lanes_near(network, trip.request.vehicle_class, scene, row)) {
+    const EdgeId edge = network.lane(candidate.lane).edge;
+    const std::vector<EdgeId> route =
+        edge == trip.route.back() ? std::vector<EdgeId>{edge}
+                                  : fastest_route(network, candidate.lane, trip.route.back(),
+                                                  trip.request.vehicle_class, times);
+    if (route.empty()) continue;
+    PathRequest request = trip.request;
+    request.route = route;
+    request.start_lane = candidate.lane;
+    request.start_along = std::max(candidate.along - kBehind, 0.0);
+    std::string why;
+    auto found = build_driving_path(network, request, why);
+    if (!found || found->arrival < candidate.along - request.start_along) continue;
+    along = candidate.along - request.start_along;
+    return found;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void note_progress(double before, double dt, const Scene& scene, TrafficState& traffic,
+                   std::size_t row) {
+  constexpr double kForgiven = 1.3;  // who swings out in a bend drives further than its path
+  const double got_on = std::max(scene.path_along[row] - before, 0.0);
+  const double driven = scene.velocity[row].norm() * dt;
+  traffic.strayed[row] = std::max(traffic.strayed[row] + driven - kForgiven * got_on, 0.0);
+}
+
+void find_ways_back(const TrafficTick& tick) {
+  const RoadNetwork& network = tick.model.road;
+  RoadState& road = tick.road;
+  Scene& scene = tick.scene;
+  TrafficState& traffic = tick.traffic;
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    if (traffic.strayed[row] < kLost) continue;
+    traffic.strayed[row] = 0.0;
+    const Path* path = road.path(scene.path[row]);
+    if (path == nullptr || !path->trip || scene.control[row] != Control::Gamma) continue;
+    if (const auto place = place_ahead(*path, scene, row)) {
+      scene.path_along[row] = *place;
+      continue;
+    }
+    // no other way is known to lead past its halts
+    const double along_now = scene.path_along[row];
+    const auto& stops = path->stops;
+    if (std::any_of(stops.begin(), stops.end(),
+                    [&](const PathStop& stop) { return stop.along > along_now; }))
+      continue;
+    double along = 0.0;
+    auto found = way_from_here(network, *path, scene, row, along);
+    if (!found) continue;
+    change_path(std::move(*found), along, row, road, scene, traffic);
+    forget_lane_change(traffic, row);
+    locate_on_path(network, road, scene, row);
+  }
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "base/parallel.h"
+#include "model/tick_geometry.h"
+#include "traffic/traffic_view.h"
+
+namespace sumogamma {
+
+/// What a tick of the rules reads and writes.
+struct TrafficTick {
+  const Model& model;
+  TickGeometry& geometry;
+  Workers& workers;
+  double dt;  ///< [s]
+  RoadState& road;
+  Scene& scene;
+  TrafficState& traffic;
+  ApproachTable& approaches;
+
+  TrafficView view() const { return {model, road, scene, traffic, geometry.grid, approaches}; }
+};
+
+}  // namespace sumogamma

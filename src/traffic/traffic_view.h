@@ -1,0 +1,23 @@
+#pragma once
+
+#include "geometry/spatial_grid.h"
+#include "model/model.h"
+#include "scene/road_state.h"
+#include "scene/scene.h"
+#include "traffic/junction/approaches.h"
+#include "traffic/traffic_state.h"
+
+namespace sumogamma {
+
+/// What every rule of one tick reads: the frozen scene, what is known of its roads, and what the
+/// rules remember.
+struct TrafficView {
+  const Model& model;
+  const RoadState& road;
+  const Scene& scene;
+  const TrafficState& traffic;
+  const SpatialGrid& grid;
+  const ApproachTable& approaches;
+};
+
+}  // namespace sumogamma

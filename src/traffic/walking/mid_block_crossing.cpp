@@ -1,0 +1,140 @@
+#include "traffic/walking/mid_block_crossing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "scene/storey.h"
+#include "traffic/junction/occupation.h"
+#include "traffic/longitudinal/car_following.h"
+
+namespace sumogamma {
+
+namespace {
+
+constexpr double kNear = 4.0;     ///< before the kerb the road is looked at from here on [m]
+constexpr double kOnIt = 0.3;     ///< who is further past the kerb crosses [m]
+constexpr double kSetOut = 1.0;   ///< who walks so far before the kerb, or further, keeps to it [m]
+constexpr double kBefore = 0.2;   ///< a waiting front halts so far before the kerb [m]
+constexpr double kBeside = 0.5;   ///< kept to bodies [m]
+constexpr double kSetsOut = 0.5;  ///< it takes to get going [s]
+constexpr double kMargin = 2.0;   ///< to whoever comes next [s]
+constexpr double kLeast = 0.5;    ///< likewise after kPatience [s]
+constexpr double kPatience = 45.0;              ///< [s]
+constexpr double kStands = 0.3, kCrawls = 1.0;  ///< [m/s]
+
+/// The piece over a road that somebody on foot has before it.
+struct Piece {
+  Vec2 begin, end;
+  double front = 0;   ///< of the walker past the begin [m]
+  double length = 0;  ///< of the walker [m]
+  double half_width = 0;
+  double pace = 1;    ///< [m/s]
+  double waited = 0;  ///< [s]
+};
+
+/// Where a vehicle's path meets a piece: along the path from the vehicle's middle, and along the
+/// piece [m].
+struct Meeting {
+  double way = 0, place = 0;
+};
+
+std::optional<Meeting> find_meeting(const Polyline& line, double along, double back, double reach,
+                                    const Piece& piece) {
+  const std::vector<Vec2>& points = line.points();
+  const Vec2 over = piece.end - piece.begin;
+  for (std::size_t i = line.segment_at(along - back); i + 1 < points.size(); ++i) {
+    if (line.along_of_vertex(i) > along + reach) break;
+    const Vec2 driven = points[i + 1] - points[i];
+    const auto share = crossing_shares(points[i], driven, piece.begin, over);
+    if (!share || share->minCoeff() < 0.0 || share->maxCoeff() > 1.0) continue;
+    return Meeting{line.along_of_vertex(i) + share->x() * driven.norm() - along,
+                   share->y() * over.norm()};
+  }
+  return std::nullopt;
+}
+
+/// Does a vehicle that meets the piece have somebody on foot wait?
+bool holds(const TrafficView& view, std::size_t row, const Meeting& meeting, const Piece& piece) {
+  constexpr double kClear = 3.0;  // before who crawls [m]
+  constexpr double kEasy = 2.0;   // to brake [m/s^2]
+  constexpr double kSeen = 3.0;   // time for that at the least [s]
+  const Scene& scene = view.scene;
+  const AgentType& type = type_of(view.model.types, scene.type[row]);
+  const double half_length = scene.footprint[row].radius;
+  const double side = piece.half_width + kBeside;
+  const double gap = meeting.way - half_length - side;
+  const double speed = scene.speed[row];
+  if (meeting.way + half_length + side < 0.0) return false;
+  const bool patient = piece.waited < kPatience;
+  if (speed < kStands) return gap < 0.0 && patient;
+  if (speed < kCrawls && gap > kClear) return false;
+  const double swath = 0.5 * type.width + kBeside;
+  const double into = (meeting.place - swath - piece.front) / piece.pace;
+  const double past = kSetsOut + (meeting.place + swath + piece.length - piece.front) / piece.pace;
+  const Occupation taken = occupation(
+      view, {kNoConnection, static_cast<std::uint32_t>(row), half_length, 2.0 * half_length, speed},
+      meeting.way - side, meeting.way + side);
+  const double margin = kMargin + (kLeast - kMargin) * std::min(piece.waited / kPatience, 1.0);
+  if (taken.end + margin < into || taken.begin > past + margin) return false;
+  return patient || taken.begin < kSeen || deceleration_to_stop(speed, gap) > kEasy;
+}
+
+/// Id of the nearest vehicle that has somebody on foot wait, -1 where none does.
+std::int64_t find_who_comes(const TrafficView& view, std::size_t row, const Piece& piece) {
+  const Scene& scene = view.scene;
+  constexpr double kFast = 17.0;       // [m/s]
+  constexpr double kFarthest = 250.0;  // [m]
+  const double width = (piece.end - piece.begin).norm();
+  const double time = kSetsOut + (width + piece.length) / piece.pace + kMargin;
+  const double reach = std::min(kFast * time + width, kFarthest);
+  std::int64_t foe = -1;
+  double nearest = reach * reach;
+  view.grid.visit_within(scene.position[row], reach, [&](std::size_t other, double distance) {
+    if (other == row || distance > nearest) return;
+    const Path* path = view.road.path(scene.path[other]);
+    if (path == nullptr || path->walking) return;
+    const double half_length = scene.footprint[other].radius;
+    const double least = std::sqrt(distance) - width - half_length;
+    const double fastest = std::min(path->profile_at(scene.path_along[other]),
+                                    type_of(view.model.types, scene.type[other]).max_speed);
+    if (least > time * fastest) return;
+    if (on_other_storey(view.model.road, scene, row, other)) return;
+    const auto meeting =
+        find_meeting(path->line, scene.path_along[other], half_length + 1.0, reach, piece);
+    if (!meeting || !holds(view, other, *meeting, piece)) return;
+    const std::int64_t id = scene.id[other].value;
+    if (distance == nearest && foe >= 0 && foe < id) return;
+    foe = id;
+    nearest = distance;
+  });
+  return foe;
+}
+
+}  // namespace
+
+LinkDecision decide_at_kerb(const TrafficView& view, const Traveller& walker, double pace) {
+  const auto& [model, road, scene, traffic, grid, approaches] = view;
+  const Path& path = *road.path(scene.path[walker.row]);
+  for (const RoadCrossing& over : path.over_road) {
+    if (walker.front > over.begin + kOnIt) continue;
+    if (walker.front < over.begin - kNear) break;
+    // who was let go keeps to it: its patience is gone with its first step
+    const RoadContext& before = scene.context[walker.row];
+    const bool let_go = before.active && before.reason != LimitReason::Crossing;
+    if (let_go && walker.front > over.begin - kSetOut) break;
+    const Piece piece{path.line.point_at(over.begin),
+                      path.line.point_at(over.end),
+                      walker.front - over.begin,
+                      walker.length,
+                      0.5 * type_of(model.types, scene.type[walker.row]).width,
+                      std::max(pace, 0.3),
+                      traffic.waiting_time[walker.row]};
+    const std::int64_t foe = find_who_comes(view, walker.row, piece);
+    if (foe < 0) break;
+    return {true, over.begin - kBefore, LimitReason::Crossing, foe};
+  }
+  return {};
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,108 @@
+// The exact bits of short runs on roads, by the program and SUMO as users run them. They change
+// when the rules of the road do: a refactoring leaves them, a commit that changes behaviour says
+// why and puts the new ones in, from the failure's text. Networks, demand and insertion are SUMO's,
+// so the bits belong to the version of SUMO that Debian 12 has.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "base/hash.h"
+#include "support/coupling_scenario.h"
+
+namespace sumogamma {
+namespace {
+
+const char* const kSumoVersion = "Version 1.15.0";
+const char* const kDuration = "60";  // [s]
+
+std::string hexadecimal(std::uint64_t number) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
+  return text;
+}
+
+/// What the program prints; fails the test where it doesn't end well.
+std::string program(const std::vector<std::string>& arguments) {
+  ProcessRequest request;
+  request.arguments = {SUMOGAMMA_PROGRAM};
+  request.arguments.insert(request.arguments.end(), arguments.begin(), arguments.end());
+  request.time_limit = 600.0;
+  const ProcessResult result = run_process(request);
+  EXPECT_EQ(result.exit_code, 0) << describe_end(result, request.time_limit) << "\n"
+                                 << result.errors;
+  return result.output;
+}
+
+/// Runs a scenario into the folder's "out" and returns its state hash.
+std::string state_hash(const std::string& scenario, const TemporaryFolder& folder) {
+  program({"run", scenario, "-o", folder.file("out"), "--duration", kDuration, "--seed", "1",
+           "--threads", "2", "--quiet", "--log", "error"});
+  const auto results = nlohmann::json::parse(folder.read("out/results.json"), nullptr, false);
+  return results.is_object() ? results.value("state_hash", "") : "no results.json";
+}
+
+struct Golden {
+  const char* name;
+  const char* state;         ///< results.json's state_hash
+  const char* network = "";  ///< of what the import makes: network and demand
+};
+std::ostream& operator<<(std::ostream& out, const Golden& golden) { return out << golden.name; }
+std::string name_of(const testing::TestParamInfo<Golden>& info) { return info.param.name; }
+
+class GoldenRoads : public testing::TestWithParam<Golden> {
+ protected:
+  void SetUp() override {
+    const std::string version = program({"version"});
+    if (version.find(kSumoVersion) == std::string::npos)
+      GTEST_SKIP() << "the recorded bits are SUMO's " << kSumoVersion
+                   << ", here there is another:\n"
+                   << version;
+  }
+};
+
+class GoldenScenarios : public GoldenRoads {};
+TEST_P(GoldenScenarios, HaveTheRecordedBits) {
+  const std::string name = GetParam().name;
+  const TemporaryFolder folder;
+  EXPECT_EQ(
+      state_hash(SUMOGAMMA_SOURCE_DIR "/sumo_scenarios/" + name + "/" + name + ".sumocfg", folder),
+      GetParam().state);
+}
+
+// one or two rules of the road each
+INSTANTIATE_TEST_SUITE_P(Scenario, GoldenScenarios,
+                         testing::Values(Golden{"all_way_stop", "7a069fba9177acc0"},
+                                         Golden{"bicycle_overtaken", "8dcbb5bd7607c08a"},
+                                         Golden{"bus_stop", "5a2a19211d0f9f04"},
+                                         Golden{"lane_drop", "8c2382437d9c2350"},
+                                         Golden{"mid_block", "a676b1eedb88eb90"},
+                                         Golden{"mixed_queue", "4940196a16eb6eea"},
+                                         Golden{"roundabout", "d5a5a964976047a8"},
+                                         Golden{"zebra", "df34476e7a08e28d"}),
+                         name_of);
+
+class GoldenMaps : public GoldenRoads {};
+TEST_P(GoldenMaps, HaveTheRecordedBits) {
+  const TemporaryFolder folder;
+  const std::string map = SUMOGAMMA_SOURCE_DIR "/osm_maps/" + std::string(GetParam().name);
+  program({"import", map + ".osm.pbf", "-o", folder.file("scenario"), "--agents", "100",
+           "--duration", kDuration, "--quiet"});
+  std::uint64_t network = kFnvBasis;
+  for (const char* file : {"scenario/net.net.xml", "scenario/demand.rou.xml"})
+    for (const char byte : folder.read(file))
+      network = fnv1a(network, static_cast<unsigned char>(byte));
+  EXPECT_EQ(hexadecimal(network), GetParam().network)
+      << "the import makes another network or demand, so the traffic is another one too";
+  EXPECT_EQ(state_hash(folder.file("scenario"), folder), GetParam().state);
+}
+
+INSTANTIATE_TEST_SUITE_P(Map, GoldenMaps,
+                         testing::Values(Golden{"fujisawa", "c6e99d54b1144306", "50ec09f8af82421c"},
+                                         Golden{"monaco", "9d3f9d7aa91a5da7", "1f18b03d453e1d33"}),
+                         name_of);
+
+}  // namespace
+}  // namespace sumogamma

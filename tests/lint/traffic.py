@@ -1,0 +1,109 @@
+"""Checks the rules of the road (src/traffic): every column of what they remember has one writer, every tunable stands in one place.
+
+usage: traffic.py PROJECT_FOLDER [--list]
+
+A column is a member of `struct TrafficState` in src/traffic/traffic_state.h that is a std::vector. Who writes it: the pair of .h and
+.cpp that assigns to it or to an entry, changes its size, or binds it to a reference or pointer that isn't const. traffic_state.h and
+.cpp themselves add and remove rows and don't count. An entry that is passed on by reference isn't seen: rules that only read take a
+`const TrafficState&`, which the compiler holds.
+A tunable is a named constant of src/traffic with a number of its own, but for those in src/traffic/parameters.h and .cpp.
+"""
+import os
+import re
+import sys
+from collections import defaultdict
+
+from project import finish, numbered_lines, project_files
+
+HEADER = "src/traffic/traffic_state.h"
+PARAMETERS = r"src/traffic/parameters\.(h|cpp)"
+# by folder, how many tunables still stand elsewhere: numbers that only get smaller
+STILL = {"src/traffic": 12, "src/traffic/junction": 86, "src/traffic/lateral": 92, "src/traffic/longitudinal": 43,
+         "src/traffic/recovery": 40, "src/traffic/walking": 50}
+CONSTANT = re.compile(r"\bconst(?:expr)?\s+(?:double|float|int|auto)\s+(?=k[A-Z]\w*\s*[={])([^;]*);")
+PLACE = r"(?:\s*\[(?:[^\[\]]|\[[^\[\]]*\])*\])?"  # of an entry, whose index may be another's entry
+CHANGERS = "assign|resize|push_back|emplace_back|clear|swap|insert|erase|reserve|fill"
+
+
+def code(root, path):
+    """The file without comments and what texts hold; lines stay where they are."""
+    return "\n".join(re.sub(r"//.*", "", re.sub(r'"(\\.|[^"\\])*"', '""', line)) for _, line in numbered_lines(root, path))
+
+
+def line_of(text, place):
+    return text.count("\n", 0, place) + 1
+
+
+def columns(text):
+    """{column: line} of struct TrafficState."""
+    struct = re.search(r"\bstruct TrafficState\b[^{;]*\{(.*?)\n\};", text, re.DOTALL)
+    if not struct:
+        return {}
+    members = re.finditer(r"std::vector<[^;]*>\s*(\w+)\s*;", struct.group(1))
+    return {member.group(1): line_of(text, struct.start(1) + member.start(1)) for member in members}
+
+
+def writes(text, column):
+    """Does a file's text change the column of some state?"""
+    here = rf"(?<!\bcontext)(?:\.|->){column}\b"  # RoadContext says some of it on
+    part = r"(?:\.\w+(?:\([^()]*\))?)*"  # a member of an entry, or .back()
+    patterns = [rf"{here}{PLACE}{part}\s*(?:[-+*/|&^%]|<<|>>)?=(?!=)",
+                rf"(?:\+\+|--)\s*[\w.\->()]*{here}", rf"{here}{PLACE}\s*(?:\+\+|--)",
+                rf"{here}\s*\.\s*(?:{CHANGERS})\s*\(",
+                rf"(?:^|[;{{}}(,])\s*(?!const\b)[\w:]+(?:<[^;=]*>)?\s*&+\s*(?:\w+|\[[^\]]*\])\s*[=:][^;]*{here}",  # a reference
+                rf"(?<![&\w)\]])\s*&\s*[\w.\->()]*{here}"]  # an address
+    return any(re.search(pattern, text, re.MULTILINE) for pattern in patterns)
+
+
+def check_columns(root, paths):
+    """Complaints, and how many columns were checked."""
+    if HEADER not in paths:
+        print(f"there is no {HEADER}, so no column was checked")
+        return [], 0
+    writers = defaultdict(set)
+    found = columns(code(root, HEADER))
+    for path in paths:
+        unit = path.rsplit(".", 1)[0]
+        if unit == HEADER.rsplit(".", 1)[0]:
+            continue
+        text = code(root, path)
+        for column in found:
+            if writes(text, column):
+                writers[column].add(unit)
+    complaints = [f"{HEADER}:{found[column]}: {column} has {len(units)} writers, one at the most: {', '.join(sorted(units))}"
+                  for column, units in sorted(writers.items()) if len(units) > 1]
+    if not found:
+        complaints.append(f"{HEADER}: no struct TrafficState with std::vector columns")
+    return complaints, len(found)
+
+
+def tunables(root, paths):
+    """Where a named constant with a number stands outside parameters: its file, line and name."""
+    for path in paths:
+        if re.fullmatch(PARAMETERS, path):
+            continue
+        text = code(root, path)
+        for statement in CONSTANT.finditer(text):
+            for one in re.finditer(r"(k[A-Z]\w*)\s*[={]([^,]*)", statement.group(1)):
+                if re.search(r"(?<![\w.])\d", one.group(2)):
+                    yield path, line_of(text, statement.start(1) + one.start()), one.group(1)
+
+
+def main(root, shown):
+    paths = [p for p in project_files(root) if p.startswith("src/traffic/") and p.endswith((".h", ".cpp"))]
+    complaints, checked = check_columns(root, paths)
+    found = defaultdict(list)
+    for path, number, name in tunables(root, paths):
+        found[os.path.dirname(path)].append(f"{path}:{number}: {name} belongs into src/traffic/parameters.h")
+    for folder, texts in sorted(found.items()):
+        if shown:
+            print("\n".join(texts))
+        if len(texts) > STILL.get(folder, 0):
+            complaints += texts
+    for folder, most in STILL.items():
+        if len(found[folder]) < most:
+            print(f"STILL says {most} of {folder}, now there are {len(found[folder])}: lower it")
+    finish("traffic", complaints, checked + len(paths))
+
+
+main(sys.argv[1], "--list" in sys.argv)

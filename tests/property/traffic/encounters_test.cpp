@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/random.h"
+#include "model/stopping_guard.h"
+#include "scene/extent.h"
+#include "support/road_scene.h"
+#include "traffic/patience.h"
+
+namespace sumogamma {
+namespace {
+
+using testing::crossroads;
+using testing::read_plain_net;
+using testing::RoadScene;
+
+constexpr std::uint64_t kSeeds = 100;
+
+/// Two vehicles that stand at their lines on different arms of a crossroads.
+struct Pair {
+  std::size_t first, second;
+};
+Pair draw_pair(RoadScene& here, std::uint64_t seed) {
+  std::uint64_t count = 0;
+  const auto below = [&](std::size_t n) {
+    const double draw = random_uniform(seed, count++, 0, Draw::Demand);
+    return std::min(n - 1, static_cast<std::size_t>(draw * static_cast<double>(n)));
+  };
+  const std::vector<std::string> arms{"W", "N", "E", "S"};
+  const std::vector<std::string> kinds{"car", "bus", "bicycle", "truck", "motorcycle"};
+  const std::size_t from = below(4), other = (from + 1 + below(3)) % 4;
+  const auto stand = [&](std::size_t arm) {
+    const std::string to = arms[(arm + 1 + below(3)) % 4];
+    const std::size_t row = here.add(kinds[below(5)], {arms[arm] + "C", "C" + to}, 100, 0);
+    const double past = here.past_line(row);
+    here.move(row, here.scene.path_along[row] - past - 0.6);
+    return row;
+  };
+  const std::size_t first = stand(from);
+  return {first, stand(other)};
+}
+
+/// By right of way, or for the room in which a long body turns.
+bool waits_for(const RoadScene& here, std::size_t row, std::size_t other) {
+  const LimitReason reason = here.context(row).reason;
+  return (reason == LimitReason::Yield || reason == LimitReason::TurningRoom) &&
+         here.context(row).foe == static_cast<std::int64_t>(here.scene.id[other].value);
+}
+
+/// Lets time pass in which nobody moves [s].
+void stand_for(RoadScene& here, double duration) {
+  constexpr double kStep = 0.1;  // [s]
+  for (double time = 0.0; time < duration; time += kStep) {
+    here.update(1, kStep);
+    for (std::size_t row = 0; row < here.scene.size(); ++row) {
+      count_waiting(kStep, Kinematics::SingleTrack, here.scene, here.traffic, row);
+      update_held(kStep, here.scene, row);
+    }
+    here.scene.time += kStep;
+    ++here.scene.tick;
+  }
+}
+
+/// Do their ways cross in an area in which both would be at a time? Where they come together in a
+/// lane the second follows the first.
+bool would_meet(const RoadScene& here, const Pair& pair) {
+  const ConnectionId own = here.path(pair.first).links.front().connection;
+  const ConnectionId their = here.path(pair.second).links.front().connection;
+  const RoadNetwork& network = here.model.road;
+  if (network.connection(own).to == network.connection(their).to) return false;
+  const bool wide = is_wide(here.scene, pair.first) || is_wide(here.scene, pair.second);
+  for (const ConflictZone& zone : here.model.conflicts[index_of(own)]) {
+    if (zone.foe != their) continue;
+    const auto area = zone_for(zone, wide);
+    if (!area) continue;
+    const Occupation ours = here.occupation_of(pair.first, area->begin, area->end);
+    const Occupation theirs = here.occupation_of(pair.second, area->foe_begin, area->foe_end);
+    if (ours.begin < theirs.end && theirs.begin < ours.end) return true;
+  }
+  return false;
+}
+
+class Encounters : public ::testing::TestWithParam<const char*> {};
+
+// of two who stand at their lines and would meet, exactly one waits for the other, whoever is asked
+TEST_P(Encounters, OfTwoAtTheirLinesOneGoesFirst) {
+  const RoadNetwork network = read_plain_net(crossroads(GetParam()));
+  int met = 0;
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    SCOPED_TRACE(seed);
+    RoadScene here(network);
+    const Pair pair = draw_pair(here, seed);
+    stand_for(here, 2.0);
+    const bool first_waits = waits_for(here, pair.first, pair.second);
+    const bool second_waits = waits_for(here, pair.second, pair.first);
+    EXPECT_FALSE(first_waits && second_waits) << "both wait";
+    if (!would_meet(here, pair)) continue;
+    ++met;
+    const auto way = [&](std::size_t row) {
+      const Connection& link = network.connection(here.path(row).links.front().connection);
+      return network.lane(link.from).name + " to " + network.lane(link.to).name;
+    };
+    EXPECT_TRUE(first_waits || second_waits)
+        << "both go: " << type_of(here.model.types, here.scene.type[pair.first]).name << " from "
+        << way(pair.first) << ", " << type_of(here.model.types, here.scene.type[pair.second]).name
+        << " from " << way(pair.second);
+  }
+  EXPECT_GT(met, 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Junctions, Encounters,
+                         ::testing::Values("priority", "priority_stop", "right_before_left",
+                                           "allway_stop"));
+
+}  // namespace
+}  // namespace sumogamma
