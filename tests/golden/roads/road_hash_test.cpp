@@ -11,6 +11,7 @@
 
 #include "base/hash.h"
 #include "support/coupling_scenario.h"
+#include "support/recorded_bits.h"
 
 namespace sumogamma {
 namespace {
@@ -55,6 +56,7 @@ std::string name_of(const testing::TestParamInfo<Golden>& info) { return info.pa
 class GoldenRoads : public testing::TestWithParam<Golden> {
  protected:
   void SetUp() override {
+    if (!test::computes_as_recorded()) GTEST_SKIP() << test::kOtherLibrary;
     const std::string version = program({"version"});
     if (version.find(kSumoVersion) == std::string::npos)
       GTEST_SKIP() << "the recorded bits are SUMO's " << kSumoVersion
