@@ -293,8 +293,7 @@ std::optional<NetworkFile> make_network(const OsmMap& map, NetconvertRequest net
   for (const FileRepair& repair : kFileRepairs)
     if (!off.contains(repair.name.name)) changed = repair.mend(*network, log) || changed;
   if (changed) save_xml(network->document, file);
-  Workers workers;
-  network->road = read_sumo_net(network->document, file, workers);
+  network->road = read_sumo_net(network->document, file);
   return network;
 }
 

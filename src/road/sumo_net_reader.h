@@ -25,6 +25,11 @@ inline RoadNetwork read_sumo_net(const std::filesystem::path& file) {
 /// The same of a network that is parsed already; `file` names it where it is inconsistent.
 RoadNetwork read_sumo_net(const pugi::xml_document& document, const std::filesystem::path& file,
                           Workers& workers);
+inline RoadNetwork read_sumo_net(const pugi::xml_document& document,
+                                 const std::filesystem::path& file) {
+  Workers alone;
+  return read_sumo_net(document, file, alone);
+}
 
 /// Its elements alone, without what is worked out from them: stop lines set back, signals within
 /// junctions, rooms of junctions, overpasses. For who looks at networks that nobody drives on.
