@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "geometry/vec2.h"
+#include "osm/repairs/coarse_rings.h"
 #include "support/map_builder.h"
 
 namespace sumogamma::osm {
@@ -135,6 +136,7 @@ TEST_F(RoundBendsTest, RoundaboutsAreDrawnRoundAndPathsStay) {
   b.way(11, {2, 5}, kStreet).way(12, {6, 1}, kStreet);
   b.node(7, 300, 0).node(8, 400, 0).node(9, 400, 100).way(13, {7, 8, 9}, {{"highway", "footway"}});
   round();
+  round_coarse_rings(b.map, b.log);
   EXPECT_THAT(b.find_way(10)->nodes, testing::IsSupersetOf({1, 2, 3, 4}));
   for (const Vec2& point : line(10))
     EXPECT_NEAR((point - Vec2(20, 20)).norm(), std::sqrt(800), 0.1);
