@@ -83,8 +83,8 @@ class LaneLocator {
     /// May some of the ground be `reach` [m] or less away?
     bool is_within(const Vec2& place, double reach) const {
       const double x = place.x(), y = place.y();
-      return x >= double{left} - reach && x <= double{right} + reach &&
-             y >= double{bottom} - reach && y <= double{top} + reach;
+      return x >= static_cast<double>(left) - reach && x <= static_cast<double>(right) + reach &&
+             y >= static_cast<double>(bottom) - reach && y <= static_cast<double>(top) + reach;
     }
   };
   /// Part of a lane within a cell: segments first..last of its centreline, or a walking area's
