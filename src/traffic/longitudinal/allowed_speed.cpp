@@ -63,9 +63,7 @@ double foreseen_limit(const Path& path, double along, double speed, double dt) {
 void set_allowed_speed(const TrafficView& view, const Course& course, double dt, StopPoints& found,
                        RoadContext& context) {
   const AgentType& type = course.type;
-  const double braking = course.speed * course.speed / (2.0 * type.comfortable_deceleration);
-  const Driver driver{view, course, course.along + course.half_length, context.speed_limit,
-                      std::min(40.0 + 2.5 * course.speed + braking, 250.0)};
+  const Driver driver = driver_of(view, course, context.speed_limit);
   find_stop_points(driver, found);
   context.to_halt = found.to_halt;
   context.at_red = found.at_red;

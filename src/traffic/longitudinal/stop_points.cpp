@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "traffic/junction/arbitration.h"
 #include "traffic/junction/keep_clear.h"
 #include "traffic/junction/turning_room.h"
 #include "traffic/lateral/passing.h"
@@ -22,10 +21,10 @@ double looked_at(const Driver& driver) {
   return driver.view.scene.held[driver.course.row].standing > 0.0 ? kSeesLight : driver.reach;
 }
 
-/// A halt before something at `stop_at` [m along the path]: the front comes to rest there.
-StopPoint halt_at(const Driver& driver, double stop_at, LimitReason reason, std::int64_t foe) {
+/// A halt `way` [m] ahead: the front comes to rest there.
+StopPoint halt_in(double way, const AgentType& type, LimitReason reason, std::int64_t foe = -1) {
   StopPoint point;
-  point.gap = stop_at - driver.front + driver.course.type.min_gap;
+  point.gap = way + type.min_gap;
   point.reason = reason;
   point.foe = foe;
   return point;
@@ -85,10 +84,9 @@ LinkDecision decide_beside(const TrafficView& view, const Course& course,
 
 /// Zipper merge: who is nearer to the end of the common ground is followed. Closer than later on:
 /// the gap opens while lanes run together.
-void follow_teeth(const Driver& driver, const Traveller& traveller, const PathLink& link,
-                  StopPoints& found) {
+void follow_teeth(const Driver& driver, const PathLink& link, StopPoints& found) {
   const AgentType& type = driver.course.type;
-  const ZipperLeader teeth = find_zipper_leader(driver.view, traveller, link);
+  const ZipperLeader teeth = find_zipper_leader(driver.view, driver.traveller, link);
   if (teeth.id < 0) return;
   const double headway = driver.course.headway_factor * kept_headway(type, driver.course.speed);
   const double gap = std::max(teeth.gap, 0.3) + 0.6 * headway * driver.course.speed;
@@ -96,9 +94,9 @@ void follow_teeth(const Driver& driver, const Traveller& traveller, const PathLi
                           type.comfortable_deceleration, LimitReason::Leader, teeth.id});
 }
 
-/// What signals and right of way say of a link, for a front that may reach over the edge of its
-/// lane (see beside_lane).
-LinkDecision go_by_law(const Driver& driver, const Traveller& traveller, const PathLink& link) {
+/// What signals and right of way say of a link.
+LinkDecision go_by_law(const Driver& driver, const PathLink& link) {
+  const Traveller& traveller = driver.traveller;
   const LinkDecision decision = decide_link(driver.view, traveller, link);
   if (decision.must_stop || traveller.front <= driver.front) return decision;
   // who gets over the edge of its lane just before its line isn't too near to halt for that
@@ -112,10 +110,12 @@ LinkDecision go_by_law(const Driver& driver, const Traveller& traveller, const P
 
 /// Signals and right of way, room behind the junction, room for others to turn, cooperative
 /// yielding: whether and where to halt before a link.
-LinkDecision halt_before(const Driver& driver, const Traveller& traveller, const PathLink& link,
-                         StopPoints& found, bool first) {
-  const auto& [view, course, front, free_speed, reach] = driver;
-  LinkDecision decision = go_by_law(driver, traveller, link);
+LinkDecision halt_before(const Driver& driver, const PathLink& link, StopPoints& found,
+                         bool first) {
+  const TrafficView& view = driver.view;
+  const Course& course = driver.course;
+  const Traveller& traveller = driver.traveller;
+  LinkDecision decision = go_by_law(driver, link);
   if (first) found.at_red = decision.must_stop && decision.reason == LimitReason::Signal;
   if (!decision.must_stop) decision = keep_clear(view, course, traveller, link, found.ahead);
   // who may go on to a place on the junction leaves room before it all the same
@@ -129,20 +129,18 @@ LinkDecision halt_before(const Driver& driver, const Traveller& traveller, const
 /// The links ahead, up to the first at which it has to halt.
 void obey_links(const Driver& driver, StopPoints& found) {
   const Course& course = driver.course;
-  const Traveller traveller{course.row, driver.front + beside_lane(driver.view.model, course),
-                            2.0 * course.half_length, course.speed};
   bool first = true;
   for (PathLink link : course.path.links) {
     if (link.end < course.along - course.half_length) continue;
     if (link.stop_line > driver.front + looked_at(driver)) break;
-    link.halt = halt_for_long_bodies(driver.view, traveller, link);
-    follow_teeth(driver, traveller, link, found);
-    const LinkDecision decision = halt_before(driver, traveller, link, found, first);
+    link.halt = halt_for_long_bodies(driver.view, driver.traveller, link);
+    follow_teeth(driver, link, found);
+    const LinkDecision decision = halt_before(driver, link, found, first);
     first = false;
     if (!decision.must_stop) continue;
-    StopPoint point = halt_at(driver, decision.stop_at, decision.reason, decision.foe);
-    point.gap = decision.stop_at - traveller.front + course.type.min_gap;
-    found.to_halt = std::max(decision.stop_at - traveller.front, 0.0);
+    const double way = decision.stop_at - driver.traveller.front;
+    StopPoint point = halt_in(way, course.type, decision.reason, decision.foe);
+    found.to_halt = std::max(way, 0.0);
     // a junction is kept clear at ease or not at all
     if (decision.reason == LimitReason::BlockedJunction)
       point.most_braking = kKeepsClearAtEase * course.type.comfortable_deceleration;
@@ -155,13 +153,10 @@ void obey_links(const Driver& driver, StopPoints& found) {
 void leave_room_behind(const Driver& driver, StopPoints& found) {
   const Course& course = driver.course;
   if (course.path.arrival >= driver.front + looked_at(driver)) return;
-  const double front = driver.front + beside_lane(driver.view.model, course);
-  const LinkDecision room = leave_room_at_end(
-      driver.view, course, {course.row, front, 2.0 * course.half_length, course.speed});
-  if (!room.must_stop) return;
-  StopPoint point = halt_at(driver, room.stop_at, room.reason, room.foe);
-  point.gap = room.stop_at - front + course.type.min_gap;
-  found.points.push_back(point);
+  const LinkDecision room = leave_room_at_end(driver.view, course, driver.traveller);
+  if (room.must_stop)
+    found.points.push_back(
+        halt_in(room.stop_at - driver.traveller.front, course.type, room.reason, room.foe));
 }
 
 /// Some way before its gate: who rolls over it by a hair begins its change, whoever is beside.
@@ -169,9 +164,8 @@ void wait_at_gate(const Driver& driver, StopPoints& found) {
   constexpr double kBefore = 0.3;  // [m]
   const double gate = driver.view.traffic.gate[driver.course.row];
   if (!std::isfinite(gate)) return;
-  StopPoint point = halt_at(driver, gate, LimitReason::Merge, -1);
-  point.gap = gate - kBefore - driver.course.along + driver.course.type.min_gap;
-  found.points.push_back(point);
+  const double way = gate - kBefore - driver.course.along;
+  found.points.push_back(halt_in(way, driver.course.type, LimitReason::Merge));
 }
 
 /// Planned halts: stands for the stop's duration with the front at its end.
@@ -179,10 +173,8 @@ void serve_stop(const Driver& driver, StopPoints& found) {
   const Course& course = driver.course;
   const auto next = static_cast<std::size_t>(driver.view.scene.halt[course.row].next);
   if (next >= course.path.stops.size()) return;
-  StopPoint point = halt_at(driver, 0.0, LimitReason::Stop, -1);
-  point.gap =
-      course.path.stops[next].along - course.along - course.half_length + course.type.min_gap;
-  found.points.push_back(point);
+  const double way = course.path.stops[next].along - course.along - course.half_length;
+  found.points.push_back(halt_in(way, course.type, LimitReason::Stop));
 }
 
 using Rule = void (*)(const Driver&, StopPoints&);
@@ -190,6 +182,18 @@ constexpr Rule kDriving[] = {follow_leader,     let_merge,    obey_links,
                              leave_room_behind, wait_at_gate, serve_stop};
 
 }  // namespace
+
+Driver driver_of(const TrafficView& view, const Course& course, double free_speed) {
+  const double front = course.along + course.half_length;
+  const double braking = course.speed * course.speed / (2.0 * course.type.comfortable_deceleration);
+  return {
+      view,
+      course,
+      front,
+      {course.row, front + beside_lane(view.model, course), 2.0 * course.half_length, course.speed},
+      free_speed,
+      std::min(40.0 + 2.5 * course.speed + braking, 250.0)};
+}
 
 double acceleration_behind(const Driver& driver, const StopPoint& point) {
   const Course& course = driver.course;

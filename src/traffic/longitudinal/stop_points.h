@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "traffic/junction/arbitration.h"
 #include "traffic/lateral/course.h"
 #include "traffic/longitudinal/leader.h"
 #include "traffic/traffic_view.h"
@@ -26,9 +27,13 @@ struct Driver {
   const TrafficView& view;
   const Course& course;
   double front = 0;       ///< along its path [m]
+  Traveller traveller;    ///< before links, where its front may count as further ahead than it is:
+                          ///< it halts a little earlier where it reaches over its lane's edge
   double free_speed = 0;  ///< that road, bend and type let it drive [m/s]
   double reach = 0;       ///< as far as it looks ahead [m]
 };
+
+Driver driver_of(const TrafficView& view, const Course& course, double free_speed);
 
 /// What the rules found for one driver.
 struct StopPoints {
