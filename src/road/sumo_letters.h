@@ -5,7 +5,8 @@
 namespace sumogamma {
 
 // What the letters of SUMO's networks and signals mean (SUMO pages Networks/SUMO_Road_Networks and
-// Simulation/Traffic_Lights). Nobody else knows them.
+// Simulation/Traffic_Lights). Besides this, only who reads whole signal programs knows letters:
+// demand/lane_load and osm/repairs/signal_offsets.
 
 /// What a signal shows to a link.
 enum class Light : std::uint8_t {

@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "base/random.h"
+#include "geometry/segment.h"
 
 namespace sumogamma {
 
@@ -19,10 +20,7 @@ double distance_outside(const std::vector<Vec2>& ring, const Vec2& place) {
     if ((a.y() > place.y()) != (b.y() > place.y()) &&
         place.x() < a.x() + (b.x() - a.x()) * (place.y() - a.y()) / (b.y() - a.y()))
       inside = !inside;
-    const Vec2 way = b - a;
-    const double square = way.squaredNorm();
-    const double along = square > 0.0 ? std::clamp((place - a).dot(way) / square, 0.0, 1.0) : 0.0;
-    nearest = std::min(nearest, (place - a - along * way).norm());
+    nearest = std::min(nearest, distance_to_segment(a, b, place));
   }
   return inside ? 0.0 : nearest;
 }

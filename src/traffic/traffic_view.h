@@ -17,7 +17,8 @@ struct TrafficView {
   const Scene& scene;
   const TrafficState& traffic;
   const SpatialGrid& grid;
-  const ApproachTable& approaches;
+  const ApproachTable& approaches;  ///< of this tick once contexts are made: not while lanes are
+                                    ///< chosen, and ways found
 };
 
 }  // namespace sumogamma

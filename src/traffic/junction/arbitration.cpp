@@ -23,6 +23,7 @@ constexpr double kKeepsZonesFree = 20.0;
 struct LinkDuty {
   double stop_at = 0;  ///< where its front comes to rest before it [m along its path]
   SignalDuty signal = SignalDuty::None;
+  bool wide = false;  ///< see is_wide
 };
 
 LinkDuty duty_of(const TrafficView& view, const Traveller& traveller, const PathLink& link) {
@@ -34,7 +35,8 @@ LinkDuty duty_of(const TrafficView& view, const Traveller& traveller, const Path
   const double halt = stops_short ? link.halt : link.stop_line;
   const Light signal = view.road.signal(view.model.road.connection(link.connection));
   const double drawn = is_amber(signal) ? drawn_line(view, traveller, link) : halt;
-  return {halt - kStopMargin, signal_duty(view, traveller, link, halt, drawn)};
+  return {halt - kStopMargin, signal_duty(view, traveller, link, halt, drawn),
+          is_wide(view.scene, traveller.row)};
 }
 
 /// Who has to halt first, at a stop sign or before it goes at red, and hasn't.
@@ -94,10 +96,9 @@ bool goes_on(const Encounter& e) {
 /// who block.
 void decide_zone(const TrafficView& view, const Traveller& traveller, const PathLink& link,
                  const LinkDuty& duty, const ConflictZone& of_table, LinkDecision& decision) {
-  const bool wide = is_wide(view.scene, traveller.row);
   for (const Approach& foe : view.approaches.of(of_table.foe)) {
     if (foe.row == traveller.row) continue;
-    const auto zone = zone_for(of_table, wide || foe.wide);
+    const auto zone = zone_for(of_table, duty.wide || foe.wide);
     if (!zone) continue;
     const Encounter e = meet(view, traveller, link, duty.signal == SignalDuty::GoAtRed, *zone, foe);
     if (goes_on(e)) continue;

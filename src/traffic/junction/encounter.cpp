@@ -10,9 +10,8 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kPatience = 4.0;  ///< who has waited for a third one so long isn't about to go [s]
-constexpr double kLooks = 1.5;     ///< and is looked at for so long [s]
-constexpr double kLongWait = 60.0;  // [s]
+constexpr double kLooks = 1.5;      ///< who waits for a third one is looked at for so long [s]
+constexpr double kLongWait = 60.0;  ///< [s]
 
 /// A driver who will not stop for the subject, who still waits at an unsignalled crossing and sees
 /// it.
@@ -119,7 +118,7 @@ bool lets_subject_go(const Encounter& e) {
   const double own = e.traffic.waiting_time[row], other = e.traffic.waiting_time[e.foe.row];
   // it has waited long for a third one and isn't about to go
   const bool has_set_out = on_foot && has_set_out_from(e, e.link.halt);
-  if (!for_subject && other > kPatience && (own > kLooks || has_set_out)) return true;
+  if (!for_subject && other > kWaitsForThird && (own > kLooks || has_set_out)) return true;
   return has_waited_longer(e, row, e.foe.row);
 }
 

@@ -9,6 +9,10 @@ namespace sumogamma {
 inline constexpr double kZoneEdge = 0.3;
 /// Who is on the junction and faster doesn't stand [m/s].
 inline constexpr double kCreeps = 0.1;
+/// Whoever is slower stands within centimetres [m/s].
+inline constexpr double kCrawl = 1.0;
+/// Who has waited for a third one so long isn't about to go [s].
+inline constexpr double kWaitsForThird = 4.0;
 /// So long after lights changed who is left on a junction may clear it first [s].
 inline constexpr double kLetsClear = 20.0;
 

@@ -22,7 +22,6 @@ constexpr double kLeastShare = 0.4;
 /// and asks this braking of who has the right of way in the lane that it joins, or at first
 /// [m/s^2].
 constexpr double kAskedMost = 3.5, kAsked = 1.5;
-constexpr double kCrawl = 1.0;  ///< [m/s]
 
 using Answer = std::optional<Verdict>;
 
@@ -191,11 +190,10 @@ Answer mutual_wait(const Encounter& e) {
 
 /// Is the subject, on wheels, driving by somebody who has waited for long for a third one?
 bool drives_by(const Encounter& e) {
-  constexpr double kPatience = 4.0;  // [s]
   return !is_on_foot(e, e.subject.row) && has_set_out_from(e, e.link.stop_line) &&
          e.foe_waits.reason == LimitReason::Yield &&
          e.foe_waits.foe != e.scene.id[e.subject.row].value &&
-         e.traffic.waiting_time[e.foe.row] > kPatience;
+         e.traffic.waiting_time[e.foe.row] > kWaitsForThird;
 }
 
 /// Have both stood on the junction for long, or for some seconds in a ring of those who wait for

@@ -11,7 +11,6 @@ namespace sumogamma {
 namespace {
 
 constexpr double kAmber = 2.5;  ///< reckoned with from an amber on [s]
-constexpr double kCrawl = 1.0;  ///< whoever is slower stands within centimetres [m/s]
 
 /// Does somebody who stood near its line for a gap before amber began, at `since` [s], take the one
 /// that amber makes, as it gets over the line from rest in the time `left` [s]?
