@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "model/stopping_guard.h"
+
 namespace sumogamma {
 namespace {
 
@@ -32,6 +34,7 @@ TEST(CountWaiting, CreepingIsStillWaiting) {
   scene.time = 7.5;
   tick(0.5);
   EXPECT_EQ(traffic.stood_at[0], 7.0);
+  EXPECT_EQ(scene.held[0].standing, 0.0);
   EXPECT_EQ(traffic.waiting_time[0], 1.0);
   EXPECT_EQ(traffic.waiting_time[1], 0.0) << "on foot this is walking";
   tick(1.5);
@@ -70,11 +73,13 @@ TEST(CountWaiting, WhoIsPressedBackDoesNotGetOn) {
   auto waits_after = [&](double vx, double vy) {
     scene.velocity[0] = {vx, vy};
     count_waiting(0.5, Kinematics::Holonomic, scene, traffic, 0);
+    update_held(0.5, scene, 0);
     return traffic.waiting_time[0];
   };
   EXPECT_EQ(waits_after(1.0, 0.0), 0.0);
   EXPECT_EQ(waits_after(-1.0, 0.0), 0.5) << "back along its way";
   EXPECT_EQ(waits_after(0.0, 1.0), 1.0) << "aside";
+  EXPECT_EQ(scene.held[0].standing, 0.0) << "it moves all the same";
 }
 
 TEST(TrafficState, KeepsWhatItKnowsOfWhoStaysAndNothingOfWhoCame) {
