@@ -26,6 +26,7 @@ TEST(CountWaiting, CreepingIsStillWaiting) {
       scene.velocity[row] = {speed, 0};
       count_waiting(0.5, row == 0 ? Kinematics::SingleTrack : Kinematics::Holonomic, scene, traffic,
                     row);
+      update_held(0.5, scene, row);
     }
   };
   EXPECT_EQ(traffic.stood_at[0], -std::numeric_limits<double>::infinity()) << "never";
