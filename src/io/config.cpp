@@ -138,6 +138,9 @@ std::vector<Binding> bind_all(ScenarioConfig& config) {
   };
   bind_preset(config.preset, bindings);
   bind_model(config.model, bindings);
+  for (const TrafficParameter& one : traffic_parameters())
+    bindings.push_back({"traffic." + std::string(one.name), &(config.traffic.*one.value), one.least,
+                        false, one.most});
   for (AgentType& type : config.types) {
     const std::string prefix = "types." + type.name + ".";
     bindings.push_back({prefix + "sumo_class", &type.sumo_class});
@@ -380,6 +383,21 @@ toml::table parse_override(const std::string& text) {
   }
 }
 
+/// Levels of patience that don't follow one another would be skipped without a word.
+void check_patience(const ScenarioConfig& config) {
+  const TrafficParameters& t = config.traffic;
+  const std::array levels{t.waiting, t.impatient, t.pressing, t.stuck, t.desperate, t.hopeless};
+  constexpr std::array kNames{"waiting", "impatient", "pressing", "stuck", "desperate", "hopeless"};
+  for (std::size_t k = 1; k < levels.size(); ++k) {
+    if (levels[k] > levels[k - 1]) continue;
+    const auto given = config.given.find(fmt::format("traffic.{}", kNames[k]));
+    throw Error(given == config.given.end() ? "traffic" : given->second,
+                fmt::format("traffic.{} = {} has to be more than traffic.{} = {}: these levels of "
+                            "patience follow one another",
+                            kNames[k], levels[k], kNames[k - 1], levels[k - 1]));
+  }
+}
+
 }  // namespace
 
 ControlRule parse_control_rule(const std::string& text) {
@@ -417,6 +435,7 @@ ScenarioConfig read_config(const std::filesystem::path& file,
       document.assign_to(*node, preset.front());
   apply_preset(config.preset, config.types);
   for (const auto& [document, root] : documents) apply_document(document, root, config);
+  check_patience(config);
   return config;
 }
 

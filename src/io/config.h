@@ -10,6 +10,7 @@
 #include "scene/agent_type.h"
 #include "scene/behavior_preset.h"
 #include "sumo/control_choice.h"
+#include "traffic/parameters.h"
 
 namespace sumogamma {
 
@@ -30,6 +31,8 @@ struct ScenarioConfig {
   BehaviorPreset preset = BehaviorPreset::Compliant;  ///< keys of types win over it
   // [model]
   ModelOptions model;
+  // [traffic]
+  TrafficParameters traffic;
   // [types.NAME]: rows changed, or added with base = "car"
   AgentTypeTable types = default_agent_types();
   /// Keys that were set, and where: scenario.toml or the command line (--set).

@@ -55,7 +55,8 @@ AgentTypeTable default_agent_types() {
        .attention_front = 12.0,
        .attention_rear = 3.0,
        .headway = 1.0,
-       .min_gap = 0.5});
+       .min_gap = 0.5,
+       .cyclist = true});
   add({.name = "motorcycle",
        .sumo_class = "motorcycle",
        .length = 2.2,
@@ -175,7 +176,8 @@ AgentTypeTable default_agent_types() {
        .attention_front = 12.0,
        .attention_rear = 3.0,
        .headway = 1.1,
-       .min_gap = 0.8});
+       .min_gap = 0.8,
+       .cyclist = true});
   add({.name = "gyro_scooter",
        .sumo_class = "moped",
        .length = 0.5,
@@ -195,7 +197,8 @@ AgentTypeTable default_agent_types() {
        .attention_front = 8.0,
        .attention_rear = 2.0,
        .headway = 0.9,
-       .min_gap = 0.4});
+       .min_gap = 0.4,
+       .cyclist = true});
   // on rails and on water: SUMO moves them, the others have to know their size and how they brake
   // (rail vehicles: SUMO's vClass defaults; service brakes)
   const AgentType rail{.name = "tram",

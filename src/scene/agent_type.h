@@ -40,9 +40,12 @@ struct AgentType {
   double attention_front = 0, attention_rear = 0;  ///< least reach of Att [m]; speed adds to it
   double headway = 0;                              ///< desired time gap to a leader [s]
   bool steady_headway = false;                     ///< at every speed and in all traffic
+  double queue_headway = 0.32;                     ///< share of the headway kept where it stands
+  double full_headway_speed = 11.0;                ///< from which on all of it is kept [m/s]
   double min_gap = 0;                              ///< standstill gap to a leader [m]
   double critical_gap = 1.0;     ///< left before whoever has the right of way in a place where ways
                                  ///< cross [s]: HCM's critical headway less the time of crossing
+  bool cyclist = false;          ///< rides at the kerb, and by the rules for bicycles
   bool guided = false;           ///< on rails or on water: SUMO alone moves it
   Compliance compliance{};       ///< how far it keeps the rules, and how its agents differ
   std::int32_t variant_of = -1;  ///< row that it counts as and whose name it has; -1: itself
@@ -55,6 +58,12 @@ using AgentTypeTable = std::vector<AgentType>;
 /// gyro_scooter, and those that SUMO alone moves: tram, train, ship. Sizes and limits after
 /// AgentParams of the reference and SUMO's vClass defaults; sources stand beside the rows.
 AgentTypeTable default_agent_types();
+
+/// Vehicles below this width share lanes and filter between queues [m].
+inline constexpr double kNarrowWidth = 1.2;
+
+/// Does a body of this width share lanes?
+inline bool is_narrow(double width) { return width < kNarrowWidth; }
 
 /// Row named `name`, or -1 cast to the id type's count: throws Error listing the known names.
 AgentTypeId find_agent_type(const AgentTypeTable& types, std::string_view name);

@@ -5,19 +5,51 @@
 
 namespace sumogamma {
 
-void count_waiting(double dt, Kinematics kinematics, const Scene& scene, TrafficState& traffic,
-                   std::size_t row) {
-  constexpr double kStands = 0.3, kCreeps = 1.0;  // [m/s]
-  constexpr double kCreepsShare = 0.3;            // of the preferred speed: people on foot
-  constexpr double kForgets = 10.0;               // of the wait, in a second of getting on [s]
+Patience patience_after(const TrafficParameters& parameters, double seconds) {
+  if (seconds <= parameters.waiting) return Patience::Calm;
+  if (seconds <= parameters.impatient) return Patience::Waiting;
+  if (seconds <= parameters.pressing) return Patience::Impatient;
+  if (seconds <= parameters.stuck) return Patience::Pressing;
+  if (seconds <= parameters.desperate) return Patience::Stuck;
+  return seconds <= parameters.hopeless ? Patience::Desperate : Patience::Hopeless;
+}
+
+Patience waited(const TrafficView& view, std::size_t row) {
+  return patience_after(view.parameters, view.traffic.waiting_time[row]);
+}
+
+Patience stood(const TrafficView& view, std::size_t row) {
+  return patience_after(view.parameters, view.scene.held[row].standing);
+}
+
+Patience blocked(const TrafficView& view, std::size_t row) {
+  return patience_after(view.parameters, view.scene.held[row].blocked);
+}
+
+Patience kept_clear(const TrafficView& view, std::size_t row) {
+  return patience_after(view.parameters, view.traffic.keeps_clear[row]);
+}
+
+Patience halted(const TrafficView& view, std::size_t row) {
+  return patience_after(view.parameters, view.scene.time - view.approaches.waiting(row).halted_at);
+}
+
+double impatience_after(const TrafficParameters& parameters, double seconds) {
+  return std::min(seconds / parameters.desperate, 1.0);
+}
+
+void count_waiting(const TrafficParameters& parameters, double dt, Kinematics kinematics,
+                   const Scene& scene, TrafficState& traffic, std::size_t row) {
   constexpr double kAll = std::numeric_limits<double>::infinity();
   const double speed = scene.velocity[row].norm();
-  const double creeping = std::min(kCreeps, kCreepsShare * scene.preferred_speed[row]);
+  const double creeping =
+      std::min(parameters.crawling_speed, parameters.walker_creeping * scene.preferred_speed[row]);
   // who is pressed back along its way doesn't get on
   const RoadContext& context = scene.context[row];
   const double gets_on = context.active ? scene.velocity[row].dot(context.tangent) : speed;
-  if (speed < kStands) traffic.stood_at[row] = scene.time;
-  const double forgotten = kinematics == Kinematics::Holonomic ? kForgets * dt : kAll;
+  if (speed < parameters.standing_speed) traffic.stood_at[row] = scene.time;
+  const double forgotten =
+      kinematics == Kinematics::Holonomic ? parameters.walker_forgets * dt : kAll;
   double& waiting = traffic.waiting_time[row];
   waiting = gets_on < creeping ? waiting + dt : std::max(waiting - forgotten, 0.0);
 }

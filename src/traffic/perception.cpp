@@ -5,6 +5,7 @@
 
 #include "scene/extent.h"
 #include "scene/storey.h"
+#include "traffic/patience.h"
 
 namespace sumogamma {
 
@@ -51,14 +52,14 @@ void look_around(const TrafficView& view, std::size_t row, double reach, double 
 
 void look_at_walls(const TrafficView& view, const Path& path, std::size_t row, double reach,
                    double aside, Surroundings& around) {
-  constexpr double kPiece = 0.5;  // [m]
   around.walls.clear();
   if (view.model.obstacles.empty()) return;
   view.model.obstacles.find_near(view.scene.position[row], reach, around.sides);
   for (const std::uint32_t index : around.sides) {
     const ObstacleIndex::Side& side = view.model.obstacles.side(index);
     const Vec2 whole = side.to - side.from;
-    const int pieces = std::max(1, static_cast<int>(std::ceil(whole.norm() / kPiece)));
+    const int pieces =
+        std::max(1, static_cast<int>(std::ceil(whole.norm() / view.parameters.sampling_step)));
     PolylinePosition last;
     for (int k = 0; k <= pieces; ++k) {
       const Vec2 point = side.from + (static_cast<double>(k) / pieces) * whole;
@@ -75,22 +76,22 @@ void look_at_walls(const TrafficView& view, const Path& path, std::size_t row, d
 
 void look_at_red_crossings(const TrafficView& view, const Path& path, std::size_t row,
                            Surroundings& around) {
-  constexpr double kLong = 4.0;                // [s]
-  constexpr double kTip = 0.25, kReach = 4.0;  // [m]
   const RoadContext& context = view.scene.context[row];
-  if (view.traffic.waiting_time[row] <= kLong || context.reason == LimitReason::Signal) return;
+  if (waited(view, row) < Patience::Impatient || context.reason == LimitReason::Signal) return;
   for (const Vec2& way : context.to_red) {
     if (way.isZero()) continue;
     const Vec2 onto = way.normalized();
     const Vec2 tip = view.scene.position[row] + way + half_extent(view.scene, row, onto) * onto;
-    const PolylinePosition place =
-        path.line.project(tip, around.along - kReach, around.along + kReach);
-    around.walls.push_back({place.along - kTip, place.along + kTip, place.offset, kTip});
+    const PolylinePosition place = path.line.project(tip, around.along - view.parameters.near,
+                                                     around.along + view.parameters.near);
+    around.walls.push_back({place.along - 0.5 * view.parameters.sampling_step,
+                            place.along + 0.5 * view.parameters.sampling_step, place.offset,
+                            0.5 * view.parameters.sampling_step});
   }
 }
 
-double hoped_speed(const Surroundings& around, double offset, double free_speed, double margin) {
-  constexpr double kOutlook = 4.0;  // [s]
+double hoped_speed(const TrafficParameters& parameters, const Surroundings& around, double offset,
+                   double free_speed, double margin) {
   const double front = around.along + around.half_length;
   const double rear = around.along - around.half_length;
   double hoped = free_speed;
@@ -99,7 +100,7 @@ double hoped_speed(const Surroundings& around, double offset, double free_speed,
     if (std::abs(user.offset - offset) > user.half_width + around.half_width + margin) continue;
     const double gap = user.rear - front;
     if (gap < 0.0) return -1.0;
-    hoped = std::min(hoped, std::max(user.speed + gap / kOutlook, 0.0));
+    hoped = std::min(hoped, std::max(user.speed + gap / parameters.outlook, 0.0));
   }
   return hoped;
 }

@@ -53,6 +53,7 @@ void look_at_red_crossings(const TrafficView& view, const Path& path, std::size_
 /// Speed that can be hoped for over the next seconds with the body's centre at `offset` beside the
 /// path: as fast as `free_speed` where nobody is ahead, less the nearer and the slower somebody is,
 /// negative where somebody is beside. `margin` [m] is kept to the sides.
-double hoped_speed(const Surroundings& around, double offset, double free_speed, double margin);
+double hoped_speed(const TrafficParameters& parameters, const Surroundings& around, double offset,
+                   double free_speed, double margin);
 
 }  // namespace sumogamma

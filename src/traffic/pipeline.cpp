@@ -17,7 +17,7 @@ void update_traffic(const TrafficTick& tick, Traffic& traffic) {
     for (std::size_t row = begin; row < end; ++row) {
       const double before = scene.path_along[row];
       locate_on_path(tick.model.road, tick.road, scene, row);
-      note_progress(before, tick.dt, scene, tick.traffic, row);
+      note_progress(tick.parameters, before, tick.dt, scene, tick.traffic, row);
     }
   });
   find_ways_back(tick);
@@ -31,7 +31,7 @@ void remember_tick(const TrafficTick& tick, Traffic& traffic) {
   Scene& scene = tick.scene;
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const Kinematics kinematics = type_of(tick.model.types, scene.type[row]).kinematics;
-    count_waiting(tick.dt, kinematics, scene, tick.traffic, row);
+    count_waiting(tick.parameters, tick.dt, kinematics, scene, tick.traffic, row);
     update_held(tick.dt, scene, row);
   }
   update_backing(tick.view(), tick.geometry, tick.dt, tick.workers, traffic.backing, tick.traffic);

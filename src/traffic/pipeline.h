@@ -11,6 +11,7 @@ namespace sumogamma {
 /// The rules of the road of a run: what they remember, and scratch that means nothing between
 /// ticks.
 struct Traffic {
+  TrafficParameters parameters;
   TrafficState state;
   std::uint64_t detours = 0;  ///< taken by drivers whose way was shut
 

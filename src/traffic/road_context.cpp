@@ -18,12 +18,11 @@ namespace {
 void note_halt(const TrafficView& view, const Course& course, TrafficState& traffic) {
   const RoadNetwork& road = view.model.road;
   const Scene& scene = view.scene;
-  constexpr double kAtLine = 4.0, kHalt = 0.3;
-  if (scene.held[course.row].standing < kHalt) return;
+  if (scene.held[course.row].standing < view.parameters.reaction_time) return;
   const double front = course.along + course.half_length;
   for (const PathLink& link : course.path.links) {
     if (link.stop_line < front - 0.3 && front > link.inside + 0.3) continue;
-    if (link.halt >= front + kAtLine) return;
+    if (link.halt >= front + view.parameters.near) return;
     const Connection& connection = road.connection(link.connection);
     const ConnectionId halted_for =
         halt_counts_for(road, course.path, link, 2.0 * course.half_length);
@@ -53,7 +52,8 @@ Course course_of(const TrafficView& view, const Path& path, std::size_t row) {
           half_extent(scene, row, tangent),
           path.walking ? std::max(0.0, scene.velocity[row].dot(tangent)) : scene.speed[row],
           scene.manners[row].headway_factor *
-              (remembers ? headway_memory(scene.time - view.traffic.stood_at[row]) : 1.0)};
+              (remembers ? headway_memory(view.parameters, scene.time - view.traffic.stood_at[row])
+                         : 1.0)};
 }
 
 /// Writes the row's own columns of `traffic` alone.
@@ -65,10 +65,10 @@ RoadContext road_context(const TrafficView& view, std::size_t row, double dt, Tr
   if (path == nullptr) return context;
   const Course course = course_of(view, *path, row);
   context.active = true;
-  context.speed_limit =
-      std::min(path->walking ? path->profile_at(course.along)
-                             : foreseen_limit(*path, course.along, course.speed, dt),
-               scene.preferred_speed[row]);
+  context.speed_limit = std::min(
+      path->walking ? path->profile_at(course.along)
+                    : foreseen_limit(view.parameters, *path, course.along, course.speed, dt),
+      scene.preferred_speed[row]);
   context.merge_to = traffic.merge_to[row];
   context.aside = traffic.lateral_aim[row] - scene.manners[row].path_offset;
   set_geometry(view, course, context);
@@ -86,7 +86,7 @@ RoadContext road_context(const TrafficView& view, std::size_t row, double dt, Tr
 void update_road_contexts(const TrafficTick& tick) {
   const TrafficView view = tick.view();
   const Scene& scene = tick.scene;
-  tick.approaches.rebuild(tick.model, tick.road, scene, tick.traffic);
+  tick.approaches.rebuild(view);
   tick.workers.for_each_range(scene.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     StopPoints scratch;
     // a row reads other rows' state but never their new context

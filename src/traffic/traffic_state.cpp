@@ -42,7 +42,7 @@ void begin_row(const Scene& scene, std::size_t row, TrafficState& traffic) {
 /// Both lists are in order of id.
 void match_ids(const Scene& scene, TrafficState& traffic) {
   if (traffic.id == scene.id) return;
-  constexpr auto kNew = static_cast<std::size_t>(-1);
+  constexpr auto kNew = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> from(scene.size(), kNew);
   std::size_t old = 0;
   for (std::size_t row = 0; row < scene.size(); ++row) {

@@ -16,8 +16,11 @@ struct TrafficTick {
   Scene& scene;
   TrafficState& traffic;
   ApproachTable& approaches;
+  const TrafficParameters& parameters;
 
-  TrafficView view() const { return {model, road, scene, traffic, geometry.grid, approaches}; }
+  TrafficView view() const {
+    return {model, road, scene, traffic, geometry.grid, approaches, parameters};
+  }
 };
 
 }  // namespace sumogamma

@@ -5,6 +5,7 @@
 #include "scene/road_state.h"
 #include "scene/scene.h"
 #include "traffic/junction/approaches.h"
+#include "traffic/parameters.h"
 #include "traffic/traffic_state.h"
 
 namespace sumogamma {
@@ -19,6 +20,7 @@ struct TrafficView {
   const SpatialGrid& grid;
   const ApproachTable& approaches;  ///< of this tick once contexts are made: not while lanes are
                                     ///< chosen, and ways found
+  const TrafficParameters& parameters;
 };
 
 }  // namespace sumogamma

@@ -108,9 +108,11 @@ class RoadScene {
 
   const Path& path(std::size_t row) const { return *road.path(scene.path[row]); }
   const RoadContext& context(std::size_t row) const { return scene.context[row]; }
-  TrafficView view() const { return {model, road, scene, traffic, geometry.grid, approaches}; }
+  TrafficView view() const {
+    return {model, road, scene, traffic, geometry.grid, approaches, parameters};
+  }
   TrafficTick tick(Workers& workers, double dt = 0.05) {
-    return {model, geometry, workers, dt, road, scene, traffic, approaches};
+    return {model, geometry, workers, dt, road, scene, traffic, approaches, parameters};
   }
   /// Front of a row past a link's stop line [m].
   double past_line(std::size_t row, std::size_t link = 0) const {
@@ -133,6 +135,7 @@ class RoadScene {
   TrafficState traffic;
   TickGeometry geometry;
   ApproachTable approaches;
+  TrafficParameters parameters;
 
  private:
   static const std::vector<KinematicTable>& kinematic_tables() {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "traffic/patience.h"
+
 namespace sumogamma {
 
 namespace {
@@ -34,25 +36,24 @@ ConnectionId halt_counts_for(const RoadNetwork& road, const Path& path, const Pa
   return counts;
 }
 
-void ApproachTable::rebuild(const Model& model, const RoadState& road, const Scene& scene,
-                            const TrafficState& traffic) {
-  for (const Approach& approach : approaches_) ranges_[index_of(approach.connection)] = {};
-  ranges_.resize(model.road.connections.size());
-  approaches_.clear();
+void ApproachTable::note_waiting(const TrafficView& view) {
+  const Model& model = view.model;
+  const RoadState& road = view.road;
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   waiting_.resize(scene.size());
-  constexpr double kPatience = 3.0, kShuffles = 8.0, kSomeTime = 2.0;  // [s]
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const RoadContext& context = scene.context[row];
     // who is on foot shuffles before what shuts its way, and never stands for long
     const bool shuffles =
         type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic &&
-        context.reason == LimitReason::None && traffic.waiting_time[row] > kShuffles;
+        context.reason == LimitReason::None && waited(view, row) >= Patience::Pressing;
     waiting_[row] = {context.reason,          context.foe,
                      traffic.halted_for[row], traffic.halted_at[row],
-                     context.to_halt,         shuffles || scene.held[row].blocked > kPatience};
+                     context.to_halt,         shuffles || blocked(view, row) >= Patience::Waiting};
   }
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (waiting_[row].reason != LimitReason::Yield || scene.held[row].standing < kSomeTime)
+    if (waiting_[row].reason != LimitReason::Yield || stood(view, row) < Patience::Waiting)
       continue;
     if (!comes_with_right_of_way(model, road, scene, row)) continue;
     // whoever that one stands behind holds it up, too
@@ -63,7 +64,16 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
       foe = find_foe(scene, waiting_[foe].foe);
     }
   }
+}
 
+void ApproachTable::rebuild(const TrafficView& view) {
+  const Model& model = view.model;
+  const RoadState& road = view.road;
+  const Scene& scene = view.scene;
+  note_waiting(view);
+  for (const Approach& approach : approaches_) ranges_[index_of(approach.connection)] = {};
+  ranges_.resize(model.road.connections.size());
+  approaches_.clear();
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const Path* path = road.path(scene.path[row]);
     if (path == nullptr || path->links.empty()) continue;
@@ -74,7 +84,7 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
     const bool wide = is_wide(scene, row);
     // far enough for the slowest foe to find its gap: ten seconds at the present speed
     const double reach = std::max(path->walking ? 8.0 : 30.0, 10.0 * speed);
-    const ConnectionId halted_for = traffic.halted_for[row];
+    const ConnectionId halted_for = view.traffic.halted_for[row];
     auto link = path->link_from(along - half_length);
     for (; link != path->links.end() && link->stop_line < along + half_length + reach; ++link) {
       const bool has_halted =
@@ -82,7 +92,7 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
           halt_counts_for(model.road, *path, *link, 2.0 * half_length) == halted_for;
       approaches_.push_back({link->connection, static_cast<std::uint32_t>(row),
                              along + half_length - link->stop_line, 2.0 * half_length, speed,
-                             speed < kStandsBelow, wide, has_halted});
+                             speed < view.parameters.halting_speed, wide, has_halted});
     }
   }
   std::sort(approaches_.begin(), approaches_.end(), [](const Approach& a, const Approach& b) {
@@ -102,11 +112,11 @@ std::span<const Approach> ApproachTable::of(ConnectionId id) const {
   return std::span<const Approach>(approaches_).subspan(range.begin, range.end - range.begin);
 }
 
-bool waits_for_itself(const Scene& scene, const ApproachTable& approaches, std::size_t row) {
-  constexpr int kLongest = 16;
-  return waits_for(scene, row, row, kLongest, [&](std::size_t waiting) {
-    return find_foe(scene, approaches.waiting(waiting).foe);
-  });
+bool waits_for_itself(const TrafficParameters& parameters, const Scene& scene,
+                      const ApproachTable& approaches, std::size_t row) {
+  return waits_for(
+      scene, row, row, static_cast<int>(parameters.longest_chain),
+      [&](std::size_t waiting) { return find_foe(scene, approaches.waiting(waiting).foe); });
 }
 
 }  // namespace sumogamma

@@ -6,12 +6,10 @@
 #include "model/model.h"
 #include "scene/extent.h"
 #include "scene/road_state.h"
+#include "traffic/parameters.h"
 #include "traffic/traffic_state.h"
 
 namespace sumogamma {
-
-/// An agent that approaches a link stands below this speed [m/s].
-inline constexpr double kStandsBelow = 0.5;
 
 /// Somebody on the way to, or on, a junction link.
 struct Approach {
@@ -37,13 +35,14 @@ struct Waiting {
   bool holds_up = false;  ///< somebody to whom others give way has stood for it for some time
 };
 
+struct TrafficView;
+
 /// Who approaches which link, and who waits for whom, from the frozen scene.
 class ApproachTable {
  public:
   /// Registers every agent with a path for the links within its stopping distance and some seconds.
   /// Serial, O(n log n).
-  void rebuild(const Model& model, const RoadState& road, const Scene& scene,
-               const TrafficState& traffic);
+  void rebuild(const TrafficView& view);
   /// Foremost first.
   std::span<const Approach> of(ConnectionId id) const;
   /// Frozen copy of what the contexts said at the last tick: rows may read each other's.
@@ -52,6 +51,8 @@ class ApproachTable {
   double rest_of(const Approach& one) const { return one.front + waiting(one.row).to_halt; }
 
  private:
+  void note_waiting(const TrafficView& view);
+
   struct Range {
     std::uint32_t begin = 0, end = 0;
   };
@@ -67,6 +68,7 @@ ConnectionId halt_counts_for(const RoadNetwork& road, const Path& path, const Pa
                              double length);
 
 /// Does a row wait, over whom it waits for and so on, for itself?
-bool waits_for_itself(const Scene& scene, const ApproachTable& approaches, std::size_t row);
+bool waits_for_itself(const TrafficParameters& parameters, const Scene& scene,
+                      const ApproachTable& approaches, std::size_t row);
 
 }  // namespace sumogamma

@@ -10,14 +10,11 @@
 #include "traffic/junction/turning_room.h"
 #include "traffic/junction/waiting_place.h"
 #include "traffic/longitudinal/car_following.h"
+#include "traffic/patience.h"
 
 namespace sumogamma {
 
 namespace {
-
-constexpr double kFillsLane = 1.2;  ///< nobody overtakes what is wider than this on a link [m]
-/// Zones are kept free for so long at the most [s].
-constexpr double kKeepsZonesFree = 20.0;
 
 /// What a link asks of a traveller, whoever comes.
 struct LinkDuty {
@@ -35,7 +32,7 @@ LinkDuty duty_of(const TrafficView& view, const Traveller& traveller, const Path
   const double halt = stops_short ? link.halt : link.stop_line;
   const Light signal = view.road.signal(view.model.road.connection(link.connection));
   const double drawn = is_amber(signal) ? drawn_line(view, traveller, link) : halt;
-  return {halt - kStopMargin, signal_duty(view, traveller, link, halt, drawn),
+  return {halt - view.parameters.stop_margin, signal_duty(view, traveller, link, halt, drawn),
           is_wide(view.scene, traveller.row)};
 }
 
@@ -54,9 +51,9 @@ bool has_to_halt_first(const TrafficView& view, const Traveller& traveller, cons
 
 /// Does somebody ride so far beside the middle of its lane that on the junction it might wait where
 /// a foe's long body sweeps? Whether that one turns isn't asked.
-bool is_aside_for(const Approach& foe, const TrafficState& traffic, std::size_t row) {
-  constexpr double kAside = 0.7, kLong = 7.0;  // [m]
-  return foe.length > kLong && std::abs(traffic.passing_offset[row]) >= kAside;
+bool is_aside_for(const TrafficParameters& parameters, const Approach& foe,
+                  const TrafficState& traffic, std::size_t row) {
+  return foe.length > kLongBody && std::abs(traffic.passing_offset[row]) >= parameters.ample_side;
 }
 
 /// Where the subject halts for its foe [m along its path]: at its line, inside the junction where
@@ -65,28 +62,29 @@ bool is_aside_for(const Approach& foe, const TrafficState& traffic, std::size_t 
 std::optional<double> line_before(const Encounter& e, double stop_at) {
   const Traveller& subject = e.subject;
   const bool on_foot = is_on_foot(e, subject.row);
-  const WaitingPlace place = waiting_place(e.link, e.zone.begin);
-  const bool has_place =
-      place.inside && !e.at_red &&
-      (e.own_link.signal != kNoSignal || !is_aside_for(e.foe, e.traffic, subject.row));
+  const WaitingPlace place = waiting_place(e.parameters, e.link, e.zone.begin);
+  const bool has_place = place.inside && !e.at_red &&
+                         (e.own_link.signal != kNoSignal ||
+                          !is_aside_for(e.parameters, e.foe, e.traffic, subject.row));
   const double line = has_place && subject.front < place.along + 0.3 ? place.along
-                      : e.to_line() > -0.2                           ? stop_at
-                                           : e.link.stop_line + e.zone.begin - kStopMargin;
+                      : e.to_line() > -0.2
+                          ? stop_at
+                          : e.link.stop_line + e.zone.begin - e.parameters.stop_margin;
   // on foot one halts at the kerb still
   const double last = on_foot ? std::max(line, e.link.stop_line) : line;
   const double hardest = 0.8 * e.own_type.max_deceleration;
   if (deceleration_to_stop(subject.speed, last - subject.front) <= hardest || subject.speed <= 1.0)
     return line;
   // too late to halt there, but not for driving on towards who is in the way already
-  if (on_foot || !has_entered(e.foe.front, e.zone.foe_begin)) return std::nullopt;
+  if (on_foot || !has_entered(e.parameters, e.foe.front, e.zone.foe_begin)) return std::nullopt;
   return subject.front + subject.speed * subject.speed / (2.0 * hardest);
 }
 
 /// Does the encounter need no judge: is the subject in the area, or at its edge with a way past a
 /// foe that stands? Then it goes on, avoidance does the rest.
 bool goes_on(const Encounter& e) {
-  if (has_entered(-e.to_line(), e.zone.begin)) return true;
-  const bool at_edge = e.to_line() + e.zone.begin < kZoneEdge;
+  if (has_entered(e.parameters, -e.to_line(), e.zone.begin)) return true;
+  const bool at_edge = e.to_line() + e.zone.begin < e.parameters.line_tolerance;
   return at_edge && e.foe.stands &&
          (is_on_foot(e, e.subject.row) ||
           stands_beside(e, e.subject, e.link, e.zone.begin, e.zone.end, e.foe));
@@ -104,7 +102,7 @@ void decide_zone(const TrafficView& view, const Traveller& traveller, const Path
     if (goes_on(e)) continue;
     const Verdict verdict = judge(e);
     // who comes behind a vehicle that lets us go can't get past it
-    if (verdict == Verdict::Held && e.foe_type.width > kFillsLane) return;
+    if (verdict == Verdict::Held && !is_narrow(e.foe_type.width)) return;
     if (verdict != Verdict::Blocks) continue;
     const auto line = line_before(e, duty.stop_at);
     if (!line || (decision.must_stop && *line >= decision.stop_at)) continue;
@@ -138,14 +136,13 @@ LinkDecision decide_link(const TrafficView& view, const Traveller& traveller,
     decide_zone(view, traveller, link, duty, zone, decision);
   }
   if (decision.must_stop && decision.stop_at > link.stop_line &&
-      view.traffic.waiting_time[traveller.row] < kKeepsZonesFree)
+      waited(view, traveller.row) < Patience::Stuck)
     keep_zones_free(view, traveller, link, decision);
   return decision;
 }
 
 bool stands_beside(const TrafficView& view, const Traveller& traveller, const PathLink& link,
                    double begin, double end, const Approach& foe) {
-  constexpr double kSide = 0.25, kStep = 0.5;  // [m]
   const Scene& scene = view.scene;
   const std::size_t row = traveller.row;
   const Polyline& way = view.road.path(scene.path[row])->line;
@@ -163,12 +160,13 @@ bool stands_beside(const TrafficView& view, const Traveller& traveller, const Pa
     along = settles;
     heading = heading_of(way.direction_at(settles));
   }
-  for (; along <= link.stop_line + end; along += kStep) {
+  for (; along <= link.stop_line + end; along += view.parameters.sampling_step) {
     const Vec2 forward = direction_of(heading);
     if (along >= link.stop_line + begin &&
-        separation({way.point_at(along), forward, half}, body) < kSide)
+        separation({way.point_at(along), forward, half}, body) < view.parameters.side_clearance)
       return false;
-    heading += kStep * cross(forward, way.direction_at(along)) / std::max(axle, kStep);
+    heading += view.parameters.sampling_step * cross(forward, way.direction_at(along)) /
+               std::max(axle, view.parameters.sampling_step);
   }
   return true;
 }
@@ -188,7 +186,7 @@ bool has_crossing_traffic(const Model& model, ConnectionId link) {
 
 ZipperLeader find_zipper_leader(const TrafficView& view, const Traveller& traveller,
                                 const PathLink& link) {
-  const auto& [model, road, scene, traffic, grid, approaches] = view;
+  const auto& [model, road, scene, traffic, grid, approaches, parameters] = view;
   ZipperLeader leader;
   for (const ConflictZone& zone : model.conflicts[index_of(link.connection)]) {
     if (!runs_together(model, link.connection, zone.foe)) continue;

@@ -4,9 +4,6 @@
 
 namespace sumogamma {
 
-/// A waiting front halts this far before a line [m].
-inline constexpr double kStopMargin = 0.6;
-
 /// Whether, where and why an agent must halt before a link of its path.
 struct LinkDecision {
   bool must_stop = false;

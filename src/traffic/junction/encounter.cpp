@@ -4,14 +4,12 @@
 
 #include "traffic/junction/waiting_place.h"
 #include "traffic/longitudinal/car_following.h"
+#include "traffic/patience.h"
 #include "traffic/rule_breaking.h"
 
 namespace sumogamma {
 
 namespace {
-
-constexpr double kLooks = 1.5;      ///< who waits for a third one is looked at for so long [s]
-constexpr double kLongWait = 60.0;  ///< [s]
 
 /// A driver who will not stop for the subject, who still waits at an unsignalled crossing and sees
 /// it.
@@ -51,7 +49,7 @@ Encounter meet(const TrafficView& view, const Traveller& subject, const PathLink
   e.zone.end = ours.end;
   e.zone.foe_begin = theirs.begin;
   e.zone.foe_end = theirs.end;
-  e.foe_inside = has_entered(foe.front, theirs.begin);
+  e.foe_inside = has_entered(view.parameters, foe.front, theirs.begin);
   e.foe_clears = clears_junction(view, foe.row, zone.foe, foe.front);
   if (is_ignored_by(e)) e.zone.yields = true;
   return e;
@@ -73,7 +71,9 @@ bool stops_at_ease(double speed, double way, const AgentType& type) {
   return deceleration_to_stop(speed, way) < type.comfortable_deceleration;
 }
 
-bool has_entered(double past, double begin) { return past > begin + kZoneEdge; }
+bool has_entered(const TrafficParameters& parameters, double past, double begin) {
+  return past > begin + parameters.line_tolerance;
+}
 
 bool has_waited_longer(const TrafficView& view, std::size_t row, std::size_t other) {
   const double own = view.traffic.waiting_time[row], their = view.traffic.waiting_time[other];
@@ -85,16 +85,15 @@ bool waits_for_subject(const Encounter& e) {
 }
 
 bool has_set_out_from(const Encounter& e, double place) {
-  constexpr double kPast = 0.1;  // [m]
   const RoadContext& before = e.scene.context[e.subject.row];
   return before.active &&
          (before.reason == LimitReason::None || before.reason == LimitReason::Leader) &&
-         e.subject.front > place + kPast;
+         e.subject.front > place + e.parameters.line_tolerance;
 }
 
 bool lets_subject_go(const Encounter& e) {
   const bool both_on_junction = e.foe.front > 0.0 && is_on_junction(e);
-  if (!e.foe.stands || (both_on_junction && e.foe.speed > kCreeps)) return false;
+  if (!e.foe.stands || (both_on_junction && e.foe.speed > e.parameters.moving_speed)) return false;
   switch (e.foe_waits.reason) {
     case LimitReason::Signal:
     case LimitReason::Stop:
@@ -115,19 +114,21 @@ bool lets_subject_go(const Encounter& e) {
   const bool for_subject = e.foe_waits.foe == e.scene.id[row].value;
   const bool on_foot = is_on_foot(e, row);
   if (for_subject && on_foot != is_on_foot(e, e.foe.row)) return on_foot;
-  const double own = e.traffic.waiting_time[row], other = e.traffic.waiting_time[e.foe.row];
   // it has waited long for a third one and isn't about to go
   const bool has_set_out = on_foot && has_set_out_from(e, e.link.halt);
-  if (!for_subject && other > kWaitsForThird && (own > kLooks || has_set_out)) return true;
+  if (!for_subject && waited(e, e.foe.row) >= Patience::Impatient &&
+      (waited(e, row) >= Patience::Waiting || has_set_out))
+    return true;
   return has_waited_longer(e, row, e.foe.row);
 }
 
 bool is_past_line(const Encounter& e) {
   // who goes at red waits before the junction, not on it; who rolls out beyond its place there
   // has come to rest at it all the same, as long as it isn't in the zone
-  const WaitingPlace place = waiting_place(e.link, e.zone.begin);
-  if (e.at_red || !place.inside) return e.subject.front > e.link.stop_line + kZoneEdge;
-  return e.subject.front > place.along + kWaitingMargin + kZoneEdge;
+  const WaitingPlace place = waiting_place(e.parameters, e.link, e.zone.begin);
+  if (e.at_red || !place.inside)
+    return e.subject.front > e.link.stop_line + e.parameters.line_tolerance;
+  return e.subject.front > place.along + e.parameters.line_tolerance + e.parameters.line_tolerance;
 }
 
 bool foe_may_halt(const Encounter& e) {
@@ -141,7 +142,7 @@ bool is_on_junction(const Encounter& e) {
 }
 
 double impatience(const Encounter& e) {
-  return std::min(e.traffic.waiting_time[e.subject.row] / kLongWait, 1.0);
+  return impatience_after(e.parameters, e.traffic.waiting_time[e.subject.row]);
 }
 
 bool holds_up(const TrafficView& view, std::size_t row, double past_line) {
@@ -151,8 +152,9 @@ bool holds_up(const TrafficView& view, std::size_t row, double past_line) {
 bool clears_junction(const TrafficView& view, std::size_t row, ConnectionId id, double past_line) {
   const Connection& connection = view.model.road.connection(id);
   const double since = view.scene.time - signal_since(view.road, connection, view.scene.time);
-  const bool past_lines =
-      past_line > kZoneEdge || (past_line > kZoneEdge - connection.storage && since < kLetsClear);
+  const bool past_lines = past_line > view.parameters.line_tolerance ||
+                          (past_line > view.parameters.line_tolerance - connection.storage &&
+                           since < view.parameters.clearance_time);
   return past_lines && is_red(view.road.signal(connection)) && !is_on_foot(view, row);
 }
 

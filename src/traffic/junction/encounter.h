@@ -5,17 +5,6 @@
 
 namespace sumogamma {
 
-/// Who halts before a zone comes to rest so near its begin [m].
-inline constexpr double kZoneEdge = 0.3;
-/// Who is on the junction and faster doesn't stand [m/s].
-inline constexpr double kCreeps = 0.1;
-/// Whoever is slower stands within centimetres [m/s].
-inline constexpr double kCrawl = 1.0;
-/// Who has waited for a third one so long isn't about to go [s].
-inline constexpr double kWaitsForThird = 4.0;
-/// So long after lights changed who is left on a junction may clear it first [s].
-inline constexpr double kLetsClear = 20.0;
-
 /// Two who come to one conflict area, seen by one of them, the subject; the other is its foe. What
 /// several laws ask of the pair stands here, each under its own name.
 struct Encounter : TrafficView {
@@ -50,7 +39,7 @@ bool stops_at_ease(double speed, double way, const AgentType& type);
 
 /// Is a front `past` the begin of its link [m] in a zone that begins there at `begin`? Not who has
 /// come to rest at its edge.
-bool has_entered(double past, double begin);
+bool has_entered(const TrafficParameters& parameters, double past, double begin);
 
 /// Has a row waited for longer than another? The smaller id where they began together.
 bool has_waited_longer(const TrafficView& view, std::size_t row, std::size_t other);

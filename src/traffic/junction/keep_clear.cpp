@@ -3,23 +3,18 @@
 #include <algorithm>
 
 #include "traffic/junction/turning_room.h"
+#include "traffic/patience.h"
 
 namespace sumogamma {
 
 namespace {
-
-// kept clear at the most, and driven on for so long then. Round a block whose roads are full nobody
-// would ever move on: somebody has to lend the queue the room of the junction [s]
-constexpr double kKeepsClear = 40.0, kGoesOn = 10.0;
-constexpr double kInRing = 10.0;  // likewise by who waits, in the end, for itself [s]
-constexpr double kQueue = 80.0;   // beyond a link within which a queue is looked at [m]
 
 /// Where the next queue behind a link may have its head [m along the path]: before the next link
 /// at which somebody might have to wait, infinite where none is near.
 double next_queue_head(const TrafficView& view, const Course& course, const PathLink& link) {
   for (const PathLink& next : course.path.links) {
     if (next.stop_line <= link.stop_line) continue;
-    if (next.stop_line > link.end + kQueue) break;
+    if (next.stop_line > link.end + view.parameters.queue_outlook) break;
     const Connection& connection = view.model.road.connection(next.connection);
     if (!has_right_of_way(connection, view.road.signal(connection)) &&
         has_crossing_traffic(view.model, next.connection))
@@ -30,9 +25,10 @@ double next_queue_head(const TrafficView& view, const Course& course, const Path
 
 /// Where the road ends that a link leads into, or as far as a queue is looked at [m along the
 /// path].
-double end_of_road(const Course& course, const PathLink& link) {
+double end_of_road(const TrafficParameters& parameters, const Course& course,
+                   const PathLink& link) {
   const auto next = course.path.link_after(link.stop_line);
-  const double farthest = link.end + kQueue;
+  const double farthest = link.end + parameters.queue_outlook;
   return next != course.path.links.end() ? std::min(next->stop_line, farthest) : farthest;
 }
 
@@ -40,10 +36,9 @@ double end_of_road(const Course& course, const PathLink& link) {
 /// [m along the path]. From the junction's end on; where a light follows at once, though, from the
 /// last place on where others cross: who joins the same road there waits for that light anyway.
 double clear_from(const TrafficView& view, const Course& course, const PathLink& link) {
-  constexpr double kAtOnce = 8.0;  // [m]
   const RoadNetwork& network = view.model.road;
   const auto next = course.path.link_after(link.stop_line);
-  if (next == course.path.links.end() || next->stop_line > link.end + kAtOnce ||
+  if (next == course.path.links.end() || next->stop_line > link.end + view.parameters.soon_way ||
       network.connection(next->connection).signal == kNoSignal ||
       network.connection(link.connection).signal != kNoSignal)
     return link.end;
@@ -62,13 +57,13 @@ double clear_from(const TrafficView& view, const Course& course, const PathLink&
 template <typename Visit>
 void visit_joining(const TrafficView& view, const Course& course, const PathLink& link,
                    Visit visit) {
-  constexpr double kPast = 0.3;  // [m]
   const LaneId to = view.model.road.connection(link.connection).to;
   for (const ConflictZone& zone : view.model.conflicts[index_of(link.connection)]) {
     if (zone.yields || view.model.road.connection(zone.foe).to != to) continue;
     for (const Approach& foe : view.approaches.of(zone.foe)) {
       const Waiting& waiting = view.approaches.waiting(foe.row);
-      if (foe.row != course.row && foe.has_halted && foe.front < kPast) visit(foe, waiting);
+      if (foe.row != course.row && foe.has_halted && foe.front < view.parameters.line_tolerance)
+        visit(foe, waiting);
     }
   }
 }
@@ -84,13 +79,12 @@ bool is_past_line(const TrafficView& view, const PathLink& link, std::int64_t id
 /// Length [m] of who has stood for long at its line and waits to join; of the longest there, 0
 /// where nobody does.
 double waits_to_join(const TrafficView& view, const Course& course, const PathLink& link) {
-  constexpr double kLong = 20.0;  // [s]
   double length = 0.0;
   visit_joining(view, course, link, [&](const Approach& foe, const Waiting& waiting) {
     const bool gives_way = waiting.reason == LimitReason::Yield ||
                            waiting.reason == LimitReason::Crossing ||
                            waiting.reason == LimitReason::BlockedJunction;
-    if (foe.stands && gives_way && view.scene.time - waiting.halted_at > kLong)
+    if (foe.stands && gives_way && halted(view, foe.row) >= Patience::Stuck)
       length = std::max(length, foe.length);
   });
   return length;
@@ -101,14 +95,10 @@ double waits_to_join(const TrafficView& view, const Course& course, const PathLi
 /// not, for whom it waits; where to halt is left open. Sorts `ahead`.
 LinkDecision decide_exit(const TrafficView& view, DrivingAhead& ahead, const Course& course,
                          const PathLink& link) {
-  constexpr double kBraking = 3.5;   // [m/s^2]
-  constexpr double kDrives = 3.0;    // [m/s]
-  constexpr double kStarts = 0.8;    // likewise of who follows those who drive [m/s]
-  constexpr double kClosedUp = 1.0;  // [m]
   constexpr double kNever = std::numeric_limits<double>::infinity();
   // all of the road that the link leads into: the few metres that following needs don't tell
   // whether a long queue goes on
-  see_queue(view, course.row, end_of_road(course, link), ahead);
+  see_queue(view, course.row, end_of_road(view.parameters, course, link), ahead);
   if (ahead.count == 0) return {};
   const auto begin = ahead.vehicles.begin(), end = begin + static_cast<std::ptrdiff_t>(ahead.count);
   std::sort(begin, end, [](const auto& a, const auto& b) {
@@ -121,18 +111,20 @@ LinkDecision decide_exit(const TrafficView& view, DrivingAhead& ahead, const Cou
     // who drives and has nobody slow ahead goes on, as far as to the next place where it may have
     // to wait
     const LimitReason why = view.approaches.waiting(vehicle->row).reason;
-    const bool starts = rest == kNever && vehicle->speed > kStarts &&
+    const bool starts = rest == kNever && vehicle->speed > view.parameters.crawling_speed &&
                         (why == LimitReason::None || why == LimitReason::Leader);
-    const double alone = vehicle->speed > kDrives || starts
+    const double alone = vehicle->speed > view.parameters.queue_speed || starts
                              ? kNever
-                             : vehicle->rear + vehicle->speed * vehicle->speed / (2.0 * kBraking);
-    if (vehicle->front < head) rest = std::min(rest, head + kClosedUp);
-    rest = std::min(alone, rest - kClosedUp - (vehicle->front - vehicle->rear));
+                             : vehicle->rear + vehicle->speed * vehicle->speed /
+                                                   (2.0 * view.parameters.pressed_braking);
+    if (vehicle->front < head) rest = std::min(rest, head + view.parameters.closed_up_gap);
+    rest = std::min(alone, rest - view.parameters.closed_up_gap - (vehicle->front - vehicle->rear));
   }
   if (rest == kNever) return {};
   const double joining = waits_to_join(view, course, link);
   const double needed = clear_from(view, course, link) + 2.0 * course.half_length +
-                        course.type.min_gap + 0.3 + (joining > 0.0 ? joining + kClosedUp : 0.0);
+                        course.type.min_gap + 0.3 +
+                        (joining > 0.0 ? joining + view.parameters.closed_up_gap : 0.0);
   if (rest >= needed) return {};
   return {true, 0.0, LimitReason::BlockedJunction, (end - 1)->id};
 }
@@ -143,25 +135,26 @@ LinkDecision decide_exit(const TrafficView& view, DrivingAhead& ahead, const Cou
 /// here may end meanwhile.
 LinkDecision decide_beyond(const TrafficView& view, const Course& course,
                            const Traveller& traveller, const PathLink& link, DrivingAhead& ahead) {
-  constexpr double kPatience = 20.0;  // [s]
-  constexpr double kFarthest = 20.0;  // [m]
-  constexpr double kNoRoom = 2.0;     // between the two [m]
-  constexpr double kSetOut = 0.3;     // [m]
   // who has set out from a place short of the line doesn't halt again
-  if (traveller.front > link.halt + kSetOut && link.stop_line > link.halt + kSetOut) return {};
-  const bool patient = view.traffic.waiting_time[course.row] <= kPatience;
+  if (traveller.front > link.halt + view.parameters.line_tolerance &&
+      link.stop_line > link.halt + view.parameters.line_tolerance)
+    return {};
+  const bool patient = waited(view, course.row) < Patience::Stuck;
   const bool waits_for_light = view.model.road.connection(link.connection).signal == kNoSignal;
   double room_from = clear_from(view, course, link);
   for (PathLink next : course.path.links) {
     // who waits with its rear on a junction already goes as far as it can
-    if (next.stop_line < link.stop_line && next.end > link.halt - kStopMargin - traveller.length)
+    if (next.stop_line < link.stop_line &&
+        next.end > link.halt - view.parameters.stop_margin - traveller.length)
       return {};
     if (next.stop_line <= link.stop_line) continue;
-    const bool near = patient && next.stop_line <= link.stop_line + kFarthest;
+    const bool near = patient && next.stop_line <= link.stop_line + view.parameters.nearby;
     // its line may be drawn well before the end of its lane, on a crossing that is there
     next.halt = halt_for_long_bodies(view, traveller, next);
-    const bool no_room = waits_for_light && next.halt < room_from + kNoRoom;
-    if (next.halt - kStopMargin - traveller.length > room_from || !(near || no_room)) break;
+    const bool no_room = waits_for_light && next.halt < room_from + view.parameters.near_line;
+    if (next.halt - view.parameters.stop_margin - traveller.length > room_from ||
+        !(near || no_room))
+      break;
     const LinkDecision decision = decide_link(view, traveller, next);
     if (decision.must_stop && (near || decision.reason == LimitReason::Signal)) return decision;
     if (near && has_crossing_traffic(view.model, next.connection)) {
@@ -180,7 +173,7 @@ LinkDecision keep_clear(const TrafficView& view, const Course& course, const Tra
   // who waits on the junction goes no further, either
   const double front = course.along + course.half_length;
   if (std::max(link.stop_line, link.inside) <= front - 0.3 ||
-      view.traffic.keeps_clear[course.row] > kKeepsClear ||
+      kept_clear(view, course.row) >= Patience::Desperate ||
       !has_crossing_traffic(view.model, link.connection))
     return {};
   LinkDecision decision = decide_exit(view, ahead, course, link);
@@ -189,18 +182,17 @@ LinkDecision keep_clear(const TrafficView& view, const Course& course, const Tra
   const double line = link.halt > front              ? link.halt
                       : link.stop_line > front - 0.3 ? link.stop_line
                                                      : link.inside;
-  return {true, line - kStopMargin, decision.reason, decision.foe};
+  return {true, line - view.parameters.stop_margin, decision.reason, decision.foe};
 }
 
 LinkDecision let_one_in(const TrafficView& view, const Course& course, const Traveller& traveller,
                         const PathLink& link) {
-  constexpr double kStands = 2.0, kSomeTime = 10.0, kLong = 20.0, kPatience = 120.0;  // [s]
-  constexpr double kAtLine = 6.0, kFirst = 2.5, kShort = 40.0;                        // [m]
   const Connection& connection = view.model.road.connection(link.connection);
-  const double waited = view.traffic.waiting_time[course.row];
-  if (traveller.front > link.stop_line + 0.3 || traveller.front < link.halt - kAtLine ||
-      waited < kStands || waited > kPatience || connection.signal != kNoSignal ||
-      next_queue_head(view, course, link) < link.end + kShort)
+  const Patience own_wait = waited(view, course.row);
+  if (traveller.front > link.stop_line + 0.3 ||
+      traveller.front < link.halt - view.parameters.near || own_wait < Patience::Waiting ||
+      own_wait == Patience::Hopeless || connection.signal != kNoSignal ||
+      next_queue_head(view, course, link) < link.end + view.parameters.junction_outlook)
     return {};
   const Waiting& own = view.approaches.waiting(course.row);
   const bool has_halted = own.halted_for == halt_counts_for(view.model.road, course.path, link,
@@ -209,28 +201,28 @@ LinkDecision let_one_in(const TrafficView& view, const Course& course, const Tra
   const auto id = static_cast<std::int64_t>(view.scene.id[course.row].value);
   LinkDecision decision;
   visit_joining(view, course, link, [&](const Approach& foe, const Waiting& waiting) {
-    const double their_wait = view.scene.time - waiting.halted_at;
-    const bool first = waiting.halted_at <= came && their_wait > kSomeTime;
+    const Patience their_wait = halted(view, foe.row);
+    const bool first = waiting.halted_at <= came && their_wait >= Patience::Pressing;
     // not for somebody who has others to wait for, but for those whom we follow after a long wait;
     // who follows somebody may be the first at its line
     const bool comes =
         waiting.reason == LimitReason::None ||
-        (waiting.reason == LimitReason::Leader && foe.front > -kFirst) ||
+        (waiting.reason == LimitReason::Leader && foe.front > -view.parameters.near_line) ||
         waiting.reason == LimitReason::BlockedJunction ||
         (waiting.reason == LimitReason::Yield &&
-         (waiting.foe == id || (their_wait > kLong && is_past_line(view, link, waiting.foe))));
-    if (foe.front > -kAtLine && first && comes)
-      decision = {true, link.halt - kStopMargin, LimitReason::LetsIn,
+         (waiting.foe == id ||
+          (their_wait >= Patience::Stuck && is_past_line(view, link, waiting.foe))));
+    if (foe.front > -view.parameters.near && first && comes)
+      decision = {true, link.halt - view.parameters.stop_margin, LimitReason::LetsIn,
                   static_cast<std::int64_t>(view.scene.id[foe.row].value)};
   });
   return decision;
 }
 
 bool takes_turning_room(const TrafficView& view, const Course& course, const PathLink& link) {
-  constexpr double kCycles = 180.0;  // [s]
   const bool signalled = view.model.road.connection(link.connection).signal != kNoSignal;
-  return view.traffic.keeps_clear[course.row] > kKeepsClear &&
-         (!signalled || view.traffic.waiting_time[course.row] > kCycles);
+  return kept_clear(view, course.row) >= Patience::Desperate &&
+         (!signalled || waited(view, course.row) >= Patience::Hopeless);
 }
 
 void forget_keeping_clear(TrafficState& traffic, std::size_t row) {
@@ -240,16 +232,19 @@ void forget_keeping_clear(TrafficState& traffic, std::size_t row) {
 void note_keeping_clear(const TrafficView& view, const Course& course, const RoadContext& context,
                         double dt, TrafficState& traffic) {
   double& kept = traffic.keeps_clear[course.row];
+  const auto patience = [&] { return patience_after(view.parameters, kept); };
   const bool for_others =
       context.reason == LimitReason::BlockedJunction || context.reason == LimitReason::TurningRoom;
   if (for_others && course.speed < 0.3) {
     kept += dt;
     // who waits for itself, in the end, gains nothing by the room that it leaves
-    if (kept > kKeepsClear ||
-        (kept > kInRing && waits_for_itself(view.scene, view.approaches, course.row)))
-      kept = kKeepsClear + kGoesOn;
-  } else if (kept > kKeepsClear) {
-    kept = kept - dt > kKeepsClear ? kept - dt : 0.0;
+    if (patience() >= Patience::Desperate ||
+        (patience() >= Patience::Pressing &&
+         waits_for_itself(view.parameters, view.scene, view.approaches, course.row)))
+      kept = view.parameters.desperate + view.parameters.pressing;
+  } else if (patience() >= Patience::Desperate) {
+    kept -= dt;
+    if (patience() < Patience::Desperate) kept = 0.0;
   } else if (traffic.waiting_time[course.row] == 0.0) {
     kept = 0.0;
   }

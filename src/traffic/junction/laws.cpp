@@ -9,19 +9,12 @@
 #include "traffic/junction/waiting_place.h"
 #include "traffic/longitudinal/car_following.h"
 #include "traffic/longitudinal/merging.h"
+#include "traffic/patience.h"
 #include "traffic/rule_breaking.h"
 
 namespace sumogamma {
 
 namespace {
-
-constexpr double kTimeMargin = 1.0;  ///< left by who needn't yield to the other in a zone [s]
-constexpr double kBehind = 0.3;      ///< left by who yields behind a vehicle that has passed [s]
-/// Who has waited for long to give way leaves this share of its critical gap,
-constexpr double kLeastShare = 0.4;
-/// and asks this braking of who has the right of way in the lane that it joins, or at first
-/// [m/s^2].
-constexpr double kAskedMost = 3.5, kAsked = 1.5;
 
 using Answer = std::optional<Verdict>;
 
@@ -50,16 +43,18 @@ Answer disregard(const Encounter& e) {
 /// A foe that is about to halt at its line, as there is no room behind the junction or it lets
 /// somebody else go, or for its amber. Who has halted like that lets the subject go first, too.
 Answer halts_anyway(const Encounter& e) {
-  constexpr double kAtLine = 0.3;  // [m]
   if (e.foe_inside) return std::nullopt;
   const LimitReason why = e.foe_waits.reason;
   const bool for_others = why == LimitReason::BlockedJunction || why == LimitReason::LetsIn ||
                           why == LimitReason::TurningRoom;
-  const bool at_line = for_others && !e.foe.stands && e.foe.front < 0.0 &&
-                       e.approaches.rest_of(e.foe) < kAtLine &&
-                       stops_at_ease(e.foe.speed, std::max(kAtLine - e.foe.front, 0.1), e.foe_type);
-  const bool at_amber = is_amber(e.road.signal(e.foe_link)) && e.foe.front < -kNearLine &&
-                        stops_at_ease(e.foe.speed, -e.foe.front - kNearLine, e.foe_type);
+  const bool at_line =
+      for_others && !e.foe.stands && e.foe.front < 0.0 &&
+      e.approaches.rest_of(e.foe) < e.parameters.line_tolerance &&
+      stops_at_ease(e.foe.speed, std::max(e.parameters.line_tolerance - e.foe.front, 0.1),
+                    e.foe_type);
+  const bool at_amber =
+      is_amber(e.road.signal(e.foe_link)) && e.foe.front < -e.parameters.near_line &&
+      stops_at_ease(e.foe.speed, -e.foe.front - e.parameters.near_line, e.foe_type);
   return held_if(at_line || at_amber);
 }
 
@@ -93,7 +88,8 @@ double imposed_braking(const Encounter& e) {
                    at};
   };
   const double foe_front = e.scene.path_along[e.foe.row] + 0.5 * e.foe.length;
-  return braking_asked(merging(e.subject.row, e.subject.front, e.subject.length, e.subject.speed,
+  return braking_asked(e.parameters,
+                       merging(e.subject.row, e.subject.front, e.subject.length, e.subject.speed,
                                e.link.stop_line + e.zone.end),
                        e.link.stop_line + e.zone.begin,
                        merging(e.foe.row, foe_front, e.foe.length, e.foe.speed,
@@ -104,23 +100,24 @@ double imposed_braking(const Encounter& e) {
 /// subject need not yield. Who yields goes right behind a vehicle that has passed; who joins its
 /// lane before another that then follows it.
 Answer apart_in_time(const Encounter& e) {
-  const double share = 1.0 - impatience(e) * (1.0 - kLeastShare);
-  const double margin = e.zone.yields ? e.own_type.critical_gap * share : kTimeMargin;
+  const double share = 1.0 - impatience(e) * (1.0 - e.parameters.impatient_gap_share);
+  const double margin = e.zone.yields ? e.own_type.critical_gap * share : e.parameters.time_gap;
   const bool merges = e.zone.yields && turns_in(e);
   const bool right_behind = e.zone.yields && !e.zone.foe_is_crossing;
-  const double behind = right_behind ? std::min(kBehind, margin) : margin;
+  const double behind = right_behind ? std::min(e.parameters.reaction_time, margin) : margin;
   if (e.ours.begin < e.theirs.end + behind &&
       e.theirs.begin < (merges ? e.ours.begin : e.ours.end) + margin)
     return std::nullopt;
   return blocks_if(merges && !e.foe.stands && e.ours.begin < e.theirs.begin &&
-                   imposed_braking(e) > kAsked + impatience(e) * (kAskedMost - kAsked));
+                   imposed_braking(e) >
+                       e.parameters.easy_braking + impatience(e) * (e.parameters.pressed_braking -
+                                                                    e.parameters.easy_braking));
 }
 
 /// Who has backed out of a deadlock lets everybody past, wherever it stands, and so does who leaves
 /// room for a long body or lets one in. Whom bodies hold isn't coming, and past the line it is no
 /// use to wait for it; nor who creeps out of where it was stuck.
 Answer lets_past(const Encounter& e) {
-  constexpr double kLong = 8.0;  // [s]
   const LimitReason why = e.foe_waits.reason;
   if (e.foe.stands && (why == LimitReason::GivesWay || why == LimitReason::TurningRoom ||
                        why == LimitReason::LetsIn))
@@ -128,7 +125,8 @@ Answer lets_past(const Encounter& e) {
   if (e.foe.stands && e.foe_waits.blocked && (!e.foe_inside || is_on_junction(e)))
     return Verdict::Held;
   return held_if(!e.foe_inside && e.foe_link.signal == kNoSignal && is_wedged(e.scene, e.foe.row) &&
-                 e.foe.speed < kCrawl && e.traffic.waiting_time[e.foe.row] > kLong);
+                 e.foe.speed < e.parameters.crawling_speed &&
+                 waited(e, e.foe.row) >= Patience::Pressing);
 }
 
 /// All-way stop: who has halted goes in the order in which they came.
@@ -168,7 +166,7 @@ Answer clearance(const Encounter& e) {
       stops_at_ease(e.subject.speed, e.zone.begin - (e.subject.front - e.link.stop_line),
                     e.own_type) &&
       (!e.foe.stands || e.foe_waits.reason == LimitReason::Yield) &&
-      e.scene.time - since < kLetsClear)
+      e.scene.time - since < e.parameters.clearance_time)
     return Verdict::Blocks;
   return std::nullopt;
 }
@@ -193,21 +191,22 @@ bool drives_by(const Encounter& e) {
   return !is_on_foot(e, e.subject.row) && has_set_out_from(e, e.link.stop_line) &&
          e.foe_waits.reason == LimitReason::Yield &&
          e.foe_waits.foe != e.scene.id[e.subject.row].value &&
-         e.traffic.waiting_time[e.foe.row] > kWaitsForThird;
+         waited(e, e.foe.row) >= Patience::Impatient;
 }
 
 /// Have both stood on the junction for long, or for some seconds in a ring of those who wait for
 /// one another? Conflict zones are wider than bodies: whoever isn't waited for by rule alone tries.
 bool is_deadlock(const Encounter& e) {
-  constexpr double kLong = 8.0, kInRing = 3.0;  // [s]
-  const double both =
-      std::min(e.traffic.waiting_time[e.subject.row], e.traffic.waiting_time[e.foe.row]);
-  if (!is_on_junction(e) || both < kInRing) return false;
-  if (both < kLong && !waits_for_itself(e.scene, e.approaches, e.subject.row)) return false;
+  const Patience both = std::min(waited(e, e.subject.row), waited(e, e.foe.row));
+  if (!is_on_junction(e) || both < Patience::Waiting) return false;
+  if (both < Patience::Pressing &&
+      !waits_for_itself(e.parameters, e.scene, e.approaches, e.subject.row))
+    return false;
   const LimitReason reason = e.foe_waits.reason;
   const bool yields = reason == LimitReason::Yield || reason == LimitReason::Crossing;
   // who isn't held by a rule and moves has begun to try
-  return yields ? has_waited_longer(e, e.subject.row, e.foe.row) : e.foe.speed < kCreeps;
+  return yields ? has_waited_longer(e, e.subject.row, e.foe.row)
+                : e.foe.speed < e.parameters.moving_speed;
 }
 
 /// A foe in the area is waited for, unless it stands and there is a way past it: on foot one walks
@@ -225,14 +224,11 @@ Answer occupied(const Encounter& e) {
 /// Does a foe creep up to somebody who stands before the area? Who has waited for some time crosses
 /// such a queue before it, too, not only where it happens to stand.
 bool ends_in_queue(const Encounter& e) {
-  constexpr double kSomeTime = 15.0;  // [s]
-  constexpr double kStands = 0.3;     // [m/s]
   if (e.foe_link.to == e.own_link.to || e.foe_link.signal != kNoSignal ||
-      e.traffic.waiting_time[e.subject.row] <= kSomeTime ||
-      e.foe_waits.reason != LimitReason::Leader)
+      waited(e, e.subject.row) < Patience::Stuck || e.foe_waits.reason != LimitReason::Leader)
     return false;
   const std::size_t leader = find_foe(e.scene, e.foe_waits.foe);
-  if (leader == e.scene.size() || e.scene.speed[leader] > kStands) return false;
+  if (leader == e.scene.size() || e.scene.speed[leader] > e.parameters.standing_speed) return false;
   const Vec2 forward = direction_of(e.scene.heading[e.foe.row]);
   const double gap = (e.scene.position[leader] - e.scene.position[e.foe.row]).norm() -
                      0.5 * e.foe.length - half_extent(e.scene, leader, forward);
@@ -256,7 +252,8 @@ bool is_committed(const Encounter& e) {
     return candidate.connection == e.zone.foe;
   });
   if (its == links.end()) return true;
-  return e.foe.front > waiting_place(*its, e.zone.foe_begin).along - its->stop_line + 0.3 &&
+  return e.foe.front >
+             waiting_place(e.parameters, *its, e.zone.foe_begin).along - its->stop_line + 0.3 &&
          !foe_may_halt(e);
 }
 
@@ -274,10 +271,9 @@ Answer first_come(const Encounter& e) {
 /// Is a foe that has to yield past its line already and, as things are, on its way into the area?
 /// Whoever sees that brakes at ease now, not hard once it is there.
 bool comes_out(const Encounter& e) {
-  constexpr double kPast = 0.5;  // [m]
-  constexpr double kSoon = 4.0;  // [s]
-  return e.foe.front > kPast && !e.foe.stands && e.approaches.rest_of(e.foe) > e.zone.foe_begin &&
-         e.theirs.begin < kSoon && !is_on_foot(e, e.subject.row) && !is_on_foot(e, e.foe.row);
+  return e.foe.front > e.parameters.line_tolerance && !e.foe.stands &&
+         e.approaches.rest_of(e.foe) > e.zone.foe_begin && e.theirs.begin < e.parameters.outlook &&
+         !is_on_foot(e, e.subject.row) && !is_on_foot(e, e.foe.row);
 }
 
 /// Right of way, but nobody steps in front of a vehicle that can no longer stop.

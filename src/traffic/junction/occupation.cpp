@@ -5,16 +5,16 @@
 
 namespace sumogamma {
 
-double time_to_drive(const Path& path, double from, double to, double speed, double most,
-                     double acceleration) {
-  constexpr double kStep = 2.0, kLeast = 0.1;  // [m], [m/s]
+double time_to_drive(const TrafficParameters& parameters, const Path& path, double from, double to,
+                     Pace pace) {
   double time = 0.0;
-  for (double at = from; at < to; at += kStep) {
-    const double way = std::min(kStep, to - at);
-    const double reached = std::sqrt(speed * speed + 2.0 * acceleration * way);
-    const double next = std::max(std::min({path.profile_at(at + way), most, reached}), kLeast);
-    time += 2.0 * way / (speed + next);
-    speed = next;
+  for (double at = from; at < to; at += parameters.path_step) {
+    const double way = std::min(parameters.path_step, to - at);
+    const double reached = std::sqrt(pace.speed * pace.speed + 2.0 * pace.acceleration * way);
+    const double next = std::max(std::min({path.profile_at(at + way), pace.most, reached}),
+                                 parameters.moving_speed);
+    time += 2.0 * way / (pace.speed + next);
+    pace.speed = next;
   }
   return time;
 }
@@ -29,8 +29,8 @@ Occupation occupation(const TrafficView& view, const Approach& who, double begin
   const double along = scene.path_along[who.row];
   const double most = std::max(std::min(type.max_speed, scene.preferred_speed[who.row]), who.speed);
   auto time_to = [&](double place, double top) {
-    return time_to_drive(path, along, along + place - who.front, who.speed, top,
-                         type.max_acceleration);
+    return time_to_drive(view.parameters, path, along, along + place - who.front,
+                         {who.speed, top, type.max_acceleration});
   };
   // it may be slow to clear it
   const double cautious = std::max(0.6 * std::min(path.profile_at(along), most), who.speed);

@@ -16,11 +16,17 @@ struct Occupation {
 /// the link's begin, as `who.front`], as fast as its path, its type and its liking let it.
 Occupation occupation(const TrafficView& view, const Approach& who, double begin, double end);
 
-/// Time [s] in which somebody at `speed` [m/s] gets from one place of its path to another [m along
-/// it, of its middle], as its speed profile and `most` [m/s] let it, taking up speed with
-/// `acceleration` [m/s^2].
-double time_to_drive(const Path& path, double from, double to, double speed, double most,
-                     double acceleration);
+/// How somebody drives on.
+struct Pace {
+  double speed = 0;         ///< now [m/s]
+  double most = 0;          ///< besides its speed profile [m/s]
+  double acceleration = 0;  ///< with which it takes up speed [m/s^2]
+};
+
+/// Time [s] in which somebody gets from one place of its path to another [m along it, of its
+/// middle], read every parameters.path_step.
+double time_to_drive(const TrafficParameters& parameters, const Path& path, double from, double to,
+                     Pace pace);
 
 /// A traveller as those see it who come by other links.
 Approach approach_of(const Traveller& traveller, const PathLink& link);

@@ -4,9 +4,6 @@
 
 namespace sumogamma {
 
-/// Who stands so near its line when amber begins may go on [m].
-inline constexpr double kNearLine = 2.5;
-
 enum class SignalDuty {
   None,
   Stop,

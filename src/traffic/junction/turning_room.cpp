@@ -6,16 +6,12 @@
 #include "traffic/junction/keep_clear.h"
 #include "traffic/junction/occupation.h"
 #include "traffic/longitudinal/car_following.h"
+#include "traffic/patience.h"
 #include "traffic/rule_breaking.h"
 
 namespace sumogamma {
 
 namespace {
-
-constexpr double kNear = 25.0;  ///< before its line from which a long body is reckoned with [m]
-/// Before a lane's end at a signal where the line is drawn behind what long bodies sweep [m]: who
-/// is there first at red stands in the way of one that comes at its green.
-constexpr double kDrawn = 12.0;
 
 /// Is it about who has the width of a row that a way tells?
 bool is_for(const SweptWay& way, const Scene& scene, std::size_t row) {
@@ -23,14 +19,18 @@ bool is_for(const SweptWay& way, const Scene& scene, std::size_t row) {
 }
 
 /// Is the line of a link drawn before what is swept there?
-bool moves_line(const Model& model, const PathLink& link, const SweptWay& way) {
-  return way.begin > -kDrawn && model.road.connection(link.connection).signal != kNoSignal;
+bool moves_line(const TrafficParameters& parameters, const Model& model, const PathLink& link,
+                const SweptWay& way) {
+  return way.begin > -parameters.soon_way &&
+         model.road.connection(link.connection).signal != kNoSignal;
 }
 
 /// Does a foe get there first where the two would be in each other's way?
-bool comes_first(const Occupation& theirs, const Occupation& ours, bool surely, bool smaller_id) {
-  constexpr double kMargin = 0.5;  // [s]
-  if (ours.begin > theirs.end + kMargin || theirs.begin > ours.end + kMargin) return false;
+bool comes_first(const TrafficParameters& parameters, const Occupation& theirs,
+                 const Occupation& ours, bool surely, bool smaller_id) {
+  if (ours.begin > theirs.end + parameters.reaction_time ||
+      theirs.begin > ours.end + parameters.reaction_time)
+    return false;
   return surely || theirs.begin < ours.begin || (theirs.begin == ours.begin && smaller_id);
 }
 
@@ -44,20 +44,18 @@ bool halts_before(const TrafficView& view, const Approach& foe, const SweptWay& 
 /// place or amid it, held by bodies? On the junction, where others wait for it, it soon has, and
 /// the time counts in which it backed out before somebody. A queue that creeps on is never over.
 bool has_long_wanted(const TrafficView& view, const Approach& foe, bool there) {
-  constexpr double kLong = 10.0, kSoon = 3.0;  // [s]
   const Waiting& waiting = view.approaches.waiting(foe.row);
-  const Scene& scene = view.scene;
-  if (there && waiting.blocked) return view.traffic.waiting_time[foe.row] > kLong;
+  if (there && waiting.blocked) return waited(view, foe.row) >= Patience::Pressing;
   if (foe.front <= 0.0)
-    return waiting.reason == LimitReason::TurningRoom && scene.held[foe.row].standing > kLong;
-  return view.traffic.waiting_time[foe.row] > kSoon &&
+    return waiting.reason == LimitReason::TurningRoom && stood(view, foe.row) >= Patience::Pressing;
+  return waited(view, foe.row) >= Patience::Waiting &&
          (waiting.reason == LimitReason::TurningRoom || waiting.reason == LimitReason::GivesWay);
 }
 
 /// See leave_turning_room; of somebody whose trip `ends` at the line, who is gone from there on.
 LinkDecision leave_room(const TrafficView& view, const Traveller& traveller, const PathLink& link,
                         bool ends) {
-  const auto& [model, road, scene, traffic, grid, approaches] = view;
+  const auto& [model, road, scene, traffic, grid, approaches, parameters] = view;
   LinkDecision decision;
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const double front = traveller.front - link.stop_line;
@@ -69,12 +67,12 @@ LinkDecision leave_room(const TrafficView& view, const Traveller& traveller, con
     if (!may_halt || (!way.foe_sweeps && turning_body(traveller.length) != way.body)) continue;
     const double line =
         (before_line ? std::min(link.halt, link.stop_line) : link.stop_line + way.begin) -
-        kStopMargin;
+        view.parameters.stop_margin;
     // who rolls out a little beyond its place has halted there all the same
     const bool too_late =
         traveller.speed > 1.0 &&
-        deceleration_to_stop(traveller.speed, line + kStopMargin - traveller.front) >
-            0.8 * type.max_deceleration;
+        deceleration_to_stop(traveller.speed, line + view.parameters.stop_margin -
+                                                  traveller.front) > 0.8 * type.max_deceleration;
     if (too_late || (decision.must_stop && line >= decision.stop_at)) continue;
     const Occupation ours = occupation(view, approach_of(traveller, link), way.begin,
                                        ends ? -traveller.length : way.end);
@@ -98,11 +96,13 @@ LinkDecision leave_room(const TrafficView& view, const Traveller& traveller, con
         theirs.end = Occupation::kNever;
       // a long body on its way doesn't reckon with who stands. Not the other way round: where one
       // comes after the other, it would stand for ever
-      const bool goes_on = way.foe_sweeps && traveller.speed < kStandsBelow && !foe.stands;
+      const bool goes_on =
+          way.foe_sweeps && traveller.speed < view.parameters.halting_speed && !foe.stands;
       // nor does who is near the place and drives halt before it
       const bool drives_in = !way.foe_sweeps && !foe.stands && !halts_before(view, foe, way);
       const bool smaller_id = scene.id[foe.row] < scene.id[traveller.row];
-      if (!is_owed && !comes_first(theirs, ours, there || goes_on || drives_in, smaller_id))
+      if (!is_owed &&
+          !comes_first(view.parameters, theirs, ours, there || goes_on || drives_in, smaller_id))
         continue;
       decision = {true, line, LimitReason::TurningRoom,
                   static_cast<std::int64_t>(scene.id[foe.row].value)};
@@ -117,7 +117,7 @@ LinkDecision leave_room(const TrafficView& view, const Traveller& traveller, con
 double drawn_line(const TrafficView& view, const Traveller& traveller, const PathLink& link) {
   double line = link.halt;
   for (const SweptWay& way : view.model.swept_ways[index_of(link.connection)])
-    if (way.foe_sweeps && moves_line(view.model, link, way) &&
+    if (way.foe_sweeps && moves_line(view.parameters, view.model, link, way) &&
         is_for(way, view.scene, traveller.row))
       line = std::min(line, link.stop_line + way.begin);
   return line;
@@ -125,7 +125,7 @@ double drawn_line(const TrafficView& view, const Traveller& traveller, const Pat
 
 double halt_for_long_bodies(const TrafficView& view, const Traveller& traveller,
                             const PathLink& link) {
-  const auto& [model, road, scene, traffic, grid, approaches] = view;
+  const auto& [model, road, scene, traffic, grid, approaches, parameters] = view;
   double halt = link.halt;
   for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
     const double place = link.stop_line + way.begin;
@@ -133,13 +133,13 @@ double halt_for_long_bodies(const TrafficView& view, const Traveller& traveller,
         !is_for(way, scene, traveller.row))
       continue;
     const auto comes = [&](const Approach& foe) {
-      return turning_body(foe.length) == way.body && foe.front > -kNear &&
+      return turning_body(foe.length) == way.body && foe.front > -view.parameters.nearby &&
              foe.front - foe.length < way.foe_end && foe.row != traveller.row &&
              !on_other_storey(view.model.road, view.scene, traveller.row, foe.row);
     };
     // who means to go at red goes up to the end of its lane
-    const bool drawn =
-        moves_line(model, link, way) && !goes_at_red(model, scene, traveller.row, link.connection);
+    const bool drawn = moves_line(view.parameters, model, link, way) &&
+                       !goes_at_red(model, scene, traveller.row, link.connection);
     const auto foes = approaches.of(way.foe);
     if (drawn || std::any_of(foes.begin(), foes.end(), comes)) halt = place;
   }
@@ -153,12 +153,11 @@ LinkDecision leave_turning_room(const TrafficView& view, const Traveller& travel
 
 LinkDecision leave_room_at_end(const TrafficView& view, const Course& course,
                                const Traveller& traveller) {
-  constexpr double kAtEnd = 2.0;  // [m]
   LinkDecision decision;
   const Path& path = course.path;
   const Lane& lane = view.model.road.lane(path.stretches.back().lane);
   const Vec2 before_end = lane.centerline.points().back() - path.line.point_at(path.arrival);
-  if (before_end.norm() > kAtEnd) return decision;
+  if (before_end.norm() > view.parameters.near_line) return decision;
   for (const ConnectionId id : lane.outgoing) {
     const PathLink end{id, path.arrival, path.arrival, path.arrival};
     if (takes_turning_room(view, course, end)) continue;

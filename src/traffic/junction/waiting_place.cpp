@@ -15,11 +15,12 @@ Piece as_travelled(const Path& path, double link_begin, double begin, double end
   return {length - end, length - begin};
 }
 
-WaitingPlace waiting_place(const PathLink& link, double zone_begin) {
-  constexpr double kSlack = 2.0, kLeast = 1.5;  // [m]
+WaitingPlace waiting_place(const TrafficParameters& parameters, const PathLink& link,
+                           double zone_begin) {
   const double begin = link.stop_line + zone_begin;
-  const double place = std::min(link.inside, begin) - kWaitingMargin;
-  if (begin < link.inside - kSlack || place < link.stop_line + kLeast)
+  const double place = std::min(link.inside, begin) - parameters.line_tolerance;
+  if (begin < link.inside - parameters.waiting_room ||
+      place < link.stop_line + parameters.waiting_room)
     return {link.stop_line, false};
   return {place, true};
 }
@@ -27,12 +28,12 @@ WaitingPlace waiting_place(const PathLink& link, double zone_begin) {
 namespace {
 
 /// Is somebody in a zone of a foe's link, or will be soon?
-bool comes_soon(const ConflictZone& zone, const Approach& foe) {
-  constexpr double kSoon = 6.0;    // [s]
-  constexpr double kDrives = 8.0;  // who has set out gets as fast as this [m/s]
+bool comes_soon(const TrafficParameters& parameters, const ConflictZone& zone,
+                const Approach& foe) {
   if (foe.front - foe.length > zone.foe_end) return false;
   return foe.front > 0.0 ||
-         (!foe.stands && zone.foe_begin - foe.front < kSoon * std::max(foe.speed, kDrives));
+         (!foe.stands && zone.foe_begin - foe.front <
+                             parameters.outlook * std::max(foe.speed, parameters.flow_speed));
 }
 
 }  // namespace
@@ -53,10 +54,10 @@ void keep_zones_free(const TrafficView& view, const Traveller& traveller, const 
       for (const Approach& foe : approaches.of(zone.foe)) {
         if (foe.row == traveller.row) continue;
         const auto theirs = zone_for(zone, wide || foe.wide);
-        if (!theirs || !comes_soon(*theirs, foe)) continue;
+        if (!theirs || !comes_soon(view.parameters, *theirs, foe)) continue;
         const Piece piece = as_travelled(path, link.stop_line, theirs->begin, theirs->end);
         const double begin = link.stop_line + piece.begin, end = link.stop_line + piece.end;
-        const double line = std::max(begin, link.stop_line) - kStopMargin;
+        const double line = std::max(begin, link.stop_line) - view.parameters.stop_margin;
         if (decision.stop_at <= begin || decision.stop_at - traveller.length >= end) continue;
         if (line >= decision.stop_at || line < traveller.front) continue;
         if (deceleration_to_stop(traveller.speed, line - traveller.front) >

@@ -4,9 +4,6 @@
 
 namespace sumogamma {
 
-/// Between a place to wait on a junction and what it is for [m].
-inline constexpr double kWaitingMargin = 0.3;
-
 /// A piece of a link as it lies for somebody on `path`, whose link begins at `link_begin`: who
 /// walks over a crossing against its lane meets the same places in the opposite order, counted from
 /// the other end.
@@ -21,7 +18,8 @@ struct WaitingPlace {
   double along = 0;
   bool inside = false;
 };
-WaitingPlace waiting_place(const PathLink& link, double zone_begin);
+WaitingPlace waiting_place(const TrafficParameters& parameters, const PathLink& link,
+                           double zone_begin);
 
 /// Who has to wait on a junction waits where it stands in nobody's way: not with its body in a zone
 /// that somebody else is about to need, but before it, unless it is in there already.

@@ -7,6 +7,7 @@
 #include "model/tracking.h"
 #include "scene/extent.h"
 #include "traffic/lateral/passing.h"
+#include "traffic/patience.h"
 
 namespace sumogamma {
 
@@ -39,8 +40,7 @@ Vec2 chord_direction(const Polyline& line, double from, double to) {
 /// coarse line don't ask for a jerk of the wheel; less for who is short between its axles and turns
 /// in a hook of a cycle path.
 double bend_window(const AgentType& type, double speed) {
-  constexpr double kCar = 2.5;  // wheelbase [m]
-  return std::min(1.0, type.wheelbase / kCar) * (1.0 + 0.5 * speed);
+  return std::min(1.0, type.wheelbase / 2.5) * (1.0 + 0.5 * speed);
 }
 
 /// The tightest bend that a body can turn in [1/m].
@@ -79,11 +79,12 @@ Vec2 direction_to_steer(const Course& course, double curvature) {
 /// How far inwards the middle of a body keeps in a bend towards the kerb [m], positive left: its
 /// ends swing outwards by length^2 / 8 R, so that the way it sweeps lies evenly about the path. In
 /// a bend the other way whoever waits in the road turned into would be in the way of that.
-double lean_of(const Course& course, double curvature, bool keep_left) {
-  constexpr double kMost = 1.0;  // [m]
+double lean_of(const TrafficParameters& parameters, const Course& course, double curvature,
+               bool keep_left) {
   if ((curvature > 0.0) != keep_left) return 0.0;
   const double length = 2.0 * course.half_length;
-  return std::clamp(curvature * length * length / 16.0, -kMost, kMost);
+  return std::clamp(curvature * length * length / 16.0, -parameters.ample_side,
+                    parameters.ample_side);
 }
 
 /// How far to the inside of a bend an offset from the path may be [m]: what is left of the bend
@@ -94,15 +95,10 @@ double inside_of(const Course& course, double curvature, double offset) {
   return std::clamp(offset, -most, most);
 }
 
-constexpr double kDrift = 0.15;  // out of one's lane [m/s]
-
-constexpr double kStepAhead = 0.3;  ///< [m]
-
 /// Is somebody on foot caught in a nook beside its way, a wall between its body and its `goal`?
 /// Houses leave the middle of the way free.
 bool is_caught(const TrafficView& view, const Course& course, double half_width, const Vec2& goal) {
-  constexpr double kLong = 10.0;  // [s]
-  if (view.traffic.waiting_time[course.row] <= kLong ||
+  if (waited(view, course.row) < Patience::Pressing ||
       view.scene.context[course.row].reason != LimitReason::None)
     return false;
   const Vec2 position = view.scene.position[course.row];
@@ -139,7 +135,7 @@ void aim_on_foot(const TrafficView& view, const Course& course, double offset, d
   const Vec2 middle = line.point_at(ahead) + std::max(0.0, ahead - line.length()) * direction;
   context.sub_goal = middle + kept * offset * left_of(direction);
   if (is_caught(view, course, half_width, context.sub_goal))
-    context.sub_goal = line.point_at(course.along + kStepAhead);
+    context.sub_goal = line.point_at(course.along + view.parameters.footstep);
   const Vec2 chord = middle - line.point_at(course.along);
   context.tangent = chord.norm() > 1e-6 ? Vec2(chord.normalized()) : direction;
 }
@@ -150,8 +146,8 @@ void aim_on_foot(const TrafficView& view, const Course& course, double offset, d
 double aim_on_wheels(const TrafficView& view, const Course& course, double offset,
                      RoadContext& context) {
   const double curvature = curvature_of(course);
-  const double there =
-      inside_of(course, curvature, offset) + lean_of(course, curvature, view.model.road.left_hand);
+  const double there = inside_of(course, curvature, offset) +
+                       lean_of(view.parameters, course, curvature, view.model.road.left_hand);
   context.tangent = direction_to_steer(course, curvature);
   context.bend = bend_of(course, view.scene.heading[course.row]);
   context.sub_goal = view.scene.position[course.row] + look_ahead(course) * context.tangent +
@@ -162,8 +158,7 @@ double aim_on_wheels(const TrafficView& view, const Course& course, double offse
 /// To the edges of its carriageway, of which there is none amid a junction.
 void set_edges(const TrafficView& view, const Course& course, const Sides& room,
                RoadContext& context) {
-  constexpr double kSoon = 1.5;  // [m]
-  const LaneId soon = course.path.stretch_at(course.along + kSoon).lane;
+  const LaneId soon = course.path.stretch_at(course.along + view.parameters.waiting_room).lane;
   if (view.model.road.lane(soon).kind == LaneKind::Internal) return;
   const Vec2 heading = to_body(direction_of(view.scene.heading[course.row]), context.tangent);
   const double to_turn = (1.0 - heading.x()) / tightest_bend(course.type);
@@ -181,7 +176,7 @@ Sides corridor_of(const TrafficView& view, const Course& course, const Sides& ro
                           (lane.kind == LaneKind::Internal || here.changing ? 0.6 : 0.0);
   // a lane is no wall: at a snail's pace it may be left, so that two who are wedged side by side
   // find a way on
-  const double drift = kDrift * course.type.horizon + extent;
+  const double drift = view.parameters.drift_speed * course.type.horizon + extent;
   // who filters or overtakes turns out of its lane within a few metres
   const bool overtakes = view.traffic.overtaking_room[course.row] > 0.0;
   const double spare = overtakes ? 2.0 : is_narrow(course.type.width) ? 1.2 : 0.4;

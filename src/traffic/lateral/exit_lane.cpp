@@ -4,14 +4,12 @@
 
 namespace sumogamma {
 
-LaneId free_entry(const Model& model, const RoadState& road, const LaneQueues& queues,
-                  const Path& path, const Surroundings& around) {
-  constexpr double kNear = 10.0;    // before its stop line [m]
-  constexpr double kAsWell = 0.5;   // lane changes more, later on
-  constexpr double kLongest = 6.5;  // others would come to stand over both lanes [m]
+LaneId free_entry(const TrafficParameters& parameters, const Model& model, const RoadState& road,
+                  const LaneQueues& queues, const Path& path, const Surroundings& around) {
   const double front = around.along + around.half_length, length = 2.0 * around.half_length;
   const auto link = path.link_from(around.along);
-  if (length > kLongest || link == path.links.end() || link->stop_line - front > kNear ||
+  if (length > kLongBody || link == path.links.end() ||
+      link->stop_line - front > parameters.soon_way ||
       link->end - kEntryReach < std::max(front, link->stop_line))
     return kNoLane;
   const Connection& connection = model.road.connection(link->connection);
@@ -33,7 +31,7 @@ LaneId free_entry(const Model& model, const RoadState& road, const LaneQueues& q
           const Connection& into = model.road.connection(other);
           return model.road.lane(into.from).kind == LaneKind::Internal || is_red(road.signal(into));
         });
-    if (alone && !is_full(queues, lane, id, length) && cost_from(lane) <= cost_from(own) + kAsWell)
+    if (alone && !is_full(queues, lane, id, length) && cost_from(lane) <= cost_from(own) + 0.5)
       return id;
   }
   return kNoLane;

@@ -7,6 +7,7 @@
 #include "scene/extent.h"
 #include "traffic/longitudinal/car_following.h"
 #include "traffic/longitudinal/leader.h"
+#include "traffic/patience.h"
 
 namespace sumogamma {
 
@@ -27,10 +28,11 @@ bool waits_for_row(const Scene& scene, const RoadUser& user, std::size_t row) {
 }
 
 /// Is somebody so far behind that it leaves the way for the agent's nose?
-bool leaves_room_for_nose(const Surroundings& around, const RoadUser& user) {
-  constexpr double kTooFar = 0.3;  // who halts for somebody rolls on by a hand's breadth [m]
-  return user.front <
-         around.along + around.half_length - nose_room(2.0 * around.half_length) + kTooFar;
+bool leaves_room_for_nose(const TrafficParameters& parameters, const Surroundings& around,
+                          const RoadUser& user) {
+  return user.front < around.along + around.half_length -
+                          nose_room(parameters, 2.0 * around.half_length) +
+                          parameters.line_tolerance;
 }
 
 /// Does somebody come from behind, faster, between the agent and the lane, so that whoever moves
@@ -53,10 +55,6 @@ bool is_gap(const TrafficView& view, const Surroundings& around, std::size_t row
             const LaneBeside& lane, double braking) {
   const Scene& scene = view.scene;
   const TrafficState& traffic = view.traffic;
-  constexpr double kLeast = 0.5, kLeastTime = 0.35;  // [m], [s]
-  constexpr double kClose = 0.3, kCloseTime = 0.15;  // [m], [s]
-  constexpr double kCourtesy = 2.0, kLeft = 0.4;     // [m/s^2], [m]
-  constexpr double kHolds = 0.3, kSides = 0.3;       // [m/s], [m]
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
   for (const RoadUser& user : around.users) {
     // whom the path comes up to only in that lane is followed anyway
@@ -64,15 +62,16 @@ bool is_gap(const TrafficView& view, const Surroundings& around, std::size_t row
     // a path that moves over is askew to the lanes
     const double half_width =
         std::min(user.half_width, half_extent(scene, user.row, left_of(around.tangent)));
-    const bool there =
-        std::abs(aside_of(scene, user, lane)) <= half_width + around.half_width + kSides;
+    const bool there = std::abs(aside_of(scene, user, lane)) <=
+                       half_width + around.half_width + view.parameters.side_clearance;
     if (!there && !comes_between(around, user, lane)) continue;
     // who lets us in keeps no headway for it, but brakes no harder than is courteous
     const bool lets_us_in = user.front < front && waits_for_row(scene, user, row);
     // who stands beside our tail or behind it and holds, or has stepped back to let others go
     // first, leaves the way for our nose
     const bool holds = lets_us_in || traffic.gives_way_left[user.row] > 0.0;
-    if (user.rear < front && holds && leaves_room_for_nose(around, user) && user.speed < kHolds)
+    if (user.rear < front && holds && leaves_room_for_nose(view.parameters, around, user) &&
+        user.speed < view.parameters.standing_speed)
       continue;
     if (user.rear < front && user.front > rear) return false;
     const bool ahead = user.rear >= front;
@@ -80,12 +79,15 @@ bool is_gap(const TrafficView& view, const Surroundings& around, std::size_t row
     const Vec2 tangent = around.tangent;
     auto acceleration = [&](std::size_t who) { return scene.acceleration[who].dot(tangent); };
     const double behind_speed = std::max(ahead ? around.speed : user.speed, 0.0);
-    const Followed followed{gap - kLeft, ahead ? user.speed : around.speed,
+    const Followed followed{gap - view.parameters.least_gap, ahead ? user.speed : around.speed,
                             acceleration(ahead ? user.row : row)};
     const double needed = braking_behind(behind_speed, followed);
     const double least =
-        lets_us_in ? kClose + kCloseTime * behind_speed : kLeast + kLeastTime * behind_speed;
-    if (gap < least || needed > (lets_us_in ? kCourtesy : braking)) return false;
+        lets_us_in
+            ? 0.5 * view.parameters.least_gap + 0.5 * view.parameters.reaction_time * behind_speed
+            : view.parameters.least_gap + view.parameters.reaction_time * behind_speed;
+    if (gap < least || needed > (lets_us_in ? view.parameters.courtesy_braking : braking))
+      return false;
   }
   return true;
 }
@@ -94,14 +96,15 @@ bool is_contested(const TrafficView& view, const Surroundings& around, std::size
                   LaneId target, const LaneBeside& lane) {
   const Scene& scene = view.scene;
   const TrafficState& traffic = view.traffic;
-  constexpr double kHalts = 2.0, kNear = 2.0;  // [s], [m]
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
     const bool other_side = aside_of(scene, user, lane) * lane.shift > 0.0;
     const bool waits = std::isfinite(traffic.gate[user.row]) ||
-                       scene.held[user.row].standing > kHalts || waits_for_row(scene, user, row);
+                       stood(view, user.row) >= Patience::Waiting ||
+                       waits_for_row(scene, user, row);
     return other_side && traffic.merge_to[user.row] == target && !waits &&
-           user.rear < front + kNear && user.front > rear - kNear &&
+           user.rear < front + view.parameters.near_line &&
+           user.front > rear - view.parameters.near_line &&
            (traffic.merge_to[row] != target || scene.id[user.row] < scene.id[row]);
   });
 }
@@ -112,7 +115,7 @@ bool is_let_in(const TrafficView& view, const Surroundings& around, std::size_t 
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
     const double aside = std::abs(aside_of(scene, user, lane));
     // who follows in our own lane, be it half in the other, waits for us but leaves no gap there
-    return leaves_room_for_nose(around, user) && waits_for_row(scene, user, row) &&
+    return leaves_room_for_nose(view.parameters, around, user) && waits_for_row(scene, user, row) &&
            aside < user.half_width + around.half_width && aside < std::abs(user.offset);
   });
 }
@@ -120,16 +123,16 @@ bool is_let_in(const TrafficView& view, const Surroundings& around, std::size_t 
 bool is_beside(const TrafficView& view, const Surroundings& around, std::size_t row) {
   const Scene& scene = view.scene;
   const TrafficState& traffic = view.traffic;
-  constexpr double kSide = 0.3;   // [m]
-  constexpr double kWaits = 1.0;  // [s]
   const double front = around.along + around.half_length;
   return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
     // who waits for a gap itself, or for us, isn't waited for
-    const bool waits = scene.held[user.row].standing > kWaits &&
+    const bool waits = stood(view, user.row) >= Patience::Waiting &&
                        (std::isfinite(traffic.gate[user.row]) || waits_for_row(scene, user, row));
     return user.aligned && !waits && user.rear < front && user.front > front &&
-           std::abs(user.offset) < user.half_width + around.half_width + kSide &&
-           std::abs(user.offset - around.offset) > user.half_width + around.half_width - kSide;
+           std::abs(user.offset) <
+               user.half_width + around.half_width + view.parameters.side_clearance &&
+           std::abs(user.offset - around.offset) >
+               user.half_width + around.half_width - view.parameters.side_clearance;
   });
 }
 

@@ -9,35 +9,26 @@
 #include "traffic/lateral/gap_acceptance.h"
 #include "traffic/lateral/overtaking.h"
 #include "traffic/lateral/passing.h"
+#include "traffic/patience.h"
 #include "traffic/walking/walking_place.h"
 
 namespace sumogamma {
 
 namespace {
 
-constexpr double kPeriod = 0.4;       ///< between two looks of an agent [s]
-constexpr double kSafeBraking = 1.5;  ///< asked of nobody more for a lane change [m/s^2]
-constexpr double kGain = 1.0;         ///< worth a lane change [m/s]
-constexpr double kChangeTime = 3.0;   ///< [s]
-constexpr double kPatience = 4.0;     ///< with a lane change that somebody stands in the way of [s]
-constexpr double kBack = 20.0;        ///< of path kept behind the body [m]
-constexpr double kSlowest = 3.5;      ///< at which lanes are changed without need [m/s]
-constexpr double kShortest = 12.0;    ///< change [m]
-constexpr double kNearlyAsWell = 2.0;  ///< lane changes more, later on
-// people on foot look as far ahead for others and for walls, and aside of their way [m]
-constexpr double kSidewalk = 8.0, kWalls = 4.0, kAside = 4.5;
-
 /// Way over which lanes are changed at some speed [m].
-double way_of_change(double speed) { return std::max(kChangeTime * speed, kShortest); }
+double way_of_change(const TrafficParameters& parameters, double speed) {
+  return std::max(parameters.soon * speed, parameters.soon_way);
+}
 
 /// As far as a row looks for others [m]: where there is a lane beside, for those who come from
 /// behind at full speed, too.
-double outlook(const Model& model, const Path& path, const Scene& scene, std::size_t row) {
-  constexpr double kLeast = 30.0, kTime = 3.0, kMost = 100.0;  // [m], [s], [m]
+double outlook(const TrafficParameters& parameters, const Model& model, const Path& path,
+               const Scene& scene, std::size_t row) {
   const Lane& lane = model.road.lane(path.stretch_at(scene.path_along[row]).lane);
   const bool alone = lane.inner == kNoLane && lane.outer == kNoLane;
   const double speed = alone ? scene.speed[row] : std::max(scene.speed[row], lane.speed_limit);
-  return std::min(kLeast + kTime * speed, kMost);
+  return std::min(parameters.junction_outlook + parameters.soon * speed, parameters.queue_outlook);
 }
 
 /// How far aside the middle of a neighbouring lane of the same edge lies [m, positive left].
@@ -48,10 +39,10 @@ double shift_to(const Model& model, const Lane& from, const Lane& to) {
 
 /// Does a lane run into one with the lane of the path, soon after `along`? Who drives faster there
 /// gains nothing by changing: it is let in at the end.
-bool run_together_soon(const Model& model, const Path& path, double along, LaneId other) {
-  constexpr double kSoon = 100.0;  // [m]
+bool run_together_soon(const TrafficParameters& parameters, const Model& model, const Path& path,
+                       double along, LaneId other) {
   const auto link = path.link_from(along);
-  if (link == path.links.end() || link->stop_line - along > kSoon) return false;
+  if (link == path.links.end() || link->stop_line - along > parameters.queue_outlook) return false;
   const auto& outgoing = model.road.lane(other).outgoing;
   return std::any_of(outgoing.begin(), outgoing.end(),
                      [&](ConnectionId id) { return runs_together(model, link->connection, id); });
@@ -73,20 +64,20 @@ LaneId better_lane(const TrafficView& view, const LaneQueues& queues, const Path
   const Model& model = view.model;
   const Scene& scene = view.scene;
   const PathStretch& here = path.stretch_at(around.along);
-  const double distance = way_of_change(around.speed);
+  const double distance = way_of_change(view.parameters, around.speed);
   const Lane& lane = model.road.lane(here.lane);
-  if (lane.kind != LaneKind::Normal || here.changing || around.speed < kSlowest ||
-      std::abs(around.offset) > 1.2 || here.to - around.along < distance + 2.0 ||
-      around.along - here.from < around.half_length)
+  if (lane.kind != LaneKind::Normal || here.changing ||
+      around.speed < view.parameters.queue_speed || std::abs(around.offset) > 1.2 ||
+      here.to - around.along < distance + 2.0 || around.along - here.from < around.half_length)
     return kNoLane;
   const auto& options = path.trip->options[static_cast<std::size_t>(here.route_index)];
   const double on_lane = here.lane_from + around.along - here.from;
   const double free_speed = std::min(path.profile_at(around.along), scene.preferred_speed[row]);
-  const double stay = hoped_speed(around, 0.0, free_speed, 0.3);
+  const double stay = hoped_speed(view.parameters, around, 0.0, free_speed, 0.3);
   const double left_here = options[static_cast<std::size_t>(lane.index)].drivable - on_lane;
 
   LaneId best = kNoLane;
-  double most = stay + kGain;
+  double most = stay + view.parameters.worthwhile_gain;
   for (const LaneId id : {lane.inner, lane.outer}) {
     if (id == kNoLane) continue;
     const Lane& other = model.road.lane(id);
@@ -102,11 +93,12 @@ LaneId better_lane(const TrafficView& view, const LaneQueues& queues, const Path
         continue;
     }
     const double shift = shift_to(model, lane, other);
-    const double there =
-        hoped_speed(around, shift, std::min(free_speed, other.speed_limit * 1.2), 0.3);
-    if (there <= most || there < kSlowest ||
-        !is_gap(view, around, row, {.shift = shift, .middle = &other.centerline}, kSafeBraking) ||
-        run_together_soon(model, path, around.along, id))
+    const double there = hoped_speed(view.parameters, around, shift,
+                                     std::min(free_speed, other.speed_limit * 1.2), 0.3);
+    if (there <= most || there < view.parameters.queue_speed ||
+        !is_gap(view, around, row, {.shift = shift, .middle = &other.centerline},
+                view.parameters.easy_braking) ||
+        run_together_soon(view.parameters, model, path, around.along, id))
       continue;
     most = there;
     best = id;
@@ -125,9 +117,9 @@ const PathStretch* next_change(const Path& path, double along, double reach) {
 
 /// Is a narrow vehicle on its way past somebody beside its lane? Then it stays on its path.
 bool filters(const TrafficView& view, const Surroundings& around, std::size_t row) {
-  constexpr double kBeside = 0.3;  // [m]
   return is_narrow(2.0 * around.half_width) &&
-         std::abs(view.traffic.passing_offset[row] - view.scene.manners[row].path_offset) > kBeside;
+         std::abs(view.traffic.passing_offset[row] - view.scene.manners[row].path_offset) >
+             view.parameters.side_clearance;
 }
 
 /// A lane change that the trip needs waits for its gap: says so to whoever may leave one, closes
@@ -136,8 +128,6 @@ void wait_for_gap(const TrafficView& view, const Path& path, const Surroundings&
                   std::size_t row, LaneIntent& intent) {
   const Model& model = view.model;
   const Scene& scene = view.scene;
-  constexpr double kPressed = 3.0, kCreeps = 3.0;  // [m/s^2], [m/s]
-  constexpr double kTooLong = 1.3;                 // times the way that it takes
   const PathStretch& here = path.stretch_at(around.along);
   if (here.changing) {
     // who goes on between the lanes is in no lane's way until it has got past
@@ -145,7 +135,7 @@ void wait_for_gap(const TrafficView& view, const Path& path, const Surroundings&
     intent.merge_to = here.lane;
     if (is_beside(view, around, row)) intent.gate = around.along;
     const LimitReason reason = scene.context[row].reason;
-    intent.abort = scene.held[row].standing > kPatience &&
+    intent.abort = stood(view, row) >= Patience::Impatient &&
                    (reason == LimitReason::None || reason == LimitReason::Merge);
     return;
   }
@@ -156,13 +146,15 @@ void wait_for_gap(const TrafficView& view, const Path& path, const Surroundings&
   if (from.edge != to.edge) return;
   intent.merge_to = change->lane;
   const LaneBeside beside{shift_to(model, from, to), change->from, change->to, &to.centerline};
-  const double braking = speed < 2.0 ? kPressed : kSafeBraking;
+  const double braking =
+      speed < 2.0 ? view.parameters.pressed_braking : view.parameters.easy_braking;
   const bool due = change->from - around.along < 2.0 + 1.2 * speed;
-  const bool let_in = speed < kCreeps && is_let_in(view, around, row, beside);
+  const bool let_in = speed < view.parameters.queue_speed && is_let_in(view, around, row, beside);
   if (!is_contested(view, around, row, change->lane, beside) &&
       is_gap(view, around, row, beside, braking)) {
     // planned over the way that it takes at full speed: in a queue, that long over two lanes
-    if ((due || let_in) && change->to - change->from > kTooLong * way_of_change(speed))
+    if ((due || let_in) &&
+        change->to - change->from > view.parameters.slack * way_of_change(view.parameters, speed))
       intent.wanted = change->lane;
     return;
   }
@@ -177,9 +169,9 @@ void wait_for_gap(const TrafficView& view, const Path& path, const Surroundings&
 
 /// Moves the place aimed at within the lane, at walking pace, towards where it should be; swiftly
 /// over the middle of the road and back.
-void move_aim(double wanted, bool overtakes, double dt, double& aim) {
-  constexpr double kSideways = 0.8, kSwiftly = 1.4;  // [m/s]
-  const double most = (overtakes ? kSwiftly : kSideways) * dt;
+void move_aim(const TrafficParameters& parameters, double wanted, bool overtakes, double dt,
+              double& aim) {
+  const double most = (overtakes ? parameters.swift_lateral_speed : parameters.lateral_speed) * dt;
   aim += std::clamp(wanted - aim, -most, most);
 }
 
@@ -190,19 +182,19 @@ void look_about(const TrafficView& view, const Path& path, std::size_t row, Lane
   Surroundings& around = work.around[worker];
   LaneIntent& intent = work.intents[row];
   if (path.walking) {
-    look_around(view, row, kSidewalk, kAside, around);
-    look_at_walls(view, path, row, kWalls, kAside, around);
+    look_around(view, row, view.parameters.soon_way, view.parameters.near, around);
+    look_at_walls(view, path, row, view.parameters.near, view.parameters.near, around);
     look_at_red_crossings(view, path, row, around);
     const double place = walking_place(view, path, around, row);
     traffic.passing_offset[row] = place;
-    traffic.overtaking_room[row] = room_off_the_way(path, around, place);
+    traffic.overtaking_room[row] = room_off_the_way(view.parameters, path, around, place);
     return;
   }
-  look_around(view, row, outlook(view.model, path, scene, row), 8.0, around);
+  look_around(view, row, outlook(view.parameters, view.model, path, scene, row), 8.0, around);
   traffic.overtaking_room[row] = overtaking_room(view, around, row, work.far[worker]);
   traffic.passing_offset[row] = passing_offset(view, path, around, row);
   if (!path.trip) return;
-  intent.entered = free_entry(view.model, view.road, work.queues, path, around);
+  intent.entered = free_entry(view.parameters, view.model, view.road, work.queues, path, around);
   wait_for_gap(view, path, around, row, intent);
   if (intent.wanted == kNoLane && scene.halt[row].left <= 0.0 && !std::isfinite(intent.gate) &&
       !filters(view, around, row))
@@ -210,12 +202,16 @@ void look_about(const TrafficView& view, const Path& path, std::size_t row, Lane
 }
 
 /// The row's path with its lane change begun, put off or given up; none where it goes on as it is.
-std::optional<Path> path_as_intended(const RoadNetwork& network, const Path& path,
+std::optional<Path> path_as_intended(const TrafficParameters& parameters,
+                                     const RoadNetwork& network, const Path& path,
                                      const LaneIntent& intent, double speed, double& along) {
-  if (intent.abort) return back_to_lane(network, path, along, kBack);
-  if (intent.postpone) return stay_in_lane(network, path, along, std::max(speed, 3.0), kBack);
-  if (intent.entered != kNoLane) return enter_beside(network, path, along, intent.entered, kBack);
-  return change_lane(network, path, along, intent.wanted, way_of_change(speed), kBack);
+  if (intent.abort) return back_to_lane(network, path, along, parameters.nearby);
+  if (intent.postpone)
+    return stay_in_lane(network, path, along, std::max(speed, 3.0), parameters.nearby);
+  if (intent.entered != kNoLane)
+    return enter_beside(network, path, along, intent.entered, parameters.nearby);
+  return change_lane(network, path, along, intent.wanted, way_of_change(parameters, speed),
+                     parameters.nearby);
 }
 
 /// What others look at changes only here, one after the other.
@@ -228,10 +224,12 @@ void do_as_intended(const TrafficTick& tick, const LaneIntent& intent, std::size
     return;
   double along = tick.scene.path_along[row];
   const Path& path = *tick.road.path(tick.scene.path[row]);
-  auto changed = path_as_intended(network, path, intent, tick.scene.speed[row], along);
+  auto changed =
+      path_as_intended(tick.parameters, network, path, intent, tick.scene.speed[row], along);
   // no room left to change in: who gets on by its own lane nearly as well doesn't wait for a gap
   if (!changed && intent.postpone) {
-    changed = keep_lane(network, path, along, kNearlyAsWell, kBack);
+    changed =
+        keep_lane(network, path, along, tick.parameters.nearly_as_well, tick.parameters.nearby);
     if (changed) traffic.merge_to[row] = kNoLane;
   }
   if (!changed) return;
@@ -246,11 +244,12 @@ void choose_lanes(const TrafficTick& tick, LaneChoiceWork& work) {
   const TrafficView view = tick.view();
   const Scene& scene = tick.scene;
   TrafficState& traffic = tick.traffic;
-  const auto period = std::max<std::int64_t>(1, std::llround(kPeriod / tick.dt));
+  const auto period =
+      std::max<std::int64_t>(1, std::llround(tick.parameters.look_period / tick.dt));
   work.around.resize(tick.workers.count());
   work.far.resize(tick.workers.count());
   work.intents.assign(scene.size(), {});
-  measure_queues(tick.model, tick.road, scene, work.queues);
+  measure_queues(tick.parameters, tick.model, tick.road, scene, work.queues);
   tick.workers.for_each_range(
       scene.size(), [&](std::size_t worker, std::size_t begin, std::size_t end) {
         for (std::size_t row = begin; row < end; ++row) {
@@ -261,8 +260,8 @@ void choose_lanes(const TrafficTick& tick, LaneChoiceWork& work) {
               (scene.tick + scene.id[row].value) % period == 0 || !scene.context[row].active;
           work.intents[row].fresh = looks && !path->walking;
           if (looks) look_about(view, *path, row, work, worker, traffic);
-          move_aim(traffic.passing_offset[row], traffic.overtaking_room[row] > 0.0, tick.dt,
-                   traffic.lateral_aim[row]);
+          move_aim(tick.parameters, traffic.passing_offset[row], traffic.overtaking_room[row] > 0.0,
+                   tick.dt, traffic.lateral_aim[row]);
         }
       });
   for (std::size_t row = 0; row < scene.size(); ++row)

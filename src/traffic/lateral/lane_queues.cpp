@@ -4,20 +4,16 @@
 
 namespace sumogamma {
 
-namespace {
-constexpr double kGap = 2.0;  // [m]
-}
-
-void measure_queues(const Model& model, const RoadState& road, const Scene& scene,
-                    LaneQueues& queues) {
-  constexpr double kCreeps = 2.0;  // [m/s]
+void measure_queues(const TrafficParameters& parameters, const Model& model, const RoadState& road,
+                    const Scene& scene, LaneQueues& queues) {
   queues.assign(model.road.lanes.size(), 0.0);
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const Path* path = road.path(scene.path[row]);
-    if (path == nullptr || path->walking || scene.speed[row] > kCreeps) continue;
+    if (path == nullptr || path->walking || scene.speed[row] > parameters.queue_speed) continue;
+    const AgentType& type = type_of(model.types, scene.type[row]);
     const double along = scene.path_along[row];
     queues[index_of(path->stretch_at(along).lane)] +=
-        2.0 * half_extent(scene, row, path->line.direction_at(along)) + kGap;
+        2.0 * half_extent(scene, row, path->line.direction_at(along)) + type.min_gap;
   }
 }
 
@@ -34,7 +30,7 @@ double queue_ahead(const LaneQueues& queues, const Path& path, double along, dou
 }
 
 bool is_full(const LaneQueues& queues, const Lane& lane, LaneId id, double length) {
-  return queues[index_of(id)] + length + kGap > lane.length;
+  return queues[index_of(id)] + length > lane.length;
 }
 
 }  // namespace sumogamma

@@ -4,10 +4,6 @@
 
 namespace sumogamma {
 
-/// How far aside of who is slow and narrow one drives over the middle of the road [m], side to
-/// side.
-inline constexpr double kOvertakingGap = 1.3;
-
 /// Room beyond the inner boundary of its own direction that a wide vehicle may use now to overtake
 /// somebody slow and narrow [m]: the width of the opposite lane, where the network says that there
 /// is one (Lane::opposite), and 0 where it may not. It may while it gets past and back

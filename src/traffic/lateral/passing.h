@@ -6,19 +6,21 @@
 
 namespace sumogamma {
 
-/// Does a body share lanes, so that it filters between queues?
-bool is_narrow(double width);
-
 /// How much faster than somebody a narrow vehicle goes by at most [m/s] with `clearance` [m]
 /// between their sides: 0 where that is too little to go by at all.
-double filtering_speed(double clearance);
+double filtering_speed(const TrafficParameters& parameters, double clearance);
 
-/// How somebody is passed; as it is, between queues.
+/// How somebody is passed.
 struct Manner {
-  double clear = 0.3;      ///< far enough aside [m]
-  double sideways = 0.48;  ///< how fast the vehicle gets aside [m/s]
-  double closes = 0.5;     ///< of the way to where it has to be aside, in a second
+  double clear = 0;     ///< far enough aside [m]
+  double sideways = 0;  ///< how fast the vehicle gets aside [m/s]
+  double closes = 0;    ///< of the way to where it has to be aside, in a second
 };
+
+/// Between queues.
+Manner filtering_manner(const TrafficParameters& parameters);
+/// Over the middle of the road.
+Manner overtaking_manner(const TrafficParameters& parameters);
 
 /// Somebody whom a vehicle means to pass.
 struct Passed {
@@ -36,7 +38,8 @@ struct Passed {
 
 /// The most speed at which a narrow vehicle goes by [m/s]. Ways aside are made at a slow walk: so
 /// who comes near without being clear gets slow, and turns out as tightly as its wheels let it.
-double passing_speed(const Passed& passed, const AgentType& type);
+double passing_speed(const TrafficParameters& parameters, const Passed& passed,
+                     const AgentType& type);
 
 /// Does a wide vehicle, its middle `offset` [m] from a path on `lane`, stand beside that lane and
 /// neither wait to get into it nor be on its way there, so that a wide vehicle, too, may pass what

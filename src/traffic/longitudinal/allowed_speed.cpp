@@ -9,27 +9,23 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kStart = 0.6;  // [m/s]
-
 /// The throttle goes down at ease where the vehicle drives: a cap on the jerk that following and
 /// avoidance leave, however they take turns. Brakes and the start are not eased.
-double eased(const Scene& scene, const Course& course, double acceleration, double dt) {
-  constexpr double kJerk = 2.4;    // [m/s^3]
-  constexpr double kBraked = 0.0;  // the throttle is taken up from here at the least [m/s^2]
-  constexpr double kDrives = 8.0;  // [m/s]
-  if (course.speed < kDrives) return acceleration;
+double eased(const TrafficParameters& parameters, const Scene& scene, const Course& course,
+             double acceleration, double dt) {
+  if (course.speed < parameters.flow_speed) return acceleration;
   const double now = scene.acceleration[course.row].dot(direction_of(scene.heading[course.row]));
-  return std::min(acceleration, std::max(now, kBraked) + kJerk * dt);
+  return std::min(acceleration, std::max(now, 0.0) + parameters.throttle_jerk * dt);
 }
 
 /// Who has to be aside within `way` aims at a sub-goal no further ahead.
-void aim_sooner(const Scene& scene, const Course& course, double way, RoadContext& context) {
-  constexpr double kNearest = 1.2;   // [m]
-  constexpr double kSteepest = 1.8;  // ahead for a metre aside [m]
+void aim_sooner(const TrafficParameters& parameters, const Scene& scene, const Course& course,
+                double way, RoadContext& context) {
   const Vec2 position = scene.position[course.row];
   const Vec2 goal = to_body(context.sub_goal - position, context.tangent);
   const double ahead =
-      std::min(goal.x(), std::max({0.6 * way, kSteepest * std::abs(goal.y()), kNearest}));
+      std::min(goal.x(), std::max({0.6 * way, parameters.steepest_aim * std::abs(goal.y()),
+                                   parameters.closed_up_gap}));
   context.sub_goal = position + from_body(Vec2(ahead, goal.y()), context.tangent);
 }
 
@@ -49,11 +45,11 @@ double binding_acceleration(const Driver& driver, const StopPoints& found, RoadC
 
 }  // namespace
 
-double foreseen_limit(const Path& path, double along, double speed, double dt) {
-  constexpr double kAhead = 0.4;    // [s]
-  constexpr double kNearest = 0.5;  // [m]
+double foreseen_limit(const TrafficParameters& parameters, const Path& path, double along,
+                      double speed, double dt) {
   const double here = path.profile_at(along);
-  const double way = std::max(std::max(kAhead, dt) * speed, kNearest);
+  const double way =
+      std::max(std::max(parameters.reaction_time, dt) * speed, parameters.closed_up_gap);
   const double there = path.profile_at(along + way);
   if (there >= speed) return std::max(here, speed);
   const double braking = (speed * speed - there * there) / (2.0 * way);
@@ -68,9 +64,10 @@ void set_allowed_speed(const TrafficView& view, const Course& course, double dt,
   context.to_halt = found.to_halt;
   context.at_red = found.at_red;
   if (std::isfinite(found.ahead.turning_way))
-    aim_sooner(view.scene, course, found.ahead.turning_way, context);
+    aim_sooner(view.parameters, view.scene, course, found.ahead.turning_way, context);
   const double binding = binding_acceleration(driver, found, context);
-  context.allowed_speed = std::max(0.0, course.speed + eased(view.scene, course, binding, dt) * dt);
+  context.allowed_speed =
+      std::max(0.0, course.speed + eased(view.parameters, view.scene, course, binding, dt) * dt);
   if (view.traffic.gives_way_left[course.row] > 0.0) {
     context.allowed_speed = 0.0;
     context.reason = LimitReason::GivesWay;
@@ -79,7 +76,7 @@ void set_allowed_speed(const TrafficView& view, const Course& course, double dt,
   }
   // who may start has room to find out where to: how fast it gets there is the body's business
   if (binding > 0.5 * type.max_acceleration)
-    context.allowed_speed = std::max(context.allowed_speed, kStart);
+    context.allowed_speed = std::max(context.allowed_speed, view.parameters.halting_speed);
   const double passing =
       std::max(found.ahead.passing_speed, course.speed - type.comfortable_deceleration * dt);
   if (passing < context.allowed_speed) {

@@ -7,16 +7,17 @@
 namespace sumogamma {
 
 double kept_headway(const AgentType& type, double speed) {
-  constexpr double kLeast = 0.32, kFull = 11.0;  // of the headway; [m/s]
   if (type.steady_headway) return type.headway;
-  return type.headway * std::min(kLeast + (1.0 - kLeast) * std::max(speed, 0.0) / kFull, 1.0);
+  return type.headway *
+         std::min(type.queue_headway +
+                      (1.0 - type.queue_headway) * std::max(speed, 0.0) / type.full_headway_speed,
+                  1.0);
 }
 
-double headway_memory(double since_standing) {
-  constexpr double kFlowing = 0.75;                   // of the headway
-  constexpr double kKnows = 30.0, kForgotten = 90.0;  // [s]
-  const double forgotten = (since_standing - kKnows) / (kForgotten - kKnows);
-  return 1.0 - (1.0 - kFlowing) * std::clamp(forgotten, 0.0, 1.0);
+double headway_memory(const TrafficParameters& parameters, double since_standing) {
+  const double forgotten =
+      (since_standing - parameters.desperate) / (parameters.hopeless - parameters.desperate);
+  return 1.0 - (1.0 - parameters.flowing_headway) * std::clamp(forgotten, 0.0, 1.0);
 }
 
 double following_acceleration(const AgentType& type, double speed, double free_speed, double gap,
@@ -50,15 +51,13 @@ double braking_behind(double speed, const Followed& followed) {
 
 double behind_acceleration(const AgentType& type, double speed, double free_speed,
                            const Followed& followed, double headway_factor) {
-  constexpr double kCoolness = 0.99;
   const double plain =
       following_acceleration(type, speed, free_speed, followed.gap, followed.speed, headway_factor);
   if (followed.gap <= 0.05 || !std::isfinite(followed.gap)) return plain;
   const double steady = -braking_behind(speed, followed), b = type.comfortable_deceleration;
   if (plain >= steady) return plain;
   const double cool = steady + b * std::tanh((plain - steady) / b);
-  return std::clamp((1.0 - kCoolness) * plain + kCoolness * cool, -type.max_deceleration,
-                    type.max_acceleration);
+  return std::clamp(0.01 * plain + 0.99 * cool, -type.max_deceleration, type.max_acceleration);
 }
 
 double deceleration_to_stop(double speed, double distance) {

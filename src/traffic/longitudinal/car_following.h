@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/agent_type.h"
+#include "traffic/parameters.h"
 
 namespace sumogamma {
 
@@ -14,7 +15,7 @@ double kept_headway(const AgentType& type, double speed);
 /// of a queue, less in traffic that flows. Drivers in dense free traffic follow at about a second,
 /// those who come out of a jam at more, and it takes them a while to forget it (Treiber, Helbing
 /// 2003, "Memory effects in microscopic traffic models"): capacity drops where a road breaks down.
-double headway_memory(double since_standing);
+double headway_memory(const TrafficParameters& parameters, double since_standing);
 
 /// Acceleration of the Intelligent Driver Model [m/s^2] (Treiber, Hennecke, Helbing 2000; exponent
 /// 8), within the type's limits: towards `free_speed` behind something `gap` metres ahead that

@@ -8,13 +8,11 @@
 #include "scene/storey.h"
 #include "traffic/lateral/overtaking.h"
 #include "traffic/lateral/passing.h"
+#include "traffic/patience.h"
 
 namespace sumogamma {
 
 namespace {
-
-constexpr double kAbreast = 1.5;    // between the middles [m]
-constexpr double kNoseAhead = 0.3;  // likewise of narrow vehicles [m]
 
 /// Somebody on foot who stands: at a kerb, as far as anyone can tell.
 bool waits_at_kerb(const Model& model, const Scene& scene, std::size_t row) {
@@ -23,9 +21,10 @@ bool waits_at_kerb(const Model& model, const Scene& scene, std::size_t row) {
 }
 
 /// Do two bodies that head the same way, more or less, lie close together?
-bool near_each_other(const Scene& scene, std::size_t row, std::size_t other) {
-  constexpr double kClose = 1.0;  // [m]
-  const double reach = scene.footprint[row].radius + scene.footprint[other].radius + kClose;
+bool near_each_other(const TrafficParameters& parameters, const Scene& scene, std::size_t row,
+                     std::size_t other) {
+  const double reach =
+      scene.footprint[row].radius + scene.footprint[other].radius + parameters.closed_up_gap;
   return (scene.position[other] - scene.position[row]).norm() < reach &&
          direction_of(scene.heading[other]).dot(direction_of(scene.heading[row])) > 0.0;
 }
@@ -40,37 +39,23 @@ double nose_lead(const Scene& scene, std::size_t row, std::size_t other) {
          half_extent(scene, row, mean);
 }
 
-constexpr double kTakenFor = 10.0;    // is waited for who stands there [s]
-constexpr double kHesitates = 2.0;    // [s]
-constexpr double kCloses = 0.5;       // of the gap in a second
-constexpr double kFarAside = 0.8;     // [m]
-constexpr double kLaneBeside = 4.5;   // [m]
-constexpr double kCrawl = 1.0;        // [m/s]
-constexpr double kHaltsBefore = 0.5;  // who leaves the way for a nose [m]
-constexpr double kPatience = 6.0;     // with somebody on foot who stands in the way [s]
-
-constexpr Manner kOvertaking{kOvertakingGap - 0.2, 0.9, 1.5};
-
 /// Has somebody stood for long at its gate, waiting for a gap in the lane beside?
 bool waits_long(const TrafficView& view, std::size_t row) {
-  constexpr double kLong = 10.0;  // [s]
-  return std::isfinite(view.traffic.gate[row]) && view.scene.held[row].standing > kLong;
+  return std::isfinite(view.traffic.gate[row]) && stood(view, row) >= Patience::Pressing;
 }
 
 /// Has it been at that in a queue that creeps on?
 bool creeps_long(const TrafficView& view, std::size_t row) {
-  constexpr double kLong = 10.0, kCreeps = 3.0;  // [s], [m/s]
-  return std::isfinite(view.traffic.gate[row]) && view.traffic.waiting_time[row] > kLong &&
-         view.scene.speed[row] < kCreeps;
+  return std::isfinite(view.traffic.gate[row]) && waited(view, row) >= Patience::Pressing &&
+         view.scene.speed[row] < view.parameters.queue_speed;
 }
 
 /// Has somebody on foot held up a vehicle for long who doesn't get on either?
 bool shuffles_before(const TrafficView& view, std::size_t vehicle, std::size_t walker) {
-  constexpr double kShuffles = 0.5;  // [m/s]
   const LimitReason reason = view.scene.context[vehicle].reason;
   const bool no_rule = reason == LimitReason::Leader || reason == LimitReason::None;
-  return no_rule && view.traffic.waiting_time[vehicle] > 2.0 * kPatience &&
-         view.scene.velocity[walker].norm() < kShuffles;
+  return no_rule && waited(view, vehicle) >= Patience::Pressing &&
+         view.scene.velocity[walker].norm() < view.parameters.halting_speed;
 }
 
 /// Is somebody amid a lane change, and hasn't halted there to let others past?
@@ -83,14 +68,13 @@ bool is_changing(const TrafficView& view, std::size_t row) {
 /// Does somebody who is `along` on the path of a row change, or want to, into its lane? Who is at
 /// it or has waited for long counts as well where the row is about to get into that lane.
 bool changes_into_way(const TrafficView& view, std::size_t row, std::size_t other, double along) {
-  constexpr double kSoon = 10.0;  // [m]
   const LaneId lane = view.traffic.merge_to[other];
   if (lane == kNoLane || lane == view.scene.lane[row].lane) return lane != kNoLane;
   const auto& stretches = view.road.path(view.scene.path[row])->stretches;
   return (waits_long(view, other) || is_changing(view, other)) &&
          std::any_of(stretches.begin(), stretches.end(), [&](const PathStretch& stretch) {
            return stretch.lane == lane && stretch.to >= view.scene.path_along[row] &&
-                  stretch.from <= along + kSoon;
+                  stretch.from <= along + view.parameters.soon_way;
          });
 }
 
@@ -99,9 +83,8 @@ bool changes_into_way(const TrafficView& view, std::size_t row, std::size_t othe
 /// that, also for who has rolled on by a step meanwhile. `to_nose`: from the own nose to the way
 /// that the other's needs [m].
 bool lets_nose_in(const TrafficView& view, std::size_t row, std::size_t other, double to_nose) {
-  constexpr double kHolds = 20.0;  // [s]
   return to_nose > 0.0 && (waits_long(view, other) || creeps_long(view, other)) &&
-         view.scene.held[row].standing < kHolds && view.traffic.waiting_time[row] < 2.0 * kHolds;
+         stood(view, row) < Patience::Stuck && waited(view, row) < Patience::Desperate;
 }
 
 /// Remembers the nearest of those ahead who wait for a gap in this lane or are on their way into
@@ -129,14 +112,13 @@ bool is_way_aside_taken(const TrafficView& view, const Path& path, std::size_t r
   const Scene& scene = view.scene;
   const TrafficState& traffic = view.traffic;
   const SpatialGrid& grid = view.grid;
-  constexpr double kThere = 0.1, kNear = 5.0;  // [m]
   const double aim = traffic.lateral_aim[row], along = scene.path_along[row];
-  if (std::abs(aim - own_offset) < kThere) return false;
+  if (std::abs(aim - own_offset) < view.parameters.touching) return false;
   const Vec2 tangent = path.line.direction_at(along), left = left_of(tangent);
   const double half_length = half_extent(scene, row, tangent);
   const double half_width = half_extent(scene, row, left_of(direction_of(scene.heading[row])));
   bool taken = false;
-  grid.visit_within(scene.position[row], kNear, [&](std::size_t other, double) {
+  grid.visit_within(scene.position[row], view.parameters.near, [&](std::size_t other, double) {
     if (other == row || taken || on_other_storey(model.road, scene, row, other)) return;
     const Vec2 place = to_body(scene.position[other] - scene.position[row], tangent);
     const double offset = own_offset + place.y();
@@ -201,8 +183,8 @@ Own own_side(const TrafficView& view, const Path& path, std::size_t row) {
           kept_aside(type, scene.speed[row]),
           narrow,
           overtakes,
-          !narrow && !overtakes && std::abs(offset - wanted) > kFarAside,
-          narrow && scene.held[row].standing < kTakenFor &&
+          !narrow && !overtakes && std::abs(offset - wanted) > view.parameters.ample_side,
+          narrow && stood(view, row) < Patience::Pressing &&
               is_way_aside_taken(view, path, row, offset)};
 }
 
@@ -225,11 +207,12 @@ struct Seen {
 /// Is somebody ahead? Of two abreast just one is: close together the one with its nose ahead.
 bool is_ahead(const Own& own, std::size_t other, double along) {
   const Scene& scene = own.view.scene;
-  const bool close = near_each_other(scene, own.row, other);
+  const bool close = near_each_other(own.view.parameters, scene, own.row, other);
   const double ahead_by = close ? nose_lead(scene, own.row, other) : along - own.along;
   const bool both_narrow =
       own.narrow && is_narrow(type_of(own.view.model.types, scene.type[other]).width);
-  const double abreast = close || both_narrow ? kNoseAhead : kAbreast;
+  const double abreast =
+      close || both_narrow ? own.view.parameters.line_tolerance : own.view.parameters.closed_up_gap;
   return ahead_by >= (scene.id[other] < scene.id[own.row] ? -abreast : abreast);
 }
 
@@ -244,10 +227,11 @@ std::optional<Seen> see(const Own& own, std::size_t other, double reach) {
   Seen seen;
   seen.other = other;
   seen.place =
-      own.path.line.project(scene.position[other], own.along - 2.0 * kAbreast, own.along + reach);
+      own.path.line.project(scene.position[other],
+                            own.along - 2.0 * own.view.parameters.closed_up_gap, own.along + reach);
   // who is narrow and waits for a gap from the far side of the lane beside is seen, too
   if (seen.place.distance > own.half_width + scene.footprint[other].radius + own.margin &&
-      (seen.place.distance > kLaneBeside ||
+      (seen.place.distance > own.view.parameters.near ||
        !changes_into_way(own.view, own.row, other, seen.place.along)))
     return std::nullopt;
   if (!is_ahead(own, other, seen.place.along)) return std::nullopt;
@@ -286,16 +270,18 @@ void pass(const Own& own, const Seen& seen, DrivingAhead& ahead) {
                         std::copysign(1.0, apart) * cross(own.tangent, own.forward),
                         seen.speed,
                         own.taken,
-                        own.narrow ? Manner{} : kOvertaking};
-    cap_passing(passing_speed(passed, own.type), id, ahead);
+                        own.narrow ? filtering_manner(own.view.parameters)
+                                   : overtaking_manner(own.view.parameters)};
+    cap_passing(passing_speed(own.view.parameters, passed, own.type), id, ahead);
     if (own.narrow && seen.gap > 0.0 && passed.aside() > 0.0)
       ahead.turning_way = std::min(ahead.turning_way, seen.gap);
   }
   // two narrow ones make for the same gap: who is behind lets the other in
   if (own.narrow && seen.aligned && !seen.on_foot && is_narrow(2.0 * seen.half_width) &&
-      scene.held[seen.other].standing < kHesitates &&
+      stood(own.view, seen.other) < Patience::Waiting &&
       std::abs(aim_beside(own.view, seen.other, seen.place.offset) - own.aim) < seen.sides)
-    cap_passing(std::max(0.0, scene.speed[seen.other] + kCloses * (seen.gap - own.type.min_gap)),
+    cap_passing(std::max(0.0, scene.speed[seen.other] + own.view.parameters.gap_closing_rate *
+                                                            (seen.gap - own.type.min_gap)),
                 id, ahead);
 }
 
@@ -315,7 +301,7 @@ bool is_clear_of_way(const Own& own, const Seen& seen) {
 /// Somebody beside the driver's way who has to get into it.
 void see_merging(const Own& own, const Seen& seen, DrivingAhead& ahead) {
   const TrafficState& traffic = own.view.traffic;
-  const bool halted = own.view.scene.held[seen.other].standing > kHesitates;
+  const bool halted = stood(own.view, seen.other) >= Patience::Waiting;
   // who stands amid its change is passed like anybody else
   if (!changes_into_way(own.view, own.row, seen.other, seen.place.along) || (seen.passes && halted))
     return;
@@ -327,11 +313,13 @@ void see_merging(const Own& own, const Seen& seen, DrivingAhead& ahead) {
   const LaneId merge_to = traffic.merge_to[own.row];
   const bool swaps =
       !waits && merge_to != kNoLane && merge_to == own.view.scene.lane[seen.other].lane;
-  const double front = seen.front(), nose_from = front - nose_room(front - seen.rear);
+  const double front = seen.front(),
+               nose_from = front - nose_room(own.view.parameters, front - seen.rear);
   // who is on its way already and has its middle ahead needs the room beside it, too
   const bool behind = on_its_way || swaps || seen.rear > own_front + 1.0;
   // from here on
-  const double kept_free = behind ? seen.rear : nose_from - kHaltsBefore + own.type.min_gap;
+  const double kept_free =
+      behind ? seen.rear : nose_from - own.view.parameters.least_gap + own.type.min_gap;
   if (behind ||
       lets_nose_in(own.view, own.row, seen.other, nose_from - own.along - own.half_length))
     note_merging({kept_free, front, seen.speed,
@@ -346,16 +334,15 @@ void see_merging(const Own& own, const Seen& seen, DrivingAhead& ahead) {
 bool is_followed(const Own& own, const Seen& seen) {
   if (seen.passes || seen.gap < -own.half_length) return false;
   if (!seen.aligned && (!seen.on_foot || seen.gap > 2.0 * own.speed + 3.0)) return false;
-  return !(seen.on_foot && own.speed < kCrawl &&
-           (own.view.scene.held[seen.other].standing > kPatience ||
+  return !(seen.on_foot && own.speed < own.view.parameters.crawling_speed &&
+           (stood(own.view, seen.other) >= Patience::Impatient ||
             shuffles_before(own.view, own.row, seen.other)));
 }
 
 }  // namespace
 
-double nose_room(double length) {
-  constexpr double kMost = 2.5, kShare = 0.6;  // [m], of the length
-  return std::min(kMost, kShare * length);
+double nose_room(const TrafficParameters& parameters, double length) {
+  return std::min(parameters.near_line, parameters.nose_room_share * length);
 }
 
 Leader find_leader(const TrafficView& view, std::size_t row, double reach, DrivingAhead& ahead) {
@@ -390,28 +377,31 @@ void see_queue(const TrafficView& view, std::size_t row, double to, DrivingAhead
   const double from = ahead.seen_to;
   if (path == nullptr || to <= from) return;
   ahead.seen_to = to;
-  constexpr double kAside = 6.0;  // [m]
   const double half_width = half_extent(scene, row, left_of(direction_of(scene.heading[row])));
   const double margin = kept_aside(type_of(model.types, scene.type[row]), scene.speed[row]);
   const Vec2 middle = path->line.point_at(0.5 * (from + to));
-  grid.visit_within(middle, 0.5 * (to - from) + kAside, [&](std::size_t other, double) {
-    if (other == row || type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic)
-      return;
-    const PolylinePosition place = path->line.project(scene.position[other], from, to);
-    if (place.distance > kAside || place.along <= from || place.along >= to) return;
-    const Vec2 direction = path->line.direction_at(place.along);
-    const double sides = half_width + half_extent(scene, other, left_of(direction)) + margin;
-    if (direction.dot(direction_of(scene.heading[other])) <= 0.5 ||
-        std::abs(place.offset - traffic.lateral_aim[row]) > sides ||
-        on_other_storey(model.road, scene, row, other))
-      return;
-    const auto begin = ahead.vehicles.begin();
-    const auto end = begin + static_cast<std::ptrdiff_t>(ahead.count);
-    if (std::any_of(begin, end, [&](const auto& seen) { return seen.row == other; })) return;
-    const double half = half_extent(scene, other, direction);
-    ahead.add({place.along - half, place.along + half,
-               std::max(0.0, scene.velocity[other].dot(direction)), scene.id[other].value, other});
-  });
+  grid.visit_within(
+      middle, 0.5 * (to - from) + view.parameters.near, [&](std::size_t other, double) {
+        if (other == row ||
+            type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic)
+          return;
+        const PolylinePosition place = path->line.project(scene.position[other], from, to);
+        if (place.distance > view.parameters.near || place.along <= from || place.along >= to)
+          return;
+        const Vec2 direction = path->line.direction_at(place.along);
+        const double sides = half_width + half_extent(scene, other, left_of(direction)) + margin;
+        if (direction.dot(direction_of(scene.heading[other])) <= 0.5 ||
+            std::abs(place.offset - traffic.lateral_aim[row]) > sides ||
+            on_other_storey(model.road, scene, row, other))
+          return;
+        const auto begin = ahead.vehicles.begin();
+        const auto end = begin + static_cast<std::ptrdiff_t>(ahead.count);
+        if (std::any_of(begin, end, [&](const auto& seen) { return seen.row == other; })) return;
+        const double half = half_extent(scene, other, direction);
+        ahead.add({place.along - half, place.along + half,
+                   std::max(0.0, scene.velocity[other].dot(direction)), scene.id[other].value,
+                   other});
+      });
 }
 
 }  // namespace sumogamma

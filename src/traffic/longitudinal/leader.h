@@ -9,7 +9,7 @@ namespace sumogamma {
 
 /// Way that somebody of this length [m] who waits long for a gap between lanes needs beside its
 /// nose [m].
-double nose_room(double length);
+double nose_room(const TrafficParameters& parameters, double length);
 
 /// What is next in the way on an agent's path.
 struct Leader {

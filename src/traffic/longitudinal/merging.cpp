@@ -1,25 +1,28 @@
 #include "traffic/longitudinal/merging.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "traffic/longitudinal/car_following.h"
 
 namespace sumogamma {
 
-double braking_asked(Merging entrant, double in_the_way, Merging oncomer) {
-  constexpr double kOutlook = 10.0, kStep = 0.2;  // [s]
+double braking_asked(const TrafficParameters& parameters, Merging entrant, double in_the_way,
+                     Merging oncomer) {
   constexpr double kFree = std::numeric_limits<double>::infinity();
+  const double step = 0.5 * parameters.reaction_time;
+  const auto steps = static_cast<int>(std::ceil(parameters.merging_outlook / step));
   double hardest = 0.0;
   auto wish_of = [](const Merging& who) {
     return std::min(who.path.profile_at(who.front - 0.5 * who.length), who.preferred_speed);
   };
-  auto roll = [](double acceleration, Merging& who) {
+  auto roll = [step](double acceleration, Merging& who) {
     const double before = who.speed;
-    who.speed = std::max(0.0, before + acceleration * kStep);
-    who.front += 0.5 * (before + who.speed) * kStep;
+    who.speed = std::max(0.0, before + acceleration * step);
+    who.front += 0.5 * (before + who.speed) * step;
   };
-  for (double time = 0.0; time < kOutlook; time += kStep) {
+  for (int k = 0; k < steps; ++k) {
     const double gap =
         entrant.front - entrant.merged - entrant.length + oncomer.merged - oncomer.front;
     const bool there = entrant.front > in_the_way;

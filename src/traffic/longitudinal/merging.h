@@ -2,6 +2,7 @@
 
 #include "road/path.h"
 #include "scene/agent_type.h"
+#include "traffic/parameters.h"
 
 namespace sumogamma {
 
@@ -22,6 +23,7 @@ struct Merging {
 /// `in_the_way` [m along its path]. This is the safety criterion of MOBIL (Kesting et al. 2007)
 /// taken over time, because who turns in from a halt is slow for seconds. 0 where nobody has to
 /// brake; infinite where they would touch.
-double braking_asked(Merging entrant, double in_the_way, Merging oncomer);
+double braking_asked(const TrafficParameters& parameters, Merging entrant, double in_the_way,
+                     Merging oncomer);
 
 }  // namespace sumogamma

@@ -13,12 +13,10 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kKeepsClearAtEase = 1.4;  // of the comfortable deceleration
-constexpr double kCourtesy = 2.0;          // braking for somebody who has to change lanes [m/s^2]
-constexpr double kSeesLight = 100.0;       // at the head of its queue by who stands [m]
-
 double looked_at(const Driver& driver) {
-  return driver.view.scene.held[driver.course.row].standing > 0.0 ? kSeesLight : driver.reach;
+  return driver.view.scene.held[driver.course.row].standing > 0.0
+             ? driver.view.parameters.queue_outlook
+             : driver.reach;
 }
 
 /// A halt `way` [m] ahead: the front comes to rest there.
@@ -45,19 +43,20 @@ void let_merge(const Driver& driver, StopPoints& found) {
   if (merging.id < 0) return;
   StopPoint point{merging.rear - driver.front, merging.speed,       driver.course.headway_factor,
                   StopPoint{}.most_braking,    LimitReason::Leader, merging.id};
-  if (acceleration_behind(driver, point) <= -kCourtesy && !found.ahead.on_its_way) return;
-  point.most_braking = kCourtesy;
+  if (acceleration_behind(driver, point) <= -driver.view.parameters.courtesy_braking &&
+      !found.ahead.on_its_way)
+    return;
+  point.most_braking = driver.view.parameters.courtesy_braking;
   found.points.push_back(point);
 }
 
 /// Stop lines of neighbouring lanes need not be level: who reaches over the edge of its lane halts
 /// a little before its own [m].
-double beside_lane(const Model& model, const Course& course) {
-  constexpr double kEarlier = 0.6;  // [m]
+double beside_lane(const TrafficParameters& parameters, const Model& model, const Course& course) {
   const Lane& lane = model.road.lane(course.path.stretch_at(course.along).lane);
   const bool beside = lane.kind == LaneKind::Normal &&
                       std::abs(course.offset) + 0.5 * course.type.width > 0.5 * lane.width;
-  return beside ? kEarlier : 0.0;
+  return beside ? parameters.stop_margin : 0.0;
 }
 
 /// Who rides wholly in the lane beside its own, past a queue, drives over that lane's line: at red
@@ -79,7 +78,7 @@ LinkDecision decide_beside(const TrafficView& view, const Course& course,
   if (!red || left < -1.0 || goes_at_red(view.model, view.scene, course.row, link.connection) ||
       deceleration_to_stop(traveller.speed, left) > course.type.max_deceleration)
     return {};
-  return {true, link.halt - kStopMargin, LimitReason::Signal, -1};
+  return {true, link.halt - view.parameters.stop_margin, LimitReason::Signal, -1};
 }
 
 /// Zipper merge: who is nearer to the end of the common ground is followed. Closer than later on:
@@ -143,7 +142,7 @@ void obey_links(const Driver& driver, StopPoints& found) {
     found.to_halt = std::max(way, 0.0);
     // a junction is kept clear at ease or not at all
     if (decision.reason == LimitReason::BlockedJunction)
-      point.most_braking = kKeepsClearAtEase * course.type.comfortable_deceleration;
+      point.most_braking = driver.view.parameters.slack * course.type.comfortable_deceleration;
     found.points.push_back(point);
     break;
   }
@@ -161,10 +160,9 @@ void leave_room_behind(const Driver& driver, StopPoints& found) {
 
 /// Some way before its gate: who rolls over it by a hair begins its change, whoever is beside.
 void wait_at_gate(const Driver& driver, StopPoints& found) {
-  constexpr double kBefore = 0.3;  // [m]
   const double gate = driver.view.traffic.gate[driver.course.row];
   if (!std::isfinite(gate)) return;
-  const double way = gate - kBefore - driver.course.along;
+  const double way = gate - driver.view.parameters.line_tolerance - driver.course.along;
   found.points.push_back(halt_in(way, driver.course.type, LimitReason::Merge));
 }
 
@@ -186,13 +184,13 @@ constexpr Rule kDriving[] = {follow_leader,     let_merge,    obey_links,
 Driver driver_of(const TrafficView& view, const Course& course, double free_speed) {
   const double front = course.along + course.half_length;
   const double braking = course.speed * course.speed / (2.0 * course.type.comfortable_deceleration);
-  return {
-      view,
-      course,
-      front,
-      {course.row, front + beside_lane(view.model, course), 2.0 * course.half_length, course.speed},
-      free_speed,
-      std::min(40.0 + 2.5 * course.speed + braking, 250.0)};
+  return {view,
+          course,
+          front,
+          {course.row, front + beside_lane(view.parameters, view.model, course),
+           2.0 * course.half_length, course.speed},
+          free_speed,
+          std::min(40.0 + 2.5 * course.speed + braking, 250.0)};
 }
 
 double acceleration_behind(const Driver& driver, const StopPoint& point) {

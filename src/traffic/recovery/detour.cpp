@@ -7,21 +7,18 @@
 #include "scene/extent.h"
 #include "traffic/junction/keep_clear.h"
 #include "traffic/lateral/lane_choice.h"
+#include "traffic/patience.h"
 
 namespace sumogamma {
 
 namespace {
 
-constexpr double kPeriod = 1.0;  ///< between two looks of an agent [s]
-constexpr double kShut = 15.0;   ///< stood before a way that is shut [s]
-constexpr double kBack = 20.0;   ///< of path kept behind the body [m]
-
 /// Is the way of a driver shut, and can it still take another one? The link before which it stands,
 /// null where not.
 const PathLink* shut_link(const TrafficView& view, const Path& path, std::size_t row) {
   const LimitReason reason = view.scene.context[row].reason;
-  const bool waits_for_gap = reason == LimitReason::Merge && view.scene.held[row].standing > kShut;
-  if (!path.trip || (!waits_for_gap && view.traffic.keeps_clear[row] < kShut)) return nullptr;
+  const bool waits_for_gap = reason == LimitReason::Merge && stood(view, row) >= Patience::Stuck;
+  if (!path.trip || (!waits_for_gap && kept_clear(view, row) < Patience::Stuck)) return nullptr;
   if (2.0 * half_extent(view.scene, row, direction_of(view.scene.heading[row])) > kLongBody)
     return nullptr;
   const double along = view.scene.path_along[row];
@@ -33,8 +30,8 @@ const PathLink* shut_link(const TrafficView& view, const Path& path, std::size_t
 }
 
 /// Time that each edge takes as the roads are now [s], by EdgeId.
-std::vector<double> travel_times(const RoadNetwork& network, const Scene& scene) {
-  constexpr double kQueued = 5.0;  // for everybody who stands in its lanes [s]
+std::vector<double> travel_times(const TrafficParameters& parameters, const RoadNetwork& network,
+                                 const Scene& scene) {
   std::vector<double> times(network.edges.size());
   for (std::size_t i = 0; i < times.size(); ++i) {
     const Edge& edge = network.edges[i];
@@ -47,15 +44,14 @@ std::vector<double> travel_times(const RoadNetwork& network, const Scene& scene)
     const Lane& lane = network.lane(scene.lane[row].lane);
     if (lane.kind != LaneKind::Normal) continue;
     times[index_of(lane.edge)] +=
-        kQueued / static_cast<double>(network.edge(lane.edge).lanes.size());
+        parameters.queued_vehicle_time / static_cast<double>(network.edge(lane.edge).lanes.size());
   }
   return times;
 }
 
 /// Is there room at the begin of a path's next road for its agent?
-bool has_room(const Model& model, const Path& path, double along, const Scene& scene,
-              std::size_t row) {
-  constexpr double kRoom = 3.0;  // besides its own length [m]
+bool has_room(const TrafficParameters& parameters, const Model& model, const Path& path,
+              double along, const Scene& scene, std::size_t row) {
   const auto link = path.link_after(along);
   if (link == path.links.end()) return true;
   const LaneId target = model.road.connection(link->connection).to;
@@ -63,7 +59,7 @@ bool has_room(const Model& model, const Path& path, double along, const Scene& s
   for (std::size_t other = 0; other < scene.size(); ++other) {
     if (scene.lane[other].lane != target || scene.speed[other] > 2.0) continue;
     const double half = half_extent(scene, other, direction_of(scene.heading[other]));
-    if (scene.lane[other].along - half < own + kRoom) return false;
+    if (scene.lane[other].along - half < own + parameters.near_line) return false;
   }
   return true;
 }
@@ -78,7 +74,8 @@ std::uint64_t take_detours(const TrafficTick& tick) {
   const TrafficView view = tick.view();
   std::uint64_t taken = 0;
   std::vector<double> times;
-  const auto period = std::max<std::int64_t>(1, std::llround(kPeriod / model.options.step));
+  const auto period =
+      std::max<std::int64_t>(1, std::llround(tick.parameters.look_period / model.options.step));
   auto go_on = [&](Path way, double along, std::size_t row) {
     change_path(std::move(way), along, row, road, scene, traffic);
     forget_lane_change(traffic, row);
@@ -92,13 +89,13 @@ std::uint64_t take_detours(const TrafficTick& tick) {
     double along = scene.path_along[row];
     if (scene.context[row].reason == LimitReason::Merge) {
       // the lane may lead where it has to go as well, if not as easily
-      constexpr double kNotAsEasily = 10.0;  // lane changes more
-      if (auto kept = keep_lane(model.road, *path, along, kNotAsEasily, kBack)) {
+      if (auto kept = keep_lane(model.road, *path, along, tick.parameters.not_as_easily,
+                                tick.parameters.nearby)) {
         go_on(std::move(*kept), along, row);
         continue;
       }
     }
-    if (times.empty()) times = travel_times(model.road, scene);
+    if (times.empty()) times = travel_times(tick.parameters, model.road, scene);
     const PathStretch& here = path->stretch_at(along);
     // by any way but the one that is shut
     const EdgeId full = model.road.lane(model.road.connection(shut->connection).to).edge;
@@ -108,8 +105,9 @@ std::uint64_t take_detours(const TrafficTick& tick) {
                                path->trip->request.vehicle_class, times);
     times[index_of(full)] = passable;
     if (route.size() < 2 || route[1] == full) continue;
-    auto taken_path = take_route(model.road, *path, along, std::move(route), kBack);
-    if (!taken_path || !has_room(model, *taken_path, along, scene, row)) continue;
+    auto taken_path =
+        take_route(model.road, *path, along, std::move(route), tick.parameters.nearby);
+    if (!taken_path || !has_room(tick.parameters, model, *taken_path, along, scene, row)) continue;
     go_on(std::move(*taken_path), along, row);
     forget_keeping_clear(traffic, row);
     ++taken;

@@ -14,22 +14,18 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kLost = 12.0;       ///< driven without getting on [m]
-constexpr double kItsWay = 0.5;      ///< least cosine of the angle to a way that leads as one heads
-constexpr double kBackOnPath = 4.0;  ///< from its path, of who is on it again [m]
-constexpr double kBehind = 20.0;     ///< of path kept behind the body [m]
-
 /// The nearest place on the row's own path, up to some way ahead, that it stands on, headed as the
 /// path leads.
-std::optional<double> place_ahead(const Path& path, const Scene& scene, std::size_t row) {
-  constexpr double kAhead = 150.0, kStep = 1.0;  // [m]
+std::optional<double> place_ahead(const TrafficParameters& parameters, const Path& path,
+                                  const Scene& scene, std::size_t row) {
   const Vec2 forward = direction_of(scene.heading[row]);
-  const double from = scene.path_along[row], to = std::min(from + kAhead, path.arrival);
+  const double from = scene.path_along[row],
+               to = std::min(from + parameters.queue_outlook, path.arrival);
   std::optional<double> best;
-  double nearest = kBackOnPath;
-  for (double along = from; along <= to; along += kStep) {
+  double nearest = parameters.near;
+  for (double along = from; along <= to; along += parameters.path_step) {
     const double distance = (path.line.point_at(along) - scene.position[row]).norm();
-    if (distance >= nearest || path.line.direction_at(along).dot(forward) < kItsWay) continue;
+    if (distance >= nearest || path.line.direction_at(along).dot(forward) < 0.5) continue;
     nearest = distance;
     best = along;
   }
@@ -43,17 +39,18 @@ struct Candidate {
 };
 
 /// Lanes near the row that lead as it heads, nearest first.
-std::vector<Candidate> lanes_near(const RoadNetwork& network, VehicleClassMask vehicle_class,
-                                  const Scene& scene, std::size_t row) {
-  constexpr double kReach = 15.0, kLeast = 10.0;  // of the lane ahead [m]
+std::vector<Candidate> lanes_near(const TrafficParameters& parameters, const RoadNetwork& network,
+                                  VehicleClassMask vehicle_class, const Scene& scene,
+                                  std::size_t row) {
   const Vec2 forward = direction_of(scene.heading[row]);
   std::vector<Candidate> found;
   for (std::size_t i = 0; i < network.lanes.size(); ++i) {
     const Lane& lane = network.lanes[i];
     if (lane.kind != LaneKind::Normal || (lane.allowed & vehicle_class) == 0) continue;
     const PolylinePosition place = lane.centerline.project(scene.position[row]);
-    if (place.distance > kReach || place.along > lane.centerline.length() - kLeast ||
-        lane.centerline.direction_at(place.along).dot(forward) < kItsWay)
+    if (place.distance > parameters.nearby ||
+        place.along > lane.centerline.length() - parameters.soon_way ||
+        lane.centerline.direction_at(place.along).dot(forward) < 0.5)
       continue;
     found.push_back({static_cast<LaneId>(i), place.distance, place.along});
   }
@@ -75,11 +72,13 @@ std::vector<double> free_times(const RoadNetwork& network) {
 }
 
 /// A new path to the row's destination from a lane near it; `along` is its place on that.
-std::optional<Path> way_from_here(const RoadNetwork& network, const Path& path, const Scene& scene,
-                                  std::size_t row, double& along) {
+std::optional<Path> way_from_here(const TrafficParameters& parameters, const RoadNetwork& network,
+                                  const Path& path, const Scene& scene, std::size_t row,
+                                  double& along) {
   const Trip& trip = *path.trip;
   const std::vector<double> times = free_times(network);
-  for (const Candidate& candidate : lanes_near(network, trip.request.vehicle_class, scene, row)) {
+  for (const Candidate& candidate :
+       lanes_near(parameters, network, trip.request.vehicle_class, scene, row)) {
     const EdgeId edge = network.lane(candidate.lane).edge;
     const std::vector<EdgeId> route =
         edge == trip.route.back() ? std::vector<EdgeId>{edge}
@@ -89,7 +88,7 @@ std::optional<Path> way_from_here(const RoadNetwork& network, const Path& path, 
     PathRequest request = trip.request;
     request.route = route;
     request.start_lane = candidate.lane;
-    request.start_along = std::max(candidate.along - kBehind, 0.0);
+    request.start_along = std::max(candidate.along - parameters.nearby, 0.0);
     std::string why;
     auto found = build_driving_path(network, request, why);
     if (!found || found->arrival < candidate.along - request.start_along) continue;
@@ -101,12 +100,11 @@ std::optional<Path> way_from_here(const RoadNetwork& network, const Path& path, 
 
 }  // namespace
 
-void note_progress(double before, double dt, const Scene& scene, TrafficState& traffic,
-                   std::size_t row) {
-  constexpr double kForgiven = 1.3;  // who swings out in a bend drives further than its path
+void note_progress(const TrafficParameters& parameters, double before, double dt,
+                   const Scene& scene, TrafficState& traffic, std::size_t row) {
   const double got_on = std::max(scene.path_along[row] - before, 0.0);
   const double driven = scene.velocity[row].norm() * dt;
-  traffic.strayed[row] = std::max(traffic.strayed[row] + driven - kForgiven * got_on, 0.0);
+  traffic.strayed[row] = std::max(traffic.strayed[row] + driven - parameters.slack * got_on, 0.0);
 }
 
 void find_ways_back(const TrafficTick& tick) {
@@ -115,11 +113,11 @@ void find_ways_back(const TrafficTick& tick) {
   Scene& scene = tick.scene;
   TrafficState& traffic = tick.traffic;
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (traffic.strayed[row] < kLost) continue;
+    if (traffic.strayed[row] < tick.parameters.soon_way) continue;
     traffic.strayed[row] = 0.0;
     const Path* path = road.path(scene.path[row]);
     if (path == nullptr || !path->trip || scene.control[row] != Control::Gamma) continue;
-    if (const auto place = place_ahead(*path, scene, row)) {
+    if (const auto place = place_ahead(tick.parameters, *path, scene, row)) {
       scene.path_along[row] = *place;
       continue;
     }
@@ -130,7 +128,7 @@ void find_ways_back(const TrafficTick& tick) {
                     [&](const PathStop& stop) { return stop.along > along_now; }))
       continue;
     double along = 0.0;
-    auto found = way_from_here(network, *path, scene, row, along);
+    auto found = way_from_here(tick.parameters, network, *path, scene, row, along);
     if (!found) continue;
     change_path(std::move(*found), along, row, road, scene, traffic);
     forget_lane_change(traffic, row);

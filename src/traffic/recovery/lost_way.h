@@ -6,8 +6,8 @@ namespace sumogamma {
 
 /// Counts how far a row has driven without getting on along its path, on which it was at `before`
 /// [m] a tick ago.
-void note_progress(double before, double dt, const Scene& scene, TrafficState& traffic,
-                   std::size_t row);
+void note_progress(const TrafficParameters& parameters, double before, double dt,
+                   const Scene& scene, TrafficState& traffic, std::size_t row);
 
 /// Drivers who have lost their way get one: who has driven for 12 m though its place on its path
 /// stood still, be it that the path leads where the body can't, goes on from the nearest place

@@ -9,51 +9,36 @@
 #include "geometry/rotation.h"
 #include "model/stopping_guard.h"
 #include "scene/storey.h"
+#include "traffic/patience.h"
 
 namespace sumogamma {
 
 namespace {
-
-constexpr double kPace = 0.48;          // walking backwards [m/s]
-constexpr double kThrottle = 1.0;       // [m/s^2]
-constexpr double kBrake = 2.0;          // [m/s^2]
-constexpr double kLeast = 8.0;          // wedged for so long before anybody backs out [s]
-constexpr double kStagger = 8.0;        // and up to so much longer, so that not all do at once [s]
-constexpr double kTries = 14.0;         // rolls back for so long at the most [s]
-constexpr double kStarts = 0.5;         // until it rolls [s]
-constexpr double kMakesRoom = 12.0;     // likewise who lets somebody back out [s]
-constexpr double kStepsBack = 5.0;      // likewise who stands in somebody's way [s]
-constexpr double kHeldUp = 8.0;         // and has stood for so long before [s]
-constexpr double kGivesWay = 6.0;       // then let others go first, for so long at the least [s]
-constexpr double kStaggerAfter = 18.0;  // and up to so much longer [s]
-constexpr double kClear = 0.25;         // kept to everybody behind [m]
-constexpr double kRoomToBegin = 0.5;    // [m]
-constexpr double kTarget = 3.0;         // behind the rear axle, aimed at on the path [m]
-constexpr double kStill = 0.01;         // [m/s]
-constexpr int kLongest = 12;            // chain of those who wait for one another
 
 double backward_speed(const Scene& scene, std::size_t row) {
   return std::max(0.0, -scene.velocity[row].dot(direction_of(scene.heading[row])));
 }
 
 /// How long this row stands wedged before it backs out [s]: drawn anew for each stretch of time.
-double patience(const Scene& scene, std::size_t row) {
-  const auto stretch = static_cast<std::uint64_t>(scene.time / (kLeast + kStagger));
-  return kLeast + random_uniform(0, scene.id[row].value, stretch, Draw::Intention, 0.0, kStagger);
+double patience(const TrafficParameters& parameters, const Scene& scene, std::size_t row) {
+  const auto stretch = static_cast<std::uint64_t>(scene.time / parameters.stuck);
+  return random_uniform(0, scene.id[row].value, stretch, Draw::Intention, parameters.pressing,
+                        parameters.stuck);
 }
 
 /// How long this row lets others go first after it has backed out [s].
-double courtesy(const Scene& scene, std::size_t row) {
-  return kGivesWay + random_uniform(1, scene.id[row].value, static_cast<std::uint64_t>(scene.time),
-                                    Draw::Intention, 0.0, kStaggerAfter);
+double courtesy(const TrafficParameters& parameters, const Scene& scene, std::size_t row) {
+  return parameters.giving_way_time +
+         random_uniform(1, scene.id[row].value, static_cast<std::uint64_t>(scene.time),
+                        Draw::Intention, 0.0, parameters.giving_way_spread);
 }
 
 /// Front wheels that bring the rear axle back along the path (pure pursuit backwards).
-double lock_along_path(const Path& path, const Scene& scene, const AgentType& type,
-                       std::size_t row) {
+double lock_along_path(const TrafficParameters& parameters, const Path& path, const Scene& scene,
+                       const AgentType& type, std::size_t row) {
   const Vec2 forward = direction_of(scene.heading[row]);
   const Vec2 axle = scene.position[row] - type.rear_axle_to_center * forward;
-  const double behind = scene.path_along[row] - type.rear_axle_to_center - kTarget;
+  const double behind = scene.path_along[row] - type.rear_axle_to_center - parameters.near_line;
   if (behind < 0.0) return 0.0;
   const Vec2 way = path.line.point_at(behind) - axle;
   return type.wheelbase * 2.0 * cross(forward, way) / std::max(way.squaredNorm(), 1.0);
@@ -61,34 +46,34 @@ double lock_along_path(const Path& path, const Scene& scene, const AgentType& ty
 
 /// Where a vehicle is until it stands if it brakes now, and over the next second: nobody backs out
 /// across the way of who drives past.
-OrientedBox ahead_of(const AgentGeometry& their) {
-  constexpr double kDrivesPast = 1.0;  // [m/s]
-  constexpr double kAhead = 1.0;       // [s]
-  const double way = kAhead * their.velocity.dot(their.forward);
+OrientedBox ahead_of(const TrafficParameters& parameters, const AgentGeometry& their) {
+  const double way = parameters.time_gap * their.velocity.dot(their.forward);
   const double rest = their.braking.half.x() - their.half.x();  // half the way to a stop
-  if (way < kDrivesPast * kAhead || way < 2.0 * rest) return their.braking;
+  if (way < parameters.crawling_speed * parameters.time_gap || way < 2.0 * rest)
+    return their.braking;
   const OrientedBox box = their.box();
   return {box.center + 0.5 * way * box.forward, box.forward, box.half + Vec2(0.5 * way, 0.0)};
 }
 
 /// Does a pose keep clear of everybody, or come no closer to who is close?
-bool keeps_clear(const RoadNetwork& network, const Scene& scene, const TickGeometry& geometry,
-                 std::size_t row, const BodyState& body) {
+bool keeps_clear(const TrafficView& view, const TickGeometry& geometry, std::size_t row,
+                 const BodyState& body) {
   const AgentGeometry& own = geometry.agent[row];
   const Vec2 forward = direction_of(body.heading);
   const OrientedBox box{body.position + own.shift * forward, forward, own.half};
   bool clear = true;
   geometry.grid.visit_within(
       body.position, own.radius + kFarthestCorner, [&](std::size_t other, double) {
-        if (other == row || !clear || on_other_storey(network, scene, row, other)) return;
+        if (other == row || !clear || on_other_storey(view.model.road, view.scene, row, other))
+          return;
         const AgentGeometry& their = geometry.agent[other];
-        const double kept = kClear + std::min(their.throttle_way, 0.3);
+        const double kept = view.parameters.side_clearance + std::min(their.throttle_way, 0.3);
         if (!their.is_box) {
           clear = (their.position - body.position).norm() > own.radius + their.radius + kept ||
                   (their.position - body.position).norm() > (their.position - own.position).norm();
           return;
         }
-        const OrientedBox taken = ahead_of(their);
+        const OrientedBox taken = ahead_of(view.parameters, their);
         const double gap = separation(box, taken);
         if (gap < kept) clear = gap > separation(own.box(), taken) - 1e-9;
       });
@@ -104,73 +89,77 @@ bool finds_gap(const TrafficView& view, std::size_t row) {
 
 /// Is this row right behind one that means to back out, or to make room itself, and can't?
 bool makes_room(const TrafficView& view, std::size_t row) {
-  constexpr double kTried = 1.0;  // [s]
   const RoadContext& context = view.scene.context[row];
-  if (context.reason != LimitReason::Leader || view.scene.held[row].standing < kHeldUp)
-    return false;
+  if (context.reason != LimitReason::Leader || stood(view, row) < Patience::Pressing) return false;
   const std::size_t leader = foe_row(view.scene, row);
-  return leader < view.scene.size() && view.scene.held[leader].standing > kHeldUp &&
+  return leader < view.scene.size() && stood(view, leader) >= Patience::Pressing &&
          view.traffic.backing_left[leader] > 0.0 &&
-         view.traffic.backing_left[leader] < kTries - kTried;
+         view.traffic.backing_left[leader] <
+             view.parameters.backing_time - view.parameters.time_gap;
 }
 
 /// Is `holds` true of anybody on wheels near a row, one that is itself on wheels?
 template <typename Holds>
-bool any_wheeled(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                 std::size_t row, Holds holds) {
+bool any_wheeled(const TrafficView& view, const TickGeometry& geometry, std::size_t row,
+                 Holds holds) {
   const AgentGeometry& own = geometry.agent[row];
   if (!own.on_wheels || !own.is_box) return false;
   bool found = false;
   geometry.grid.visit_within(
       own.position, own.radius + kFarthestCorner, [&](std::size_t other, double) {
         const AgentGeometry& their = geometry.agent[other];
-        found = found || (other != row && their.on_wheels && their.is_box &&
-                          !on_other_storey(model.road, scene, row, other) && holds(other));
+        found =
+            found || (other != row && their.on_wheels && their.is_box &&
+                      !on_other_storey(view.model.road, view.scene, row, other) && holds(other));
       });
   return found;
 }
 
 /// Is a body in the room that another one needs to drive on?
-bool is_in_room_of(const AgentGeometry& body, const AgentGeometry& other) {
-  constexpr double kWay = 2.0, kBeside = 0.4;  // [m]
+bool is_in_room_of(const TrafficParameters& parameters, const AgentGeometry& body,
+                   const AgentGeometry& other) {
   const OrientedBox box = other.box();
-  const OrientedBox room{box.center + 0.5 * (kWay - kBeside) * box.forward, box.forward,
-                         box.half + Vec2(0.5 * (kWay + kBeside), kBeside)};
+  const OrientedBox room{
+      box.center + 0.5 * (parameters.near_line - parameters.side_clearance) * box.forward,
+      box.forward,
+      box.half + Vec2(0.5 * (parameters.near_line + parameters.side_clearance),
+                      parameters.side_clearance)};
   return separation(body.box(), room) < 0.0;
 }
 
 /// Does this row stand in the way of somebody wedged of whom `concerns` is true?
 template <typename Concerns>
-bool stands_before(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                   std::size_t row, Concerns concerns) {
-  return any_wheeled(model, scene, geometry, row, [&](std::size_t other) {
-    return is_wedged(scene, other) && is_in_room_of(geometry.agent[row], geometry.agent[other]) &&
+bool stands_before(const TrafficView& view, const TickGeometry& geometry, std::size_t row,
+                   Concerns concerns) {
+  return any_wheeled(view, geometry, row, [&](std::size_t other) {
+    return is_wedged(view.scene, other) &&
+           is_in_room_of(view.parameters, geometry.agent[row], geometry.agent[other]) &&
            concerns(other);
   });
 }
 
 /// Does somebody who lets others go first stand in this row's way? It steps back further.
 bool is_made_way_for(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
-  const Model& model = view.model;
-  const Scene& scene = view.scene;
   const TrafficState& traffic = view.traffic;
-  return any_wheeled(model, scene, geometry, row, [&](std::size_t other) {
+  return any_wheeled(view, geometry, row, [&](std::size_t other) {
     return traffic.gives_way_left[other] > 0.0 &&
-           is_in_room_of(geometry.agent[other], geometry.agent[row]);
+           is_in_room_of(view.parameters, geometry.agent[other], geometry.agent[row]);
   });
 }
 
 /// Does a row wait for another, be it over others?
-bool is_in_chain_behind(const Scene& scene, std::size_t row, std::size_t other) {
-  return waits_for(scene, row, other, kLongest,
-                   [&](std::size_t waiting) { return foe_row(scene, waiting); });
+bool is_in_chain_behind(const TrafficView& view, std::size_t row, std::size_t other) {
+  const auto longest = static_cast<int>(view.parameters.longest_chain);
+  return waits_for(view.scene, row, other, longest,
+                   [&](std::size_t waiting) { return foe_row(view.scene, waiting); });
 }
 
 /// Is there somebody wedged at the end of the chain of those who wait for one another from this row
 /// on?
-bool waits_for_wedged(const Scene& scene, std::size_t row) {
+bool waits_for_wedged(const TrafficView& view, std::size_t row) {
+  const Scene& scene = view.scene;
   std::size_t last = row;
-  for (int k = 0; k < kLongest; ++k) {
+  for (int k = 0; k < static_cast<int>(view.parameters.longest_chain); ++k) {
     const std::size_t next = foe_row(scene, last);
     if (next >= scene.size()) break;
     last = next;
@@ -180,55 +169,50 @@ bool waits_for_wedged(const Scene& scene, std::size_t row) {
 
 /// Does this row stand in the way of somebody wedged, and wait itself for that one or for another
 /// who is? Of three who hold each other the one with room behind may wait for the wrong one.
-bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                       std::size_t row) {
-  constexpr double kLong = 12.0;  // [s]
-  return scene.held[row].standing > kLong && !is_wedged(scene, row) && !scene.context[row].at_red &&
-         stands_before(model, scene, geometry, row, [&](std::size_t other) {
-           return scene.held[other].blocked > kHeldUp &&
-                  (is_in_chain_behind(scene, row, other) || waits_for_wedged(scene, row));
+bool stands_in_the_way(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
+  const Scene& scene = view.scene;
+  return stood(view, row) >= Patience::Pressing && !is_wedged(scene, row) &&
+         !scene.context[row].at_red && stands_before(view, geometry, row, [&](std::size_t other) {
+           return blocked(view, other) >= Patience::Pressing &&
+                  (is_in_chain_behind(view, row, other) || waits_for_wedged(view, row));
          });
 }
 
 /// Has this row rolled back to let others go first, but not far enough for one of them?
-bool is_still_in_the_way(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                         std::size_t row) {
-  constexpr double kSees = 3.0;  // [s]
-  return backward_speed(scene, row) < kStill &&
-         stands_before(model, scene, geometry, row,
-                       [&](std::size_t other) { return scene.held[other].blocked > kSees; });
+bool is_still_in_the_way(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
+  return backward_speed(view.scene, row) < 1e-2 &&
+         stands_before(view, geometry, row, [&](std::size_t other) {
+           return blocked(view, other) >= Patience::Waiting;
+         });
 }
 
 /// Is somebody near in front of a row that lets others go first held up for other reasons than the
 /// row?
 bool lets_somebody_go(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
-  const Model& model = view.model;
-  const Scene& scene = view.scene;
-  const TrafficState& traffic = view.traffic;
-  constexpr double kHeld = 2.0;  // [s]
   const AgentGeometry& own = geometry.agent[row];
-  return any_wheeled(model, scene, geometry, row, [&](std::size_t other) {
+  return any_wheeled(view, geometry, row, [&](std::size_t other) {
     const Vec2 way = geometry.agent[other].position - own.position;
-    return way.dot(own.forward) > 0.0 && traffic.waiting_time[other] > kHeld &&
-           !is_in_chain_behind(scene, other, row);
+    return way.dot(own.forward) > 0.0 && waited(view, other) >= Patience::Waiting &&
+           !is_in_chain_behind(view, other, row);
   });
 }
 
 /// One that rolls back goes on with it for its time, unless it moves on, and then lets the others
 /// go first. Who finds no gap to change lanes and comes up against somebody behind gives way from
 /// there. Not for other reasons: that may lock up a large junction.
-Backing go_on_backing(const Scene& scene, std::size_t row, double dt, Backing now) {
-  const bool moved_on = scene.speed[row] > kPace;
+Backing go_on_backing(const TrafficParameters& parameters, const Scene& scene, std::size_t row,
+                      double dt, Backing now) {
+  const bool moved_on = scene.speed[row] > parameters.slow_walk;
   const double standing = scene.held[row].standing;
   const bool no_further = scene.context[row].reason == LimitReason::Merge &&
-                          backward_speed(scene, row) < kStill &&
-                          standing < kTries - now.left - kStarts;
+                          backward_speed(scene, row) < 1e-2 &&
+                          standing < parameters.backing_time - now.left - parameters.reaction_time;
   const double left = moved_on || no_further ? 0.0 : now.left - dt;
   if (left > 0.0) return {left, now.gives_way};
   // who made room for somebody follows it again
-  const bool rolled = standing < kTries;
+  const bool rolled = standing < parameters.backing_time;
   const bool for_itself = scene.context[row].reason != LimitReason::Leader;
-  return {0.0, rolled && for_itself && !moved_on ? courtesy(scene, row) : 0.0};
+  return {0.0, rolled && for_itself && !moved_on ? courtesy(parameters, scene, row) : 0.0};
 }
 
 /// For how long a row rolls back that does neither that nor lets others go first [s]; 0: not at
@@ -236,11 +220,13 @@ Backing go_on_backing(const Scene& scene, std::size_t row, double dt, Backing no
 Backing begin_backing(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
   const Scene& scene = view.scene;
   if (!scene.context[row].at_red && is_wedged(scene, row) &&
-      scene.held[row].blocked > patience(scene, row) && !is_made_way_for(view, geometry, row))
-    return {kTries, 0.0};
-  if (makes_room(view, row)) return {kMakesRoom, 0.0};
-  if (stands_in_the_way(view.model, scene, geometry, row))
-    return {kStepsBack, kStepsBack + kGivesWay};
+      scene.held[row].blocked > patience(view.parameters, scene, row) &&
+      !is_made_way_for(view, geometry, row))
+    return {view.parameters.backing_time, 0.0};
+  if (makes_room(view, row)) return {view.parameters.backing_time, 0.0};
+  if (stands_in_the_way(view, geometry, row))
+    return {view.parameters.giving_way_time,
+            view.parameters.giving_way_time + view.parameters.giving_way_time};
   return {};
 }
 
@@ -250,13 +236,15 @@ Backing next_backing(const TrafficView& view, const TickGeometry& geometry, doub
   const Scene& scene = view.scene;
   Backing now{view.traffic.backing_left[row], std::max(0.0, view.traffic.gives_way_left[row] - dt)};
   if (finds_gap(view, row)) now = {};
-  if (now.gives_way > 0.0 && now.left <= 0.0 && scene.held[row].standing > kGivesWay &&
+  if (now.gives_way > 0.0 && now.left <= 0.0 &&
+      scene.held[row].standing > view.parameters.giving_way_time &&
       !lets_somebody_go(view, geometry, row))
     now.gives_way = 0.0;
-  if (now.left > 0.0) return go_on_backing(scene, row, dt, now);
+  if (now.left > 0.0) return go_on_backing(view.parameters, scene, row, dt, now);
   if (now.gives_way <= 0.0) return begin_backing(view, geometry, row);
-  if (is_still_in_the_way(view.model, scene, geometry, row))
-    return {kStepsBack, kStepsBack + kGivesWay};
+  if (is_still_in_the_way(view, geometry, row))
+    return {view.parameters.giving_way_time,
+            view.parameters.giving_way_time + view.parameters.giving_way_time};
   return now;
 }
 
@@ -283,32 +271,33 @@ std::optional<BodyState> back_out(const TrafficView& view, const TickGeometry& g
   const Scene& scene = view.scene;
   const TrafficState& traffic = view.traffic;
   const double now = backward_speed(scene, row);
-  const bool backing = traffic.backing_left[row] > 0.0 || now > kStill;
-  if (!backing || scene.speed[row] > kStill) return std::nullopt;
+  const bool backing = traffic.backing_left[row] > 0.0 || now > 1e-2;
+  if (!backing || scene.speed[row] > 1e-2) return std::nullopt;
   const AgentGeometry& own = geometry.agent[row];
   const Path* path = road.path(scene.path[row]);
   if (path == nullptr || !own.on_wheels || !own.is_box) return std::nullopt;
   const AgentType& type = type_of(model.types, scene.type[row]);
   const BodyState body = body_of(scene, row);
   // as fast as it can still stop before the time is over and before whoever is behind
-  const double speed = std::min({kPace, now + kThrottle * dt, kBrake * traffic.backing_left[row]});
-  const double to_stop = speed * dt + 0.5 * speed * speed / kBrake;
+  const double speed = std::min({view.parameters.slow_walk, now + view.parameters.easy_braking * dt,
+                                 view.parameters.easy_braking * traffic.backing_left[row]});
+  const double to_stop = speed * dt + 0.5 * speed * speed / view.parameters.easy_braking;
   // back along its path, or else straight or to a side: who stands beside may leave just that. Who
   // makes room stays on its road
-  const double along_path = lock_along_path(*path, scene, type, row);
+  const double along_path = lock_along_path(view.parameters, *path, scene, type, row);
   const double most = std::tan(type.max_steering);
   const std::array locks{along_path, 0.0, most, -most};
   for (const double lock : std::span(locks).first(is_wedged(scene, row) ? 4 : 2)) {
     const auto is_free = [&](double way) {
-      return keeps_clear(model.road, scene, geometry, row,
-                         roll_back(type, body, lock, way / dt, dt));
+      return keeps_clear(view, geometry, row, roll_back(type, body, lock, way / dt, dt));
     };
     // a nose that swings may press into somebody on the way to a place that is free
-    if (is_free(to_stop) && (now > kStill || is_free(kRoomToBegin)))
+    if (is_free(to_stop) && (now > 1e-2 || is_free(view.parameters.least_gap)))
       return roll_back(type, body, lock, speed, dt);
   }
-  if (now <= kStill) return std::nullopt;
-  return roll_back(type, body, along_path, std::max(0.0, now - kBrake * dt), dt);
+  if (now <= 1e-2) return std::nullopt;
+  return roll_back(type, body, along_path, std::max(0.0, now - view.parameters.easy_braking * dt),
+                   dt);
 }
 
 }  // namespace sumogamma

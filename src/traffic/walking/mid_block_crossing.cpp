@@ -7,21 +7,11 @@
 #include "scene/storey.h"
 #include "traffic/junction/occupation.h"
 #include "traffic/longitudinal/car_following.h"
+#include "traffic/patience.h"
 
 namespace sumogamma {
 
 namespace {
-
-constexpr double kNear = 4.0;     ///< before the kerb the road is looked at from here on [m]
-constexpr double kOnIt = 0.3;     ///< who is further past the kerb crosses [m]
-constexpr double kSetOut = 1.0;   ///< who walks so far before the kerb, or further, keeps to it [m]
-constexpr double kBefore = 0.2;   ///< a waiting front halts so far before the kerb [m]
-constexpr double kBeside = 0.5;   ///< kept to bodies [m]
-constexpr double kSetsOut = 0.5;  ///< it takes to get going [s]
-constexpr double kMargin = 2.0;   ///< to whoever comes next [s]
-constexpr double kLeast = 0.5;    ///< likewise after kPatience [s]
-constexpr double kPatience = 45.0;              ///< [s]
-constexpr double kStands = 0.3, kCrawls = 1.0;  ///< [m/s]
 
 /// The piece over a road that somebody on foot has before it.
 struct Piece {
@@ -56,38 +46,39 @@ std::optional<Meeting> find_meeting(const Polyline& line, double along, double b
 
 /// Does a vehicle that meets the piece have somebody on foot wait?
 bool holds(const TrafficView& view, std::size_t row, const Meeting& meeting, const Piece& piece) {
-  constexpr double kClear = 3.0;  // before who crawls [m]
-  constexpr double kEasy = 2.0;   // to brake [m/s^2]
-  constexpr double kSeen = 3.0;   // time for that at the least [s]
   const Scene& scene = view.scene;
   const AgentType& type = type_of(view.model.types, scene.type[row]);
   const double half_length = scene.footprint[row].radius;
-  const double side = piece.half_width + kBeside;
+  const double side = piece.half_width + view.parameters.ample_side;
   const double gap = meeting.way - half_length - side;
   const double speed = scene.speed[row];
   if (meeting.way + half_length + side < 0.0) return false;
-  const bool patient = piece.waited < kPatience;
-  if (speed < kStands) return gap < 0.0 && patient;
-  if (speed < kCrawls && gap > kClear) return false;
-  const double swath = 0.5 * type.width + kBeside;
+  const bool patient = patience_after(view.parameters, piece.waited) < Patience::Desperate;
+  if (speed < view.parameters.standing_speed) return gap < 0.0 && patient;
+  if (speed < view.parameters.crawling_speed && gap > view.parameters.near_line) return false;
+  const double swath = 0.5 * type.width + view.parameters.ample_side;
   const double into = (meeting.place - swath - piece.front) / piece.pace;
-  const double past = kSetsOut + (meeting.place + swath + piece.length - piece.front) / piece.pace;
+  const double past = view.parameters.reaction_time +
+                      (meeting.place + swath + piece.length - piece.front) / piece.pace;
   const Occupation taken = occupation(
       view, {kNoConnection, static_cast<std::uint32_t>(row), half_length, 2.0 * half_length, speed},
       meeting.way - side, meeting.way + side);
-  const double margin = kMargin + (kLeast - kMargin) * std::min(piece.waited / kPatience, 1.0);
+  const double margin = view.parameters.walker_time_gap +
+                        (view.parameters.reaction_time - view.parameters.walker_time_gap) *
+                            impatience_after(view.parameters, piece.waited);
   if (taken.end + margin < into || taken.begin > past + margin) return false;
-  return patient || taken.begin < kSeen || deceleration_to_stop(speed, gap) > kEasy;
+  return patient || taken.begin < view.parameters.soon ||
+         deceleration_to_stop(speed, gap) > view.parameters.courtesy_braking;
 }
 
 /// Id of the nearest vehicle that has somebody on foot wait, -1 where none does.
 std::int64_t find_who_comes(const TrafficView& view, std::size_t row, const Piece& piece) {
   const Scene& scene = view.scene;
-  constexpr double kFast = 17.0;       // [m/s]
-  constexpr double kFarthest = 250.0;  // [m]
   const double width = (piece.end - piece.begin).norm();
-  const double time = kSetsOut + (width + piece.length) / piece.pace + kMargin;
-  const double reach = std::min(kFast * time + width, kFarthest);
+  const double time = view.parameters.reaction_time + (width + piece.length) / piece.pace +
+                      view.parameters.walker_time_gap;
+  const double reach =
+      std::min(2.0 * view.parameters.flow_speed * time + width, view.parameters.sight);
   std::int64_t foe = -1;
   double nearest = reach * reach;
   view.grid.visit_within(scene.position[row], reach, [&](std::size_t other, double distance) {
@@ -114,15 +105,15 @@ std::int64_t find_who_comes(const TrafficView& view, std::size_t row, const Piec
 }  // namespace
 
 LinkDecision decide_at_kerb(const TrafficView& view, const Traveller& walker, double pace) {
-  const auto& [model, road, scene, traffic, grid, approaches] = view;
+  const auto& [model, road, scene, traffic, grid, approaches, parameters] = view;
   const Path& path = *road.path(scene.path[walker.row]);
   for (const RoadCrossing& over : path.over_road) {
-    if (walker.front > over.begin + kOnIt) continue;
-    if (walker.front < over.begin - kNear) break;
+    if (walker.front > over.begin + view.parameters.line_tolerance) continue;
+    if (walker.front < over.begin - view.parameters.near) break;
     // who was let go keeps to it: its patience is gone with its first step
     const RoadContext& before = scene.context[walker.row];
     const bool let_go = before.active && before.reason != LimitReason::Crossing;
-    if (let_go && walker.front > over.begin - kSetOut) break;
+    if (let_go && walker.front > over.begin - view.parameters.footstep) break;
     const Piece piece{path.line.point_at(over.begin),
                       path.line.point_at(over.end),
                       walker.front - over.begin,
@@ -132,7 +123,7 @@ LinkDecision decide_at_kerb(const TrafficView& view, const Traveller& walker, do
                       traffic.waiting_time[walker.row]};
     const std::int64_t foe = find_who_comes(view, walker.row, piece);
     if (foe < 0) break;
-    return {true, over.begin - kBefore, LimitReason::Crossing, foe};
+    return {true, over.begin - view.parameters.line_tolerance, LimitReason::Crossing, foe};
   }
   return {};
 }

@@ -4,33 +4,30 @@
 
 #include "scene/storey.h"
 #include "traffic/junction/arbitration.h"
+#include "traffic/patience.h"
 #include "traffic/walking/mid_block_crossing.h"
 
 namespace sumogamma {
 
 namespace {
 
-constexpr double kRim = 1.0;        ///< of a crossing, from which one gets off it [m]
 constexpr double kLeastWay = 1e-4;  ///< that has a direction: nobody creeps on over it [m]
 
 /// People who walk the same way one behind the other keep a distance that grows with their speed,
 /// as on any sidewalk (Seyfried et al. 2005: 0.36 m + 1.06 s v from middle to middle); whoever
 /// comes towards them is left to avoidance.
 void follow_on_foot(const TrafficView& view, const Course& course, RoadContext& context) {
-  constexpr double kReach = 2.5;   // [m]
-  constexpr double kFile = 0.05;   // two who overlap sideways by more than this walk in file [m]
-  constexpr double kBeside = 0.1;  // who is no further ahead is beside [m]
   const Scene& scene = view.scene;
   const std::size_t row = course.row;
   const Vec2 left = left_of(context.tangent);
   const double half_width = half_extent(scene, row, left);
-  view.grid.visit_within(scene.position[row], kReach, [&](std::size_t other, double) {
+  view.grid.visit_within(scene.position[row], view.parameters.near, [&](std::size_t other, double) {
     if (other == row || on_other_storey(view.model.road, scene, row, other)) return;
     if (type_of(view.model.types, scene.type[other]).kinematics != Kinematics::Holonomic) return;
     const Vec2 offset = scene.position[other] - scene.position[row];
     const double ahead = offset.dot(context.tangent);
-    const double aside = half_width + half_extent(scene, other, left) - kFile;
-    if (ahead < kBeside || std::abs(offset.dot(left)) > aside) return;
+    const double aside = half_width + half_extent(scene, other, left) - view.parameters.touching;
+    if (ahead < view.parameters.touching || std::abs(offset.dot(left)) > aside) return;
     if (direction_of(scene.heading[other]).dot(context.tangent) < 0.5) return;
     // where their ways bend each may be ahead of the other: one of them goes
     const Waiting& theirs = view.approaches.waiting(other);
@@ -48,7 +45,7 @@ void follow_on_foot(const TrafficView& view, const Course& course, RoadContext& 
 
 /// The shortest way onto a crossing [m]; for who is on its rim a bit of the way on, zero further
 /// on.
-Vec2 way_onto(const Lane& crossing, const Vec2& place) {
+Vec2 way_onto(const TrafficParameters& parameters, const Lane& crossing, const Vec2& place) {
   const auto& points = crossing.centerline.points();
   const Vec2 along = points.back() - points.front();
   const double length = along.norm();
@@ -61,7 +58,7 @@ Vec2 way_onto(const Lane& crossing, const Vec2& place) {
   if (nearest != here) return from_body(nearest - here, forward);
   const Vec2 from_middle = here - Vec2(0.5 * length, 0.0);
   const Vec2 depth = Vec2(0.5 * length, half_width) - from_middle.cwiseAbs();
-  if (depth.minCoeff() > kRim) return Vec2::Zero();
+  if (depth.minCoeff() > parameters.closed_up_gap) return Vec2::Zero();
   const Vec2 inwards = depth.x() < depth.y() ? Vec2(std::copysign(1.0, -from_middle.x()), 0.0)
                                              : Vec2(0.0, std::copysign(1.0, -from_middle.y()));
   return from_body(kLeastWay * inwards, forward);
@@ -77,7 +74,6 @@ bool is_red_for_walkers(const TrafficView& view, const Lane& crossing) {
 /// Who makes way for others beside a crossing, or on its rim, doesn't step further onto it while it
 /// is red; its own counts where it waits for it, and before its way leads there.
 void keep_off_red_crossings(const TrafficView& view, const Course& course, RoadContext& context) {
-  constexpr double kNear = 2.0;  // [m]
   const RoadNetwork& network = view.model.road;
   const Vec2& position = view.scene.position[course.row];
   const auto& own = course.path.stretches;
@@ -85,15 +81,15 @@ void keep_off_red_crossings(const TrafficView& view, const Course& course, RoadC
   auto look = [&](LaneId beside) {
     const Lane& crossing = network.lane(beside);
     if (crossing.kind != LaneKind::Crossing || !is_red_for_walkers(view, crossing)) return;
-    Vec2 way = way_onto(crossing, position);
+    Vec2 way = way_onto(view.parameters, crossing, position);
     const double distance = way.norm();
-    if (distance == 0.0 || distance > kNear) return;
+    if (distance == 0.0 || distance > view.parameters.near_line) return;
     // nor does who goes round others come back onto the one that lies behind it, or get onto its
     // own from the side, before its way leads there; nor back onto the one that it is about to
     // leave
     const bool crosses = std::any_of(own.begin(), own.end(), [&](const PathStretch& stretch) {
-      return stretch.lane == beside && stretch.to > course.along + kRim &&
-             stretch.from < course.along + kNear;
+      return stretch.lane == beside && stretch.to > course.along + view.parameters.closed_up_gap &&
+             stretch.from < course.along + view.parameters.near_line;
     });
     if (crosses && !waits) return;
     const double extent = half_extent(view.scene, course.row, way / distance);
@@ -104,8 +100,11 @@ void keep_off_red_crossings(const TrafficView& view, const Course& course, RoadC
     }
   };
   LaneId looked_at = kNoLane;
-  for (auto stretch = own.begin() + (&course.path.stretch_at(course.along - kNear) - own.data());
-       stretch != own.end() && stretch->from <= course.along + kNear; ++stretch) {
+  for (auto stretch =
+           own.begin() +
+           (&course.path.stretch_at(course.along - view.parameters.near_line) - own.data());
+       stretch != own.end() && stretch->from <= course.along + view.parameters.near_line;
+       ++stretch) {
     const Lane& area = network.lane(stretch->lane);
     if (area.kind != LaneKind::WalkingArea || stretch->lane == looked_at) continue;
     looked_at = stretch->lane;
@@ -118,39 +117,36 @@ void keep_off_red_crossings(const TrafficView& view, const Course& course, RoadC
 /// or before its place beside the path gets onto the crossing, as inside the corner in which the
 /// way turns there; behind the crossing before, in the middle of what is between the two where that
 /// is no deeper than a body.
-double kerb_halt(const Model& model, const Course& course, const PathLink& link) {
-  constexpr double kFarthest = 4.0, kStep = 0.2, kOnIt = 0.2;  // [m]
+double kerb_halt(const TrafficParameters& parameters, const Model& model, const Course& course,
+                 const PathLink& link) {
   const Polyline& line = course.path.line;
   const Vec2 begin = line.point_at(link.stop_line), way = line.point_at(link.end) - begin;
-  if (way.norm() < kOnIt) return link.halt;
+  if (way.norm() < parameters.line_tolerance) return link.halt;
   const Vec2 across = way.normalized();
   const LaneId crossing = course.path.stretch_at(0.5 * (link.stop_line + link.end)).lane;
   const double half_width = 0.5 * model.road.lane(crossing).width;
   double crossed = -std::numeric_limits<double>::infinity();
   for (const PathLink& before : course.path.links)
     if (before.stop_line < link.stop_line) crossed = std::max(crossed, before.end);
-  if (link.halt - kStopMargin - 2.0 * course.half_length < crossed)
-    return 0.5 * (crossed + link.stop_line) + course.half_length + kStopMargin;
-  const double least = std::max(link.stop_line - kFarthest, crossed + kStep);
+  if (link.halt - parameters.stop_margin - 2.0 * course.half_length < crossed)
+    return 0.5 * (crossed + link.stop_line) + course.half_length + parameters.stop_margin;
+  const double least = std::max(link.stop_line - parameters.near, crossed + parameters.fine_step);
   double halt = link.halt;
-  for (double along = link.stop_line; along > least; along -= kStep) {
+  for (double along = link.stop_line; along > least; along -= parameters.fine_step) {
     const Vec2 beside = course.offset * left_of(line.direction_at(along));
     const Vec2 place = line.point_at(along) + beside - begin;
-    if (place.dot(across) > kOnIt && std::abs(cross(across, place)) < half_width)
-      halt = std::min(halt, along - kStep);
+    if (place.dot(across) > parameters.line_tolerance &&
+        std::abs(cross(across, place)) < half_width)
+      halt = std::min(halt, along - parameters.fine_step);
   }
   return halt;
 }
 
 /// Walkers stop dead at a kerb, and otherwise leave each other to avoidance.
 void set_walker_limit(const TrafficView& view, const Course& course, RoadContext& context) {
-  constexpr double kStep = 0.4;     // [m]
-  constexpr double kOnIt = 0.7;     // whose front is further past the line crosses [m]
-  constexpr double kPressed = 3.0;  // likewise who was held there, and was pressed on [m]
-  constexpr double kHeldUp = 2.0;   // [s]
   // who waited for the light, or set out and got no further: a queue stands over the crossing
   const bool was_held = view.scene.context[course.row].reason == LimitReason::Signal ||
-                        view.traffic.waiting_time[course.row] > kHeldUp;
+                        waited(view, course.row) >= Patience::Waiting;
   const double front = course.along + course.half_length;
   const Traveller traveller{course.row, front, 2.0 * course.half_length, course.speed};
   auto halt = [&](const LinkDecision& decision) {
@@ -164,17 +160,20 @@ void set_walker_limit(const TrafficView& view, const Course& course, RoadContext
   if (at_kerb.must_stop) return halt(at_kerb);
   for (PathLink link : course.path.links) {
     const double past = front - link.stop_line;
-    if (link.end < course.along || past > (was_held ? kPressed : kOnIt)) continue;
+    if (link.end < course.along ||
+        past > (was_held ? view.parameters.near_line : view.parameters.footstep))
+      continue;
     if (link.halt > front + 8.0) break;
-    link.halt = kerb_halt(view.model, course, link);
+    link.halt = kerb_halt(view.parameters, view.model, course, link);
     if (link.halt > front + 4.0) continue;
     Traveller waiting = traveller;
-    waiting.front = std::min(front, link.stop_line + kOnIt);
+    waiting.front = std::min(front, link.stop_line + view.parameters.footstep);
     const LinkDecision decision = decide_link(view, waiting, link);
     if (!decision.must_stop) continue;
-    if (past > kOnIt && decision.reason != LimitReason::Signal) continue;
-    const double beyond = front - (link.halt - kStopMargin);
-    if (beyond <= (link.halt < link.stop_line ? kStep : 1.0)) return halt(decision);
+    if (past > view.parameters.footstep && decision.reason != LimitReason::Signal) continue;
+    const double beyond = front - (link.halt - view.parameters.stop_margin);
+    if (beyond <= (link.halt < link.stop_line ? view.parameters.footstep : 1.0))
+      return halt(decision);
     // on the road already when the light changed, or pressed on: back to where nobody drives
     context.sub_goal = course.path.line.point_at(course.along - beyond);
     context.allowed_speed = std::min(beyond / 0.7, 1.0);

@@ -15,6 +15,7 @@ double walking_place(const TrafficView& view, const Path& path, Surroundings& ar
 
 /// Room beyond the sides of its way that somebody on foot needs to be at a place [m], a metre
 /// beyond the place; 0 on its way. See TrafficState::overtaking_room.
-double room_off_the_way(const Path& path, const Surroundings& around, double place);
+double room_off_the_way(const TrafficParameters& parameters, const Path& path,
+                        const Surroundings& around, double place);
 
 }  // namespace sumogamma

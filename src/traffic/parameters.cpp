@@ -1,0 +1,172 @@
+#include "traffic/parameters.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace sumogamma {
+
+namespace {
+
+using P = TrafficParameters;
+constexpr TrafficParameter kParameters[] = {
+    {"moving_speed", "m/s", &P::moving_speed, 0.01, 0.5, "who stands on a junction isn't faster"},
+    {"standing_speed", "m/s", &P::standing_speed, 0.05, 1.0,
+     "who stands isn't faster: halts, waits"},
+    {"halting_speed", "m/s", &P::halting_speed, 0.1, 2.0,
+     "who comes to a link, or up to somebody, and is slower has halted; who may start is let go so "
+     "fast"},
+    {"crawling_speed", "m/s", &P::crawling_speed, 0.2, 3.0, "who is slower doesn't get on"},
+    {"queue_speed", "m/s", &P::queue_speed, 1.0, 8.0,
+     "of a queue that moves up; nobody changes lanes without need below it"},
+    {"flow_speed", "m/s", &P::flow_speed, 3.0, 15.0,
+     "traffic in a street flows at; most by which one is faster than whom it overtakes"},
+    {"slow_walk", "m/s", &P::slow_walk, 0.1, 1.5, "getting aside between queues, and backing out"},
+    {"drift_speed", "m/s", &P::drift_speed, 0.0, 1.0,
+     "at which a lane may be left, so that two who are wedged get by"},
+    {"lateral_speed", "m/s", &P::lateral_speed, 0.2, 2.0, "aside within a lane"},
+    {"swift_lateral_speed", "m/s", &P::swift_lateral_speed, 0.2, 3.0,
+     "likewise over the middle of the road and back"},
+    {"waiting", "s", &P::waiting, 0.5, 5.0, "Patience::Waiting begins"},
+    {"impatient", "s", &P::impatient, 2.0, 10.0, "Patience::Impatient begins"},
+    {"pressing", "s", &P::pressing, 4.0, 30.0, "Patience::Pressing begins"},
+    {"stuck", "s", &P::stuck, 8.0, 60.0,
+     "Patience::Stuck begins: detours, zones are no longer kept free"},
+    {"desperate", "s", &P::desperate, 15.0, 180.0,
+     "Patience::Desperate begins, impatience is 1: forced entry (HCM 2010, ch. 19: delay over 50 s "
+     "is level of service F)"},
+    {"hopeless", "s", &P::hopeless, 30.0, 300.0,
+     "Patience::Hopeless begins: a signal's cycle is 60 to 120 s (HCM 2010, ch. 18)"},
+    {"walker_forgets", "s/s", &P::walker_forgets, 0.0, 60.0,
+     "of its wait, by who gets on on foot, in a second"},
+    {"walker_creeping", "–", &P::walker_creeping, 0.05, 0.9,
+     "share of the preferred speed below which nobody gets on"},
+    {"impatient_gap_share", "–", &P::impatient_gap_share, 0.1, 1.0,
+     "of the critical gap that is left after a long wait (Daganzo 1981: gap acceptance falls with "
+     "the wait)"},
+    {"reaction_time", "s", &P::reaction_time, 0.1, 2.0,
+     "time gap of who goes right behind somebody; preview of the speed ahead; it takes to set out"},
+    {"look_period", "s", &P::look_period, 0.05, 2.0,
+     "between two looks of an agent at lanes and routes"},
+    {"soon", "s", &P::soon, 1.0, 10.0,
+     "what comes within it counts as next: a turn, a light that has just changed, a lane change"},
+    {"outlook", "s", &P::outlook, 1.0, 15.0, "in which it is weighed where one gets on best"},
+    {"merging_outlook", "s", &P::merging_outlook, 2.0, 30.0,
+     "over which imposed braking is foreseen"},
+    {"filtering_outlook", "s", &P::filtering_outlook, 2.0, 60.0,
+     "in which who filters reckons with getting on"},
+    {"time_gap", "s", &P::time_gap, 0.2, 5.0,
+     "left in a conflict area by who needn't yield; of an oncomer by who has begun to overtake"},
+    {"walker_time_gap", "s", &P::walker_time_gap, 0.2, 6.0,
+     "left to vehicles by who crosses between junctions (HCM 2010, ch. 19: 3 s with setting out)"},
+    {"overtaking_time_gap", "s", &P::overtaking_time_gap, 1.0, 15.0,
+     "left to an oncomer by who begins to overtake"},
+    {"overtaking_time", "s", &P::overtaking_time, 2.0, 20.0,
+     "a gap to come back into closes meanwhile"},
+    {"flowing_headway", "–", &P::flowing_headway, 0.3, 1.0,
+     "share of the headway in traffic that hasn't stood for long (Treiber, Helbing 2003)"},
+    {"amber_time", "s", &P::amber_time, 0.0, 6.0,
+     "reckoned with where the end of an amber isn't known"},
+    {"clearance_time", "s", &P::clearance_time, 0.0, 60.0,
+     "after lights changed in which who is left on a junction clears it"},
+    {"easy_braking", "m/s²", &P::easy_braking, 0.3, 4.0,
+     "asked of others without need (MOBIL's safe braking), and in backing out"},
+    {"courtesy_braking", "m/s²", &P::courtesy_braking, 0.5, 5.0,
+     "taken on for somebody who is let go"},
+    {"pressed_braking", "m/s²", &P::pressed_braking, 1.0, 8.0,
+     "asked by who has waited for long, or has to change lanes"},
+    {"throttle_jerk", "m/s³", &P::throttle_jerk, 0.5, 20.0,
+     "at which a driver in flow takes up the throttle"},
+    {"gap_closing_rate", "1/s", &P::gap_closing_rate, 0.1, 3.0,
+     "share of a gap that who lets somebody in closes"},
+    {"line_tolerance", "m", &P::line_tolerance, 0.05, 1.0,
+     "past a line, or an area's edge, of who counts as before it"},
+    {"least_gap", "m", &P::least_gap, 0.1, 3.0,
+     "between bodies that change lanes, give way, or back out"},
+    {"stop_margin", "m", &P::stop_margin, 0.1, 3.0, "before a line at which a front comes to rest"},
+    {"closed_up_gap", "m", &P::closed_up_gap, 0.2, 5.0, "between those who stand in a queue"},
+    {"waiting_room", "m", &P::waiting_room, 0.5, 6.0,
+     "that makes a place on a junction one to wait at"},
+    {"near_line", "m", &P::near_line, 0.5, 10.0,
+     "before a line of who is at it; way that a nose needs"},
+    {"near", "m", &P::near, 1.0, 15.0,
+     "around somebody who looks for a place beside others, or for a line"},
+    {"soon_way", "m", &P::soon_way, 3.0, 40.0,
+     "before which something is next; shortest lane change; driven astray before a way is looked "
+     "for"},
+    {"nearby", "m", &P::nearby, 5.0, 60.0,
+     "of what counts around a junction, and of a path that is kept behind the body"},
+    {"junction_outlook", "m", &P::junction_outlook, 10.0, 150.0,
+     "before a junction from which one takes the place for it"},
+    {"queue_outlook", "m", &P::queue_outlook, 20.0, 300.0,
+     "beyond a junction within which a queue is looked at"},
+    {"sight", "m", &P::sight, 50.0, 1000.0, "along a road: overtaking and crossing"},
+    {"nose_room_share", "–", &P::nose_room_share, 0.1, 1.0,
+     "of a body's length that its nose needs to come in, near_line at the most"},
+    {"steepest_aim", "–", &P::steepest_aim, 0.5, 10.0,
+     "way ahead for a metre aside where one has to be aside soon"},
+    {"straight", "–", &P::straight, 0.9, 1.0, "cosine within which a road ahead is straight"},
+    {"slack", "–", &P::slack, 1.0, 3.0,
+     "factor within which a way, or braking, is as it was meant to be"},
+    {"touching", "m", &P::touching, 0.0, 0.3,
+     "bodies this close, or this far into one another's way, touch"},
+    {"tight_side", "m", &P::tight_side, 0.05, 1.0,
+     "kept to the side at the least, to edges and walls"},
+    {"side_clearance", "m", &P::side_clearance, 0.1, 2.0, "kept to the side by who passes at ease"},
+    {"ample_side", "m", &P::ample_side, 0.2, 3.0, "aside that is out of one's way"},
+    {"overtaking_gap", "m", &P::overtaking_gap, 0.5, 3.0,
+     "side to side by who overtakes over the middle of the road (1.5 m is the law in most of "
+     "Europe)"},
+    {"farthest_aside", "m", &P::farthest_aside, 0.5, 5.0, "of its path at which somebody passes"},
+    {"filtering_rate", "(m/s)/m", &P::filtering_rate, 1.0, 100.0,
+     "speed difference that a metre of clearance admits between queues"},
+    {"lock_share", "–", &P::lock_share, 0.1, 1.0, "of the tightest turn with which one turns out"},
+    {"worthwhile_gain", "m/s", &P::worthwhile_gain, 0.1, 5.0, "worth a lane change, or to pass"},
+    {"small_gain", "m/s", &P::small_gain, 0.05, 3.0, "likewise to pass within the own lane"},
+    {"nearly_as_well", "changes", &P::nearly_as_well, 0.0, 20.0,
+     "lane changes more later on for which nobody waits for a gap"},
+    {"not_as_easily", "changes", &P::not_as_easily, 0.0, 50.0,
+     "likewise of who has stood for long for one"},
+    {"queued_vehicle_time", "s", &P::queued_vehicle_time, 0.0, 30.0,
+     "that each who stands adds to a road's travel time"},
+    {"backing_time", "s", &P::backing_time, 2.0, 60.0,
+     "for which who is wedged rolls back, at the most"},
+    {"giving_way_time", "s", &P::giving_way_time, 1.0, 60.0,
+     "for which others are let go first after that, at the least"},
+    {"giving_way_spread", "s", &P::giving_way_spread, 0.0, 60.0, "and up to so much longer, drawn"},
+    {"longest_chain", "–", &P::longest_chain, 2.0, 64.0,
+     "of those who wait for one another that is followed"},
+    {"footstep", "m", &P::footstep, 0.1, 2.0,
+     "taken back at a kerb, or on past it before one crosses"},
+    {"walking_aside", "m", &P::walking_aside, 0.2, 10.0,
+     "of a path where nothing bounds the way on foot"},
+    {"sidestep_cost", "(m/s)/m", &P::sidestep_cost, 0.0, 2.0,
+     "of a place away from the body, and from the liked one"},
+    {"shut_share", "–", &P::shut_share, 0.0, 1.0,
+     "of the preferred speed with which a way is shut on foot"},
+    {"open_share", "–", &P::open_share, 0.0, 1.0,
+     "likewise with which it is open again, and past a vehicle that stands"},
+    {"free_share", "–", &P::free_share, 0.1, 1.0, "likewise that is as good as all of it"},
+    {"fine_step", "m", &P::fine_step, 0.02, 1.0, "between places that are weighed on foot"},
+    {"sampling_step", "m", &P::sampling_step, 0.05, 2.0,
+     "between places at which bodies are held against ways"},
+    {"path_step", "m", &P::path_step, 0.2, 20.0,
+     "between places at which a speed profile, or a direction, is read"},
+};
+static_assert(std::size(kParameters) == sizeof(TrafficParameters) / sizeof(double),
+              "each parameter has a row");
+
+}  // namespace
+
+std::span<const TrafficParameter> traffic_parameters() { return kParameters; }
+
+std::string traffic_parameter_table() {
+  std::string table = "| `traffic.` | unit | value | range | what it is |\n|---|---|---|---|---|\n";
+  const TrafficParameters defaults;
+  for (const TrafficParameter& one : kParameters)
+    table += fmt::format("| `{}` | {} | {} | {} to {} | {} |\n", one.name, one.unit,
+                         defaults.*one.value, one.least, one.most, one.meaning);
+  return table;
+}
+
+}  // namespace sumogamma
