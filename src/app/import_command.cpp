@@ -19,6 +19,7 @@
 #include "io/output_file.h"
 #include "io/scenario_files.h"
 #include "osm/build_network.h"
+#include "osm/driving_side.h"
 #include "osm/import_report.h"
 #include "scene/agent_type.h"
 
@@ -165,6 +166,7 @@ std::optional<Made> make_scenario(const ImportOptions& options, const osm::Build
   scenario.east = built.box.east;
   scenario.north = built.box.north;
   scenario.left_hand = built.left_hand;
+  scenario.turn_on_red = osm::has_turns_on_red(built.box.center());
   scenario.agents = demand.agents;
   scenario.on_foot = std::round(1000.0 * made.demand.on_foot) / 1000.0;
   scenario.duration = demand.duration;

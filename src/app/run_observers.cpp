@@ -38,7 +38,8 @@ class Collisions final : public RunObserver {
 class Rules final : public RunObserver {
  public:
   explicit Rules(const WatchedRun& run)
-      : RunObserver(run), monitor_(run.sim.dt, run.sim.model.road, run.locator) {}
+      : RunObserver(run),
+        monitor_(run.sim.dt, run.sim.model.road, run.locator, run.sim.traffic.code) {}
   void add(std::vector<RunEvent>& events) override {
     monitor_.add(run_.sim.scene, run_.sim.model.types, run_.sim.road, *run_.sim.workers);
     for (const RedLightEvent& red : monitor_.new_events())

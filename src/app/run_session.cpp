@@ -65,6 +65,7 @@ std::unique_ptr<Simulation> make_simulation(const RunPlan& plan, unsigned thread
   sim->model.types = plan.config.types;
   sim->model.options = plan.config.model;
   sim->traffic.parameters = plan.config.traffic;
+  sim->traffic.code = plan.config.code;
   sim->model.options.step = plan.clock.step;
   sim->model.kinematics = build_kinematic_tables(sim->model.types, *sim->workers);
   sim->model.road = read_sumo_net(plan.input.network, *sim->workers);

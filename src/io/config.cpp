@@ -138,6 +138,7 @@ std::vector<Binding> bind_all(ScenarioConfig& config) {
   };
   bind_preset(config.preset, bindings);
   bind_model(config.model, bindings);
+  bindings.push_back({"traffic.turn_on_red", &config.code.turn_on_red});
   for (const TrafficParameter& one : traffic_parameters())
     bindings.push_back({"traffic." + std::string(one.name), &(config.traffic.*one.value), one.least,
                         false, one.most});

@@ -9,6 +9,7 @@
 #include "model/model.h"
 #include "scene/agent_type.h"
 #include "scene/behavior_preset.h"
+#include "scene/traffic_code.h"
 #include "sumo/control_choice.h"
 #include "traffic/parameters.h"
 
@@ -33,6 +34,7 @@ struct ScenarioConfig {
   ModelOptions model;
   // [traffic]
   TrafficParameters traffic;
+  TrafficCode code;
   // [types.NAME]: rows changed, or added with base = "car"
   AgentTypeTable types = default_agent_types();
   /// Keys that were set, and where: scenario.toml or the command line (--set).

@@ -48,6 +48,9 @@ std::string toml_text(const ScenarioFiles& scenario, const AgentTypeTable& types
        << "  # share of people on foot among them, in this demand\n"
        << "duration = " << plain(scenario.duration) << "  # [s], for which demand was written\n"
        << "step = 0.05  # [s]\n\n"
+       << (scenario.turn_on_red
+               ? "[traffic]\nturn_on_red = true  # after a halt, where no sign forbids it\n\n"
+               : "")
        << "[behavior]\n"
        << "preset = \"compliant\"  # keeps every rule; or \"observed\"\n\n"
        << "# Any field of a type may be overridden; what is built in, of some:\n";

@@ -16,6 +16,7 @@ struct ScenarioFiles {
   std::string map;                                  ///< file name of the extract
   double west = 0, south = 0, east = 0, north = 0;  ///< the place [deg]
   bool left_hand = false;
+  bool turn_on_red = false;
   long agents = 100;
   double on_foot = 0;        ///< share of people on foot among them
   double duration = 3600.0;  ///< [s]

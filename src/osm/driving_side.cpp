@@ -1,6 +1,8 @@
 #include "osm/driving_side.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <span>
 
 namespace sumogamma::osm {
@@ -119,6 +121,19 @@ std::string_view left_hand_region(GeoPoint place) {
   for (const BoxRegion& region : kBoxes)
     if (region.box.contains(place)) return region.name;
   return {};
+}
+
+bool has_turns_on_red(GeoPoint place) {
+  constexpr GeoBox kWith[] = {{-124.9, 25.85, -66.9, 49.0},  // contiguous United States, and
+                              {-141.0, 49.0, -52.5, 70.0},   // Canada
+                              {-125.0, 41.6, -52.5, 49.0},   // its south and east
+                              {-170.0, 54.0, -129.9, 71.5},  // Alaska
+                              {-160.6, 18.8, -154.7, 22.4},  // Hawaii
+                              {-82.1, 24.4, -79.9, 25.85}};  // the south of Florida
+  constexpr GeoBox kWithout[] = {{-74.26, 40.49, -73.70, 40.92}, {-73.98, 45.40, -73.47, 45.71}};
+  const auto contains = [&](const GeoBox& box) { return box.contains(place); };
+  return std::any_of(std::begin(kWith), std::end(kWith), contains) &&
+         std::none_of(std::begin(kWithout), std::end(kWithout), contains);
 }
 
 RoundaboutTurns count_roundabout_turns(const OsmMap& map) {

@@ -48,8 +48,9 @@ Light light_from_letter(char letter) {
       return Light::Amber;
     case 'g':
     case 'o':
-    case 's':
       return Light::Green;
+    case 's':
+      return Light::StopThenGo;
     case 'G':
       return Light::GreenFirst;
     default:

@@ -15,6 +15,7 @@ enum class Light : std::uint8_t {
   Amber,
   Green,       ///< who turns gives way, or everybody where it blinks
   GreenFirst,  ///< nobody who crosses goes first
+  StopThenGo,  ///< red, but who has halted may go where the way is free
 };
 
 /// Of `dir`; straight where the letter is none of SUMO's.

@@ -48,7 +48,7 @@ inline double amber_until(const RoadState& road, const Connection& connection) {
                : std::numeric_limits<double>::infinity();
 }
 
-inline bool is_red(Light light) { return light == Light::Red; }
+inline bool is_red(Light light) { return light == Light::Red || light == Light::StopThenGo; }
 inline bool is_amber(Light light) { return light == Light::Amber; }
 
 /// Does nobody who crosses a link now go first there? `light`: what it shows.

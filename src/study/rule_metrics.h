@@ -17,8 +17,9 @@ class RuleMonitor {
   static constexpr double kPause = 1.0;  ///< [s]
 
   /// Both must outlive the monitor. `step`: time between two calls of add [s].
-  RuleMonitor(double step, const RoadNetwork& network, const LaneLocator& locator)
-      : step_(step), roads_(network, locator) {}
+  RuleMonitor(double step, const RoadNetwork& network, const LaneLocator& locator,
+              const TrafficCode& code = {})
+      : step_(step), roads_(network, locator, code) {}
 
   /// The result is the same with any number of workers.
   void add(const Scene& scene, const AgentTypeTable& types, const RoadState& road,

@@ -12,6 +12,7 @@ namespace sumogamma {
 /// ticks.
 struct Traffic {
   TrafficParameters parameters;
+  TrafficCode code;
   TrafficState state;
   std::uint64_t detours = 0;  ///< taken by drivers whose way was shut
 

@@ -1,5 +1,7 @@
 #include "traffic/rule_breaking.h"
 
+#include "scene/traffic_code.h"
+
 namespace sumogamma {
 
 namespace {
@@ -13,13 +15,16 @@ std::uint64_t place_of(const Model& model, ConnectionId link) {
 
 }  // namespace
 
-bool goes_at_red(const Model& model, const Scene& scene, std::size_t row, ConnectionId link) {
-  if (model.road.connection(link).storage > 0.0) return true;
-  const AgentType& type = type_of(model.types, scene.type[row]);
-  const std::uint64_t place = place_of(model, link);
-  return type.kinematics == Kinematics::Holonomic
-             ? jaywalks(type.compliance, scene.manners[row], place)
-             : runs_red_light(type.compliance, scene.manners[row], place);
+bool goes_at_red(const TrafficView& view, std::size_t row, ConnectionId link) {
+  const RoadNetwork& network = view.model.road;
+  const Connection& connection = network.connection(link);
+  if (connection.storage > 0.0) return true;
+  const AgentType& type = type_of(view.model.types, view.scene.type[row]);
+  const Manners& manners = view.scene.manners[row];
+  const std::uint64_t place = place_of(view.model, link);
+  if (type.kinematics == Kinematics::Holonomic) return jaywalks(type.compliance, manners, place);
+  return admits_turn_on_red(view.code, network, connection, view.road.signal(connection)) ||
+         runs_red_light(type.compliance, manners, place);
 }
 
 bool lets_people_go(const Model& model, const Scene& scene, std::size_t row,

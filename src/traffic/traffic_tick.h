@@ -17,9 +17,10 @@ struct TrafficTick {
   TrafficState& traffic;
   ApproachTable& approaches;
   const TrafficParameters& parameters;
+  const TrafficCode& code;
 
   TrafficView view() const {
-    return {model, road, scene, traffic, geometry.grid, approaches, parameters};
+    return {model, road, scene, traffic, geometry.grid, approaches, parameters, code};
   }
 };
 

@@ -4,6 +4,7 @@
 #include "model/model.h"
 #include "scene/road_state.h"
 #include "scene/scene.h"
+#include "scene/traffic_code.h"
 #include "traffic/junction/approaches.h"
 #include "traffic/parameters.h"
 #include "traffic/traffic_state.h"
@@ -21,6 +22,7 @@ struct TrafficView {
   const ApproachTable& approaches;  ///< of this tick once contexts are made: not while lanes are
                                     ///< chosen, and ways found
   const TrafficParameters& parameters;
+  const TrafficCode& code;
 };
 
 }  // namespace sumogamma

@@ -109,10 +109,10 @@ class RoadScene {
   const Path& path(std::size_t row) const { return *road.path(scene.path[row]); }
   const RoadContext& context(std::size_t row) const { return scene.context[row]; }
   TrafficView view() const {
-    return {model, road, scene, traffic, geometry.grid, approaches, parameters};
+    return {model, road, scene, traffic, geometry.grid, approaches, parameters, code};
   }
   TrafficTick tick(Workers& workers, double dt = 0.05) {
-    return {model, geometry, workers, dt, road, scene, traffic, approaches, parameters};
+    return {model, geometry, workers, dt, road, scene, traffic, approaches, parameters, code};
   }
   /// Front of a row past a link's stop line [m].
   double past_line(std::size_t row, std::size_t link = 0) const {
@@ -136,6 +136,7 @@ class RoadScene {
   TickGeometry geometry;
   ApproachTable approaches;
   TrafficParameters parameters;
+  TrafficCode code;
 
  private:
   static const std::vector<KinematicTable>& kinematic_tables() {

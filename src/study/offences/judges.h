@@ -7,6 +7,7 @@
 #include "scene/agent_type.h"
 #include "scene/road_state.h"
 #include "scene/scene.h"
+#include "scene/traffic_code.h"
 
 namespace sumogamma {
 
@@ -20,10 +21,11 @@ inline constexpr double kMeetsBelow = 1.0;    // [m/s]
 /// What the rules ask of the network, made once.
 struct RuleRoads {
   /// Both must outlive it.
-  RuleRoads(const RoadNetwork& network, const LaneLocator& locator);
+  RuleRoads(const RoadNetwork& network, const LaneLocator& locator, const TrafficCode& code);
 
   const RoadNetwork& network;
   const LaneLocator& locator;
+  TrafficCode code;
   bool has_storeys;
   /// By LaneId: how far before the lane's end an agent may be whom the stop line there concerns
   /// [m]; negative: no signal guards the lane's end.

@@ -61,9 +61,10 @@ bool for_vehicles(const Lane& lane) {
          (lane.allowed & kRoadVehicle);
 }
 
-RuleRoads::RuleRoads(const RoadNetwork& roads, const LaneLocator& places)
+RuleRoads::RuleRoads(const RoadNetwork& roads, const LaneLocator& places, const TrafficCode& law)
     : network(roads),
       locator(places),
+      code(law),
       has_storeys(sumogamma::has_storeys(roads)),
       stop_reach(roads.lanes.size(), -1.0),
       by_signal(lanes_by_signals(roads)) {

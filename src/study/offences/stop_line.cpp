@@ -93,7 +93,9 @@ void read_lights(const RuleView& view, LaneId lane, StopLineLights& lights) {
     if (connection.signal == kNoSignal || !for_vehicles(network.lane(connection.to))) continue;
     ++lights.links;
     // who got green at the outer signal clears the junction
-    if (connection.storage == 0.0 && was_and_is_red(view, id)) lights.red.push_back(id);
+    if (connection.storage == 0.0 && was_and_is_red(view, id) &&
+        !admits_turn_on_red(view.roads.code, network, connection, view.road.signal(connection)))
+      lights.red.push_back(id);
   }
 }
 

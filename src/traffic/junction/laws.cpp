@@ -28,8 +28,7 @@ Answer held_if(bool is_held) { return is_held ? Answer(Verdict::Held) : std::nul
 /// who clears the junction by all.
 Answer red_light(const Encounter& e) {
   const bool at_red = !e.foe_inside && e.foe.front < 0.0 && is_red(e.road.signal(e.foe_link));
-  return free_if(at_red && !e.foe_clears &&
-                 !(e.at_red && goes_at_red(e.model, e.scene, e.foe.row, e.zone.foe)));
+  return free_if(at_red && !e.foe_clears && !(e.at_red && goes_at_red(e, e.foe.row, e.zone.foe)));
 }
 
 /// A driver who doesn't let people go first at an unsignalled crossing minds nobody who hasn't

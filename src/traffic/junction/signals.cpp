@@ -56,8 +56,7 @@ SignalDuty duty_at_red(const TrafficView& view, const Traveller& traveller, cons
   const bool can_stop = to_line > -1.0 && (steps_back || needed < type.max_deceleration ||
                                            traveller.speed < view.parameters.crawling_speed);
   const bool has_halted = view.traffic.halted_for[traveller.row] == link.connection;
-  if ((can_stop || has_halted || on_foot) &&
-      goes_at_red(view.model, view.scene, traveller.row, link.connection))
+  if ((can_stop || has_halted || on_foot) && goes_at_red(view, traveller.row, link.connection))
     return SignalDuty::GoAtRed;
   return can_stop ? SignalDuty::Stop : SignalDuty::None;
 }

@@ -55,7 +55,7 @@ bool has_long_wanted(const TrafficView& view, const Approach& foe, bool there) {
 /// See leave_turning_room; of somebody whose trip `ends` at the line, who is gone from there on.
 LinkDecision leave_room(const TrafficView& view, const Traveller& traveller, const PathLink& link,
                         bool ends) {
-  const auto& [model, road, scene, traffic, grid, approaches, parameters] = view;
+  const auto& [model, road, scene, traffic, grid, approaches, parameters, code] = view;
   LinkDecision decision;
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const double front = traveller.front - link.stop_line;
@@ -125,7 +125,7 @@ double drawn_line(const TrafficView& view, const Traveller& traveller, const Pat
 
 double halt_for_long_bodies(const TrafficView& view, const Traveller& traveller,
                             const PathLink& link) {
-  const auto& [model, road, scene, traffic, grid, approaches, parameters] = view;
+  const auto& [model, road, scene, traffic, grid, approaches, parameters, code] = view;
   double halt = link.halt;
   for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
     const double place = link.stop_line + way.begin;
@@ -139,7 +139,7 @@ double halt_for_long_bodies(const TrafficView& view, const Traveller& traveller,
     };
     // who means to go at red goes up to the end of its lane
     const bool drawn = moves_line(view.parameters, model, link, way) &&
-                       !goes_at_red(model, scene, traveller.row, link.connection);
+                       !goes_at_red(view, traveller.row, link.connection);
     const auto foes = approaches.of(way.foe);
     if (drawn || std::any_of(foes.begin(), foes.end(), comes)) halt = place;
   }

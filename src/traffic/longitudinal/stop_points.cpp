@@ -75,7 +75,7 @@ LinkDecision decide_beside(const TrafficView& view, const Course& course,
     return is_red(view.road.signal(network.connection(id)));
   });
   const double left = link.halt - traveller.front;
-  if (!red || left < -1.0 || goes_at_red(view.model, view.scene, course.row, link.connection) ||
+  if (!red || left < -1.0 || goes_at_red(view, course.row, link.connection) ||
       deceleration_to_stop(traveller.speed, left) > course.type.max_deceleration)
     return {};
   return {true, link.halt - view.parameters.stop_margin, LimitReason::Signal, -1};

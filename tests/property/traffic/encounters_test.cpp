@@ -56,7 +56,8 @@ void stand_for(RoadScene& here, double duration) {
   for (double time = 0.0; time < duration; time += kStep) {
     here.update(1, kStep);
     for (std::size_t row = 0; row < here.scene.size(); ++row) {
-      count_waiting(kStep, Kinematics::SingleTrack, here.scene, here.traffic, row);
+      count_waiting(TrafficParameters{}, kStep, Kinematics::SingleTrack, here.scene, here.traffic,
+                    row);
       update_held(kStep, here.scene, row);
     }
     here.scene.time += kStep;

@@ -24,7 +24,8 @@ TEST(CountWaiting, CreepingIsStillWaiting) {
   auto tick = [&](double speed) {
     for (std::size_t row = 0; row < scene.size(); ++row) {
       scene.velocity[row] = {speed, 0};
-      count_waiting(0.5, row == 0 ? Kinematics::SingleTrack : Kinematics::Holonomic, scene, traffic,
+      count_waiting(TrafficParameters{}, 0.5,
+                    row == 0 ? Kinematics::SingleTrack : Kinematics::Holonomic, scene, traffic,
                     row);
       update_held(0.5, scene, row);
     }
@@ -53,7 +54,7 @@ TEST(CountWaiting, AStepDoesNotEndTheWaitOfPeople) {
   auto waits_after = [&](double seconds, double speed) {
     scene.velocity[0] = {speed, 0};
     for (int k = 0; k < 10; ++k)
-      count_waiting(0.1 * seconds, Kinematics::Holonomic, scene, traffic, 0);
+      count_waiting(TrafficParameters{}, 0.1 * seconds, Kinematics::Holonomic, scene, traffic, 0);
     return traffic.waiting_time[0];
   };
   EXPECT_NEAR(waits_after(60.0, 0.0), 60.0, 1e-9);
@@ -73,7 +74,7 @@ TEST(CountWaiting, WhoIsPressedBackDoesNotGetOn) {
   scene.context[0].tangent = {1, 0};
   auto waits_after = [&](double vx, double vy) {
     scene.velocity[0] = {vx, vy};
-    count_waiting(0.5, Kinematics::Holonomic, scene, traffic, 0);
+    count_waiting(TrafficParameters{}, 0.5, Kinematics::Holonomic, scene, traffic, 0);
     update_held(0.5, scene, 0);
     return traffic.waiting_time[0];
   };

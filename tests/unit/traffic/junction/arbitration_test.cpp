@@ -206,7 +206,7 @@ TEST(HoldingUp, SoDoesWhoeverThatOneStandsBehind) {
   for (const LimitReason reason : {LimitReason::Leader, LimitReason::Yield}) {
     waits_for(second, reason, first);
     ApproachTable approaches;
-    approaches.rebuild(here.model, here.road, here.scene, here.traffic);
+    approaches.rebuild(here.view());
     EXPECT_TRUE(approaches.waiting(second).holds_up);
     EXPECT_EQ(approaches.waiting(first).holds_up, reason == LimitReason::Leader);
     EXPECT_FALSE(approaches.waiting(held).holds_up);
@@ -1641,7 +1641,7 @@ TEST_F(CrossingTest, WhoHaltsForSomebodyBrakesNoHarderForAvoidance) {
   here_.move(walker, here_.path(walker).links.at(0).stop_line + 10);
   here_.update();
   ASSERT_EQ(here_.context(driver).foe, here_.scene.id[walker].value);
-  EXPECT_NEAR(here_.context(driver).to_halt, 17 - kStopMargin, 0.1);
+  EXPECT_NEAR(here_.context(driver).to_halt, 17 - TrafficParameters{}.stop_margin, 0.1);
   auto chosen = [&](std::size_t row) {
     Workspace work;
     return gamma_velocity(here_.model, here_.scene, here_.geometry, row, here_.scene.behavior[row],
@@ -2099,7 +2099,7 @@ TEST(BrakingAsked, IsTheHarderTheCloserSomebodyIsCutInOn) {
   const Path& path = here.path(own);
   auto asked = [&](double to_merged, double speed) {
     // both on ways like this one, whose places at 100 m are the same
-    return braking_asked({type, path, 92, 4.5, 0, 13, 100}, 95,
+    return braking_asked(TrafficParameters{}, {type, path, 92, 4.5, 0, 13, 100}, 95,
                          {type, path, 20, 4.5, speed, speed, 20 + to_merged});
   };
   EXPECT_EQ(asked(200, 12), 0.0);

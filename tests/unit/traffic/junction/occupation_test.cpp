@@ -31,10 +31,10 @@ TEST_F(OccupationTest, OnAStraightRoadTimeIsThatOfTheFastestWay) {
   const Path& path = here_.path(row);
   const double along = here_.scene.path_along[row], top = path.profile_at(along);
   for (const double way : {0.0, 5.0, 30.0})
-    EXPECT_NEAR(time_to_drive(path, along, along + way, 4, top, 2), time_to_cover(way, 4, top, 2),
-                0.02);
-  EXPECT_GT(time_to_drive(path, along, along + 30, 4, 6, 2),
-            time_to_drive(path, along, along + 30, 4, top, 2))
+    EXPECT_NEAR(time_to_drive(TrafficParameters{}, path, along, along + way, {4, top, 2}),
+                time_to_cover(way, 4, top, 2), 0.02);
+  EXPECT_GT(time_to_drive(TrafficParameters{}, path, along, along + 30, {4, 6, 2}),
+            time_to_drive(TrafficParameters{}, path, along, along + 30, {4, top, 2}))
       << "nobody drives faster than it likes to";
 }
 

@@ -107,7 +107,8 @@ TEST_F(TurningRoomTest, ABusLetsThosePastWhoStandWhereItWillSweep) {
 TEST_F(TurningRoomTest, ABusThatRollsOutALittleFurtherHaltsAllTheSame) {
   const std::size_t bus = add_bus();
   add_waiting(0.6, 0.0);
-  here_.move(bus, here_.path(bus).links.front().stop_line - kStopMargin + 0.07 - 6.0);
+  here_.move(
+      bus, here_.path(bus).links.front().stop_line - TrafficParameters{}.stop_margin + 0.07 - 6.0);
   here_.set_speed(bus, 1.2);
   here_.update();
   EXPECT_EQ(here_.context(bus).reason, LimitReason::TurningRoom);
@@ -175,7 +176,7 @@ TEST_F(TurningRoomTest, WhoCreepsUpToThePlaceSoonLetsABusPastThatStandsOnTheJunc
   const auto is_held = [&](double waited, LimitReason reason) {
     here_.traffic.waiting_time[bus] = waited;
     here_.scene.context[bus].reason = reason;
-    here_.approaches.rebuild(here_.model, here_.road, here_.scene, here_.traffic);
+    here_.approaches.rebuild(here_.view());
     return leaves_room(next, 2.0);
   };
   EXPECT_FALSE(is_held(1.0, LimitReason::TurningRoom));

@@ -20,9 +20,9 @@ using testing::RoadScene;
 using testing::two_lanes;
 
 TEST(FilteringSpeed, IsTheLessTheCloserTheSidesAre) {
-  EXPECT_EQ(filtering_speed(0.1), 0.0);
-  EXPECT_GT(filtering_speed(0.3), 2.0);
-  EXPECT_LT(filtering_speed(0.3), filtering_speed(0.4));
+  EXPECT_EQ(filtering_speed(TrafficParameters{}, 0.1), 0.0);
+  EXPECT_GT(filtering_speed(TrafficParameters{}, 0.3), 2.0);
+  EXPECT_LT(filtering_speed(TrafficParameters{}, 0.3), filtering_speed(TrafficParameters{}, 0.4));
 }
 
 TEST(PassingSpeed, LeavesTheWayThatTurningOutTakes) {
@@ -30,21 +30,22 @@ TEST(PassingSpeed, LeavesTheWayThatTurningOutTakes) {
   const AgentType& motorcycle = type_of(types, find_agent_type(types, "motorcycle"));
   // behind a car that stands, 1.5 m to go aside: slower the nearer, and a slow walk in the end
   Passed passed{20.0, -1.2, 0.35, 0.0, 0.0, false};
-  double before = passing_speed(passed, motorcycle);
+  double before = passing_speed(TrafficParameters{}, passed, motorcycle);
   for (const double gap : {10.0, 5.0, 2.0, 0.5}) {
     passed.gap = gap;
-    EXPECT_LE(passing_speed(passed, motorcycle), before);
-    before = passing_speed(passed, motorcycle);
+    EXPECT_LE(passing_speed(TrafficParameters{}, passed, motorcycle), before);
+    before = passing_speed(TrafficParameters{}, passed, motorcycle);
   }
   EXPECT_GT(before, 0.0);
   EXPECT_LT(before, 0.5);
   // nobody creeps up to the car while the place beside it is taken
   passed.taken = true;
-  EXPECT_EQ(passing_speed(passed, motorcycle), 0.0);
+  EXPECT_EQ(passing_speed(TrafficParameters{}, passed, motorcycle), 0.0);
   // clear of it already: as fast as its sides allow
   passed.taken = false;
   passed.now = 0.35;
-  EXPECT_GE(passing_speed(passed, motorcycle), filtering_speed(0.35));
+  EXPECT_GE(passing_speed(TrafficParameters{}, passed, motorcycle),
+            filtering_speed(TrafficParameters{}, 0.35));
 }
 
 // A junction has room beside its lanes, for whoever has to get past: nobody rides there for liking.

@@ -60,11 +60,13 @@ TEST(KeptHeadway, DriversCloseUpInAQueueAndALaneDischargesAtOneRate) {
 }
 
 TEST(HeadwayMemory, WhoFlowsFollowsCloserThanWhoComesOutOfAQueue) {
-  EXPECT_DOUBLE_EQ(headway_memory(0.0), 1.0);
-  EXPECT_DOUBLE_EQ(headway_memory(30.0), 1.0) << "over the line of a signal";
-  EXPECT_LT(headway_memory(60.0), 0.95);
-  EXPECT_DOUBLE_EQ(headway_memory(kFree), headway_memory(90.0)) << "who never stood";
-  const double flowing = headway_memory(kFree) * kept_headway(car(), 25.0);
+  EXPECT_DOUBLE_EQ(headway_memory(TrafficParameters{}, 0.0), 1.0);
+  EXPECT_DOUBLE_EQ(headway_memory(TrafficParameters{}, 30.0), 1.0) << "over the line of a signal";
+  EXPECT_LT(headway_memory(TrafficParameters{}, 60.0), 0.95);
+  EXPECT_DOUBLE_EQ(headway_memory(TrafficParameters{}, kFree),
+                   headway_memory(TrafficParameters{}, 90.0))
+      << "who never stood";
+  const double flowing = headway_memory(TrafficParameters{}, kFree) * kept_headway(car(), 25.0);
   EXPECT_NEAR(flowing, 1.0, 0.1) << "about a second";
 }
 

@@ -21,7 +21,7 @@ void drive_straight_on(RoadScene& here, std::size_t row, double way) {
     here.scene.position[row] += kStep * forward;
     const double before = here.scene.path_along[row];
     locate_on_path(here.model.road, here.road, here.scene, row);
-    note_progress(before, kDt, here.scene, here.traffic, row);
+    note_progress(TrafficParameters{}, before, kDt, here.scene, here.traffic, row);
     find_ways_back(here.tick(alone));
   }
 }
@@ -68,7 +68,7 @@ TEST(LostWay, WhoFollowsItsPathBesideItOrRoundABendIsNotLost) {
     here.move(own, along, -1.5);
     here.scene.path_along[own] = before;
     locate_on_path(here.model.road, here.road, here.scene, own);
-    note_progress(before, 0.05, here.scene, here.traffic, own);
+    note_progress(TrafficParameters{}, before, 0.05, here.scene, here.traffic, own);
     ASSERT_LT(here.traffic.strayed[own], 4.0) << along;
   }
 }

@@ -250,7 +250,8 @@ TEST_F(WalkingPlaceTest, WhoFindsAVehicleAcrossAllOfItsWayStepsOffItAfterAWhile)
   auto walk_to = [&](double x, double until) {
     for (; time < until && place.x() < x; time += 0.05) {
       walk(own);
-      count_waiting(0.05, Kinematics::Holonomic, here_.scene, here_.traffic, own);
+      count_waiting(TrafficParameters{}, 0.05, Kinematics::Holonomic, here_.scene, here_.traffic,
+                    own);
       farthest = std::min(farthest, place.y());
     }
   };
