@@ -38,7 +38,7 @@ double end_of_road(const TrafficParameters& parameters, const Course& course,
 double clear_from(const TrafficView& view, const Course& course, const PathLink& link) {
   const RoadNetwork& network = view.model.road;
   const auto next = course.path.link_after(link.stop_line);
-  if (next == course.path.links.end() || next->stop_line > link.end + view.parameters.soon_way ||
+  if (next == course.path.links.end() || next->stop_line > link.end + view.parameters.near ||
       network.connection(next->connection).signal == kNoSignal ||
       network.connection(link.connection).signal != kNoSignal)
     return link.end;

@@ -251,7 +251,7 @@ class LeftFromTheKerb : public ::testing::Test {
 
 // bicycles stood through three greens, since the lane beside never had a gap
 TEST_F(LeftFromTheKerb, ACyclistWhoMissedAGreenGoesFirstAtTheNext) {
-  const std::size_t rider = add_rider("bicycle", 80);
+  const std::size_t rider = add_rider("bicycle", 100);
   const std::size_t car = add_car(0.6, 0);
   const auto rider_id = static_cast<std::int64_t>(here_.scene.id[rider].value);
   update('g', 1.0);
@@ -597,7 +597,7 @@ TEST_F(PriorityTest, WhoStandsBeforeAFullRoadLetsInWhoCameToItsLineBefore) {
   EXPECT_NE(here_.context(own).reason, LimitReason::LetsIn) << "but just before";
   came(80, 70);
   EXPECT_EQ(here_.context(own).reason, LimitReason::LetsIn);
-  here_.traffic.waiting_time[own] = 100.0;
+  here_.traffic.waiting_time[own] = 80.0;
   here_.update();
   EXPECT_EQ(here_.context(own).reason, LimitReason::LetsIn) << "queues stand for a minute";
   came(80, 70);
@@ -732,8 +732,8 @@ TEST_F(PriorityTest, WhoIsDrivingByWhoWaitsForAThirdGoesOn) {
     here_.update();
     return here_.context(own).reason == LimitReason::Yield;
   };
-  EXPECT_FALSE(waits(0.2, 10));
-  EXPECT_TRUE(waits(0.2, 2)) << "it may go at any time";
+  EXPECT_FALSE(waits(0.4, 10));
+  EXPECT_TRUE(waits(0.4, 2)) << "it may go at any time";
   EXPECT_TRUE(waits(-1, 10)) << "from the line one looks first";
 }
 
@@ -1054,12 +1054,12 @@ TEST(JunctionsThatFollowClosely, WhoHoldsUpOnlyWhoJoinsGoesUpToTheLight) {
 // In Monaco whoever had a red light seven metres behind a zebra stood on the zebra, for 20 s each:
 // there is room for a car behind it, but the line is drawn for the buses that turn in.
 TEST(JunctionsThatFollowClosely, WhoseLineAtALightIsDrawnOnTheJunctionBeforeWaitsBeforeThatOne) {
-  RoadScene here(two_junctions(20, "traffic_light"));
+  RoadScene here(two_junctions(18, "traffic_light"));
   const std::size_t own = here.add("car", {"WA", "AB", "BE"}, 0, 0);
   const std::vector<PathLink> links = here.path(own).links;
   const double room = links.at(1).stop_line - links.at(0).end;
   ASSERT_GT(room, 6.0) << "for a car";
-  ASSERT_LT(room, 11.5);
+  ASSERT_LT(room, here.parameters.soon_way - 0.5);
   here.move(own, links[0].halt - 2.25 - 0.6);
   const auto waits = [&](char letter) {
     std::string& state = here.road.signal_states.at(0);
@@ -1089,18 +1089,18 @@ TEST_F(PriorityTest, OfTwoWhoHaveWaitedOnAJunctionForLongNobodyTriesWhileTheOthe
   const std::size_t foe = here_.add("bus", {"WC", "CE"}, 0, 0.5, 0, -1, "WC_1");
   const PathLink& foe_link = here_.path(foe).links.front();
   here_.move(foe, foe_link.end - 3.0);
-  here_.traffic.waiting_time[own] = here_.traffic.waiting_time[foe] = 10;
+  here_.traffic.waiting_time[own] = here_.traffic.waiting_time[foe] = 12;
   here_.update();
   EXPECT_EQ(here_.context(own).foe, here_.scene.id[foe].value) << "it creeps on";
   here_.set_speed(foe, 0);
-  here_.traffic.waiting_time[own] = here_.traffic.waiting_time[foe] = 10;
+  here_.traffic.waiting_time[own] = here_.traffic.waiting_time[foe] = 12;
   here_.scene.context[foe] = {};
   here_.update();
   EXPECT_NE(here_.context(own).foe, here_.scene.id[foe].value) << "it stands, held by nothing";
 }
 
 // a motorcycle, a car, and a car behind the first stood for eight seconds, each for the next one
-TEST_F(PriorityTest, ARingOnAJunctionDissolvesAfterThreeSeconds) {
+TEST_F(PriorityTest, ARingOnAJunctionDissolvesSoonerThanOthersWhoWait) {
   const std::size_t own = here_.add("car", {"SC", "CN"}, 0, 0);
   here_.move(own, here_.path(own).links.front().stop_line + 0.5);
   const std::size_t foe = here_.add("bus", {"WC", "CE"}, 0, 0, 0, -1, "WC_1");
@@ -1119,7 +1119,7 @@ TEST_F(PriorityTest, ARingOnAJunctionDissolvesAfterThreeSeconds) {
   EXPECT_FALSE(is_held(own, 4.0));
   EXPECT_TRUE(is_held(own, 2.0));
   EXPECT_TRUE(is_held(third, 4.0)) << "the third one waits for somebody else";
-  EXPECT_FALSE(is_held(third, 9.0));
+  EXPECT_FALSE(is_held(third, 11.0));
 }
 
 TEST_F(PriorityTest, NobodyWaitsForWhoIsHeldByBodiesAlone) {
@@ -1177,7 +1177,7 @@ TEST_F(PriorityTest, WhoHasWaitedCrossesAQueueThatCreepsUpBeforeTheJunction) {
   update_after(5);
   EXPECT_EQ(here_.context(minor).reason, LimitReason::Yield);
   EXPECT_EQ(here_.context(minor).foe, here_.scene.id[next].value);
-  update_after(20);
+  update_after(25);
   EXPECT_NE(here_.context(minor).reason, LimitReason::Yield);
   Connection& link =
       here_.model.road.connections[index_of(here_.path(next).links.front().connection)];
@@ -1386,9 +1386,9 @@ TEST_F(PriorityTest, WhoWaitsForAThirdOneIsPassedAfterALook) {
     here_.update();
     return here_.context(own).reason == LimitReason::Yield;
   };
-  EXPECT_FALSE(is_held(2.0, 6.0));
+  EXPECT_FALSE(is_held(2.5, 6.0));
   EXPECT_TRUE(is_held(1.0, 6.0)) << "it has just come";
-  EXPECT_TRUE(is_held(2.0, 3.0)) << "the other may be about to go";
+  EXPECT_TRUE(is_held(2.5, 3.0)) << "the other may be about to go";
 }
 
 // a bus that had rolled beyond its place amid a junction set out before a lorry at 10 m/s, since it
@@ -1605,7 +1605,7 @@ TEST_F(CrossingTest, NobodyWaitsForWhoShufflesBeforeWhatShutsTheCrossing) {
   give_priority(here_.path(walker).links.at(0).connection);
   here_.update();
   EXPECT_EQ(here_.context(driver).foe, here_.scene.id[walker].value);
-  here_.traffic.waiting_time[walker] = 10;
+  here_.traffic.waiting_time[walker] = 12;
   here_.update();
   EXPECT_EQ(here_.context(driver).reason, LimitReason::None);
 }
@@ -1691,7 +1691,7 @@ TEST_F(WalkersAtRed, WhoIsAtTheKerbHaltsThoughNotAtEaseAndWhoIsOnTheCrossingGoes
 TEST_F(WalkersAtRed, WhoHasHardlySteppedOnAndCrawlsWaits) {
   const std::size_t walker = here_.add("pedestrian", {"WC", "CW"}, 0, 0.3, 195, 5);
   const double kerb = here_.path(walker).links.at(0).stop_line;
-  put(walker, kerb + 0.65);
+  put(walker, kerb + 0.45);
   EXPECT_EQ(here_.context(walker).reason, LimitReason::Signal);
   here_.scene.context[walker] = {};
   put(walker, kerb + 0.75);
@@ -2030,8 +2030,8 @@ TEST_F(StandingDriver, WhoHasLookedAndSetOutNeedNotLookAgain) {
   here_.traffic.waiting_time[walker_] = 3.0;
   EXPECT_FALSE(waits(-0.6, 0.0, 6.0, true)) << "it waits for somebody else and isn't about to go";
   here_.traffic.waiting_time[walker_] = 0.0;  // forgotten with the first step
-  EXPECT_FALSE(waits(0.3, 0.8, 6.0, false));
-  EXPECT_TRUE(waits(0.3, 0.8, 6.0, true)) << "it was held there";
+  EXPECT_FALSE(waits(0.6, 0.8, 6.0, false));
+  EXPECT_TRUE(waits(0.6, 0.8, 6.0, true)) << "it was held there";
 }
 
 TEST_F(CrossingTest, WalkersDoNotStepInFrontOfWhoCanNotStop) {

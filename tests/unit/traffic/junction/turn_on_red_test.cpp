@@ -4,7 +4,6 @@
 
 #include "support/plain_net.h"
 #include "support/road_scene.h"
-#include "support/test_networks.h"
 #include "traffic/rule_breaking.h"
 
 namespace sumogamma {

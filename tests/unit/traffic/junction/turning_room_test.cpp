@@ -333,7 +333,7 @@ TEST_F(TurningRoomTest, NobodyWaitsForABusThatLetsItPast) {
 // stood where it would sweep: there it was in the way of everybody else, for good
 TEST_F(TurningRoomTest, ABusThatWouldWaitOnTheJunctionLeavesRoomBeforeIt) {
   const RoadNetwork network = read_plain_net(
-      crossroads("priority", {"--default.junctions.radius", "1.5", "--default.lanewidth", "2.75"}));
+      crossroads("priority", {"--default.junctions.radius", "2.5", "--default.lanewidth", "2.75"}));
   RoadScene here(network);
   const std::size_t bus = here.add("bus", {"WC", "CN"}, 0, 0);
   const PathLink& link = here.path(bus).links.front();

@@ -29,7 +29,7 @@ TEST(PassingSpeed, LeavesTheWayThatTurningOutTakes) {
   const AgentTypeTable types = default_agent_types();
   const AgentType& motorcycle = type_of(types, find_agent_type(types, "motorcycle"));
   // behind a car that stands, 1.5 m to go aside: slower the nearer, and a slow walk in the end
-  Passed passed{20.0, -1.2, 0.35, 0.0, 0.0, false};
+  Passed passed{20.0, -1.2, 0.35, 0.0, 0.0, false, filtering_manner({})};
   double before = passing_speed(TrafficParameters{}, passed, motorcycle);
   for (const double gap : {10.0, 5.0, 2.0, 0.5}) {
     passed.gap = gap;

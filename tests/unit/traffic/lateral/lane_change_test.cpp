@@ -103,7 +103,7 @@ TEST_F(ChangingLanes, WhoHasToHaltAmidItGoesBackAndOn) {
   here_.scene.held[own_].standing = 3;
   let_all_look(here_);
   EXPECT_TRUE(is_amid_change());
-  here_.scene.held[own_].standing = 5;
+  here_.scene.held[own_].standing = 6;
   let_all_look(here_);
   EXPECT_FALSE(is_amid_change());
 }
@@ -551,14 +551,14 @@ TEST_F(IntoTheMiddle, NorDoesWhoLetsItGoFirst) {
 }
 
 // where its path moves over already, somebody two lanes further on counted as in the next one
-TEST_F(IntoTheMiddle, WhoIsTwoLanesAsideIsNotInTheWay) {
+class TwoLanesAside : public IntoTheMiddle, public ::testing::WithParamInterface<int> {};
+TEST_P(TwoLanesAside, IsNotInTheWay) {
   const std::size_t own = add("bus", "WM_0");
   const std::size_t other = here_.add("bus", {"WM"}, 60, 0, 0, -1, "WM_2");
-  for (double ahead = -2.0; ahead < 8.0; ahead += 1.0) {
-    move_to_x(here_, other, here_.scene.position[own].x() + ahead);
-    EXPECT_FALSE(waits(own)) << ahead;
-  }
+  move_to_x(here_, other, here_.scene.position[own].x() + GetParam());
+  EXPECT_FALSE(waits(own));
 }
+INSTANTIATE_TEST_SUITE_P(Ahead, TwoLanesAside, ::testing::Range(-2, 8));
 
 TEST_F(IntoTheMiddle, WhomItsPathComesUpToOnlyThereIsFollowed) {
   const std::size_t own = add("car", "WM_0");
@@ -618,8 +618,8 @@ TEST(Swap, WhoHasRolledBackToLetOthersGoLeavesTheWayForANose) {
     return std::isfinite(here.traffic.gate[own]);
   };
   EXPECT_TRUE(waits(1.6, 0.0));
-  EXPECT_FALSE(waits(1.6, 5.0));
   EXPECT_TRUE(waits(0.6, 5.0)) << "its nose is beside the own one";
+  EXPECT_FALSE(waits(1.6, 5.0));
 }
 
 // the lane was two metres long: everybody was on the junction before it, and nobody let anybody in

@@ -41,7 +41,7 @@ class DetourTest : public ::testing::Test {
 };
 
 TEST_F(DetourTest, WhoseWayIsShutForLongTakesAnother) {
-  const std::size_t car = add_waiting("car", 20.0);
+  const std::size_t car = add_waiting("car", 25.0);
   const Vec2 place = here_.scene.position[car];
   ASSERT_EQ(look(), 1u);
   const Path& path = here_.path(car);

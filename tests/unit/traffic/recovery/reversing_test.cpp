@@ -194,6 +194,8 @@ TEST_F(BackingTest, AQueueMakesRoomOneAfterTheOther) {
   }
   update();
   EXPECT_GT(here_.traffic.backing_left[second], 0.0);
+  // who makes room for a second, and gets no further, asks for some in its turn
+  here_.traffic.backing_left[second] = 10.0;
   update();
   EXPECT_GT(here_.traffic.backing_left[third], 0.0);
 }
@@ -230,7 +232,7 @@ TEST_F(BackingTest, WhoStandsAcrossTheWayOfSomebodyWedgedStepsBack) {
   here_.scene.held[wedged].wedge_left = 10.0;
   update();
   EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "nor at once: the light may just have changed";
-  here_.scene.held[wedged].blocked = 10.0;
+  here_.scene.held[wedged].blocked = 12.0;
   waits(behind, own);
   update();
   EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "nor for whom it doesn't wait";
@@ -262,7 +264,7 @@ TEST_F(BackingTest, WhoStandsBeforeSomebodyWedgedAndWaitsForAnotherStepsBack) {
   here_.scene.position[wedged] =
       here_.scene.position[own] + (2.25 + 0.5 * type.length + 0.5) * forward;
   here_.scene.held = {{30.0}, {30.0}, {30.0}};
-  here_.scene.held[wedged].wedge_left = here_.scene.held[wedged].blocked = 10.0;
+  here_.scene.held[wedged].wedge_left = here_.scene.held[wedged].blocked = 12.0;
   waits(own, waited_for);
   update();
   EXPECT_EQ(here_.traffic.backing_left[own], 0.0) << "the bus may go on any time";
@@ -386,6 +388,7 @@ TEST_F(BackingTest, NobodyBacksOutAcrossTheWayOfWhoDrivesPast) {
     return least;
   };
   here_.set_speed(past, 6);
+  here_.parameters.stuck = here_.parameters.pressing + 1.0;  // it begins in time
   EXPECT_GT(stand_wedged(own, 20.0), 0.5) << "straight back it swings out to nobody";
   EXPECT_GT(nearest(), 0.2);
 }
