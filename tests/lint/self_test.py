@@ -76,6 +76,16 @@ FAULTS = [
     ("functions", "src/base/a.cpp", "void f(int a, std::map<int, int> b, int c, int d, int e, int g, int h) {\n}\n", "f has 7 parameters"),
     ("traffic", "src/traffic/rules/a.cpp", "constexpr double kA = 1.0;\n", "src/traffic/rules/a.cpp:1: kA belongs into src/traffic/parameters.h"),
     ("traffic", "src/traffic/rules/a.h", "  constexpr int kNone = kA,\n    kB = 12;\n", "src/traffic/rules/a.h:2: kB belongs"),
+    ("traffic", "src/traffic/rules/a.cpp", "constexpr double kTiny = 1e-4;\n", None),
+    *[("traffic", "src/traffic/rules/a.cpp", f"bool f(const View& view) {{\n  {body}\n}}\n", "src/traffic/rules/a.cpp:2: a clock is compared with seconds")
+      for body in ("return view.traffic.waiting_time[row] > 4.0;", "return view.held[row].standing < parameters.soon;", "return kLong <= waiting->halted_at;",
+                   "return view.time - view.halted_at[foe.row] > 0.5;", "return a && (3.0 < view.held[rows[0]].blocked || b);",
+                   "double& kept = view.keeps_clear[row]; return kept >= view.parameters.stuck;", "return view.held[row].blocked > enough(parameters, row);")],
+    *[("traffic", "src/traffic/rules/a.cpp", f"bool f(const View& view) {{\n  {body}\n}}\n", None)
+      for body in ("return view.waiting_time[row] > 0.0;", "return view.halted_at[0] < view.halted_at[1];", "return waited(view, row) > Patience::Calm;",
+                   "const double own = a.halted_at, their = b.halted_at; return own < their || (own == their && id < 3);",
+                   "return blocked(view, 1) == Patience::Calm && speed > parameters.slow_walk;", "return view.blocked && speed > 1.0;")],
+    ("traffic", "src/traffic/patience.cpp", READER + WRITER + "bool f(const V& v) { return v.waiting_time[1] > 3.0; }\n", None),
     ("traffic", "src/traffic/traffic_state.h", "struct Other {\n};\n", "no struct TrafficState"),
     *[("traffic", "src/traffic/rules/gaps.cpp", READER + f"void g(TrafficState& state, std::size_t row) {{ {change} }}\n",
        "src/traffic/traffic_state.h:2: wait has 2 writers, one at the most: src/traffic/patience, src/traffic/rules/gaps")

@@ -1,4 +1,5 @@
-"""Checks the rules of the road (src/traffic): every column of what they remember has one writer, every tunable stands in one place.
+"""Checks the rules of the road (src/traffic): every column of what they remember has one writer, every tunable stands in one place, and
+clocks are compared in one place.
 
 usage: traffic.py PROJECT_FOLDER [--list]
 
@@ -6,7 +7,11 @@ A column is a member of `struct TrafficState` in src/traffic/traffic_state.h tha
 .cpp that assigns to it or to an entry, changes its size, or binds it to a reference or pointer that isn't const. traffic_state.h and
 .cpp themselves add and remove rows and don't count. An entry that is passed on by reference isn't seen: rules that only read take a
 `const TrafficState&`, which the compiler holds.
-A tunable is a named constant of src/traffic with a number of its own, but for those in src/traffic/parameters.h and .cpp.
+A tunable is a named constant of src/traffic with a number of its own, but for those in src/traffic/parameters.h and .cpp, and for
+epsilons, which are written as powers of ten (1e-4).
+A clock tells for how long, or since when, something has lasted. Only src/traffic/patience.cpp compares one with seconds: a number other
+than 0, a constant, or a parameter. Two clocks may be compared with each other, and one with 0. A clock is seen as a member (held.standing)
+or under the name that a function gives it (const double standing = held.standing).
 """
 import os
 import re
@@ -17,9 +22,11 @@ from project import finish, numbered_lines, project_files
 
 HEADER = "src/traffic/traffic_state.h"
 PARAMETERS = r"src/traffic/parameters\.(h|cpp)"
-# by folder, how many tunables still stand elsewhere: numbers that only get smaller
-STILL = {"src/traffic": 12, "src/traffic/junction": 84, "src/traffic/lateral": 92, "src/traffic/longitudinal": 43,
-         "src/traffic/recovery": 40, "src/traffic/walking": 50}
+PATIENCE = "src/traffic/patience.cpp"
+CLOCK = r"(?:\.|->)(?:waiting_time|standing|blocked|keeps_clear|halted_at|stood_at)\b"
+# by file, how often a clock is still compared elsewhere: numbers that only get smaller
+STILL_COMPARED = {"src/traffic/longitudinal/leader.cpp": 1, "src/traffic/recovery/detour.cpp": 1, "src/traffic/recovery/reversing.cpp": 4,
+                  "src/traffic/road_context.cpp": 1}
 CONSTANT = re.compile(r"\bconst(?:expr)?\s+(?:double|float|int|auto)\s+(?=k[A-Z]\w*\s*[={])([^;]*);")
 PLACE = r"(?:\s*\[(?:[^\[\]]|\[[^\[\]]*\])*\])?"  # of an entry, whose index may be another's entry
 CHANGERS = "assign|resize|push_back|emplace_back|clear|swap|insert|erase|reserve|fill"
@@ -85,24 +92,53 @@ def tunables(root, paths):
         text = code(root, path)
         for statement in CONSTANT.finditer(text):
             for one in re.finditer(r"(k[A-Z]\w*)\s*[={]([^,]*)", statement.group(1)):
-                if re.search(r"(?<![\w.])\d", one.group(2)):
+                if re.search(r"(?<![\w.])\d", re.sub(r"\b\d+e-\d+", "", one.group(2))):
                     yield path, line_of(text, statement.start(1) + one.start()), one.group(1)
+
+
+def is_seconds(text):
+    """Does one side of a comparison have seconds of its own?"""
+    return bool(re.search(r"\bparameters\b|\bk[A-Z]\w*|(?<![\w.])\d*[1-9]|(?<![\w.])0\.0*[1-9]", text)) and not re.search(CLOCK, text)
+
+
+def compared_clocks(root, paths):
+    """Where a clock is compared with seconds outside patience.cpp: file and line."""
+    for path in paths:
+        if path == PATIENCE:
+            continue
+        for function in re.finditer(r".+?(?:^\}|\Z)", code(root, path), re.DOTALL | re.MULTILINE):
+            text, begin = function.group(), line_of(function.string, function.start()) - 1
+            names = re.findall(rf"\b(\w+)\s*=(?!=)[^,;=<>]*{CLOCK}{PLACE}\s*[,;]", text)
+            clock = "|".join([CLOCK + PLACE] + [rf"(?<![\w.>]){name}\b" for name in names])
+            side = r"(?:[^;&|?{}<>=]|->)*"
+            places = {found.start() for found in re.finditer(rf"(?:{clock})\s*(?:[<>]=?|[!=]=)({side})", text) if is_seconds(found.group(1))}
+            places |= {found.start(2) for found in re.finditer(rf"({side})(?:(?<!-)>=?|<=?|[!=]=)\s*[\w.\->\[\]()]*?({clock})", text)
+                       if is_seconds(found.group(1).rsplit("(", 1)[-1])}
+            for place in sorted(places):
+                yield path, begin + line_of(text, place)
+
+
+def check_clocks(root, paths, shown):
+    found = defaultdict(list)
+    for path, number in compared_clocks(root, paths):
+        found[path].append(f"{path}:{number}: a clock is compared with seconds, which is for {PATIENCE}")
+    complaints = []
+    for path, texts in sorted(found.items()):
+        if shown:
+            print("\n".join(texts))
+        if len(texts) > STILL_COMPARED.get(path, 0):
+            complaints += texts
+    for path, most in STILL_COMPARED.items():
+        if path in paths and len(found[path]) < most:
+            print(f"STILL_COMPARED says {most} of {path}, now there are {len(found[path])}: lower it")
+    return complaints
 
 
 def main(root, shown):
     paths = [p for p in project_files(root) if p.startswith("src/traffic/") and p.endswith((".h", ".cpp"))]
     complaints, checked = check_columns(root, paths)
-    found = defaultdict(list)
-    for path, number, name in tunables(root, paths):
-        found[os.path.dirname(path)].append(f"{path}:{number}: {name} belongs into src/traffic/parameters.h")
-    for folder, texts in sorted(found.items()):
-        if shown:
-            print("\n".join(texts))
-        if len(texts) > STILL.get(folder, 0):
-            complaints += texts
-    for folder, most in STILL.items():
-        if len(found[folder]) < most:
-            print(f"STILL says {most} of {folder}, now there are {len(found[folder])}: lower it")
+    complaints += [f"{path}:{number}: {name} belongs into src/traffic/parameters.h" for path, number, name in tunables(root, paths)]
+    complaints += check_clocks(root, paths, shown)
     finish("traffic", complaints, checked + len(paths))
 
 
