@@ -114,6 +114,32 @@ TEST_F(Config, WrongValuesAreRefused) {
   EXPECT_NE(complaint("run = 3").find("unknown key 'run'"), std::string::npos);
 }
 
+TEST_F(Config, ReadsTheRulesOfTheRoad) {
+  const ScenarioConfig config =
+      read("[traffic]\nstuck = 30\nturn_on_red = true\n", {"traffic.time_gap=1.5"});
+  EXPECT_DOUBLE_EQ(config.traffic.stuck, 30.0);
+  EXPECT_DOUBLE_EQ(config.traffic.time_gap, 1.5);
+  EXPECT_DOUBLE_EQ(config.traffic.desperate, TrafficParameters{}.desperate);
+  EXPECT_TRUE(config.code.turn_on_red);
+  EXPECT_FALSE(read("").code.turn_on_red);
+  // levels of patience may be moved together
+  EXPECT_DOUBLE_EQ(read("", {"traffic.pressing=25", "traffic.stuck=30"}).traffic.pressing, 25.0);
+}
+
+TEST_F(Config, WrongRulesOfTheRoadAreRefused) {
+  const std::string range = complaint("", {"traffic.stuck=600"});
+  EXPECT_NE(range.find("'traffic.stuck'"), std::string::npos) << range;
+  EXPECT_NE(range.find("from 8 to 60"), std::string::npos) << range;
+  EXPECT_NE(complaint("[traffic]\npressing = 50\n").find("'traffic.pressing'"), std::string::npos);
+  // in its range, and yet behind the level that follows it
+  const std::string order = complaint("", {"traffic.pressing=25"});
+  EXPECT_NE(order.find("traffic.pressing = 25"), std::string::npos) << order;
+  EXPECT_NE(order.find("traffic.stuck = 20"), std::string::npos) << order;
+  const std::string unknown = complaint("", {"traffic.desparate=30"});
+  EXPECT_NE(unknown.find("'traffic.desperate'"), std::string::npos) << unknown;
+  EXPECT_NE(complaint("[traffic]\nturn_on_red = 1\n").find("true or false"), std::string::npos);
+}
+
 TEST_F(Config, KeysOfTypesWinOverThePresetWhereverItStands) {
   const std::string key = "[types.motorcycle]\nred_light_running = 0.1\n";
   const std::string preset = "[behavior]\npreset = \"observed\"\n";
