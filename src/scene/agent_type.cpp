@@ -199,6 +199,30 @@ AgentTypeTable default_agent_types() {
        .headway = 0.9,
        .min_gap = 0.4,
        .cyclist = true});
+  // front loaders are 2.5 to 2.6 m long (Riese + Mueller Load: Bike, 28 June 2016; Urban Arrow
+  // Family: 8.5 ft); width, wheelbase and lock are assumed, the rest is a bicycle's, slower with a
+  // load
+  add({.name = "cargo_bicycle",
+       .sumo_class = "bicycle",
+       .length = 2.5,
+       .width = 0.85,
+       .wheelbase = 1.9,
+       .rear_axle_to_center = 0.9,
+       .max_steering = radians(45),
+       .max_steering_rate = radians(90),
+       .max_speed = 7.0,
+       .preferred_speed = 4.2,
+       .max_acceleration = 0.8,
+       .comfortable_deceleration = 2.0,
+       .max_deceleration = 5.0,
+       .max_lateral_acceleration = 1.8,
+       .tracking_error = 0.4,
+       .horizon = 4.0,
+       .attention_front = 12.0,
+       .attention_rear = 3.0,
+       .headway = 1.0,
+       .min_gap = 0.5,
+       .cyclist = true});
   // on rails and on water: SUMO moves them, the others have to know their size and how they brake
   // (rail vehicles: SUMO's vClass defaults; service brakes)
   const AgentType rail{.name = "tram",

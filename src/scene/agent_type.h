@@ -54,9 +54,9 @@ struct AgentType {
 /// Rows in a fixed order; index with AgentTypeId.
 using AgentTypeTable = std::vector<AgentType>;
 
-/// The built-in types: pedestrian, bicycle, motorcycle, car, van, bus, truck, electric_tricycle,
-/// gyro_scooter, and those that SUMO alone moves: tram, train, ship. Sizes and limits after
-/// AgentParams of the reference and SUMO's vClass defaults; sources stand beside the rows.
+/// The built-in types (docs/scenario.md names them), those that SUMO alone moves last. Sizes and
+/// limits after AgentParams of the reference and SUMO's vClass defaults; sources stand beside the
+/// rows.
 AgentTypeTable default_agent_types();
 
 /// Vehicles below this width share lanes and filter between queues [m].

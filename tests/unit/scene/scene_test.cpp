@@ -151,7 +151,7 @@ TEST(AgentTypes, TheBuiltInOnesAreSane) {
   }
   EXPECT_EQ(names, (std::set<std::string>{"pedestrian", "bicycle", "motorcycle", "car", "van",
                                           "bus", "truck", "electric_tricycle", "gyro_scooter",
-                                          "tram", "train", "ship"}));
+                                          "cargo_bicycle", "tram", "train", "ship"}));
 }
 
 TEST(AgentTypes, AreFoundByNameOrRefusedWithTheKnownOnes) {
