@@ -40,7 +40,7 @@ void look_around(const TrafficView& view, std::size_t row, double reach, double 
                  Surroundings& around);
 
 /// Fills around.walls, after look_around, with what is solid within `reach` [m] of a row and within
-/// `aside` of its path, in pieces of half a metre.
+/// `aside` of its path, in pieces of a sampling_step.
 void look_at_walls(const TrafficView& view, const Path& path, std::size_t row, double reach,
                    double aside, Surroundings& around);
 

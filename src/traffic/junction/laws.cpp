@@ -95,9 +95,9 @@ double imposed_braking(const Encounter& e) {
                                foe_front + e.zone.foe_end - e.foe.front));
 }
 
-/// The two are there one after the other, with the critical gap between them, or a second where the
-/// subject need not yield. Who yields goes right behind a vehicle that has passed; who joins its
-/// lane before another that then follows it.
+/// The two are there one after the other, with the critical gap between them, or the time gap
+/// where the subject need not yield. Who yields goes right behind a vehicle that has passed; who
+/// joins its lane before another that then follows it.
 Answer apart_in_time(const Encounter& e) {
   const double share = 1.0 - impatience(e) * (1.0 - e.parameters.impatient_gap_share);
   const double margin = e.zone.yields ? e.own_type.critical_gap * share : e.parameters.time_gap;

@@ -20,7 +20,7 @@ struct LaneBeside {
 };
 
 /// Would moving over to `lane` now force nobody to brake harder than `braking` [m/s^2], oneself
-/// included (the criterion of MOBIL, Kesting et al. 2007), and leave everybody a third of a second,
+/// included (the criterion of MOBIL, Kesting et al. 2007), and leave everybody the reaction time,
 /// also who comes from behind between the lanes, faster?
 /// Whoever lets the agent in keeps less, and need only leave room for its nose.
 bool is_gap(const TrafficView& view, const Surroundings& around, std::size_t row,

@@ -5,10 +5,10 @@
 
 namespace sumogamma {
 
-/// Time gap that a driver wants at a speed [s]: the type's headway at 11 m/s and more, less in a
-/// queue, where drivers close up, so that a lane discharges at the same rate however slow it gets
-/// over the line (HCM 2010, ch. 31: the saturation headway holds from the fourth vehicle on). The
-/// same at every speed where the type says so.
+/// Time gap that a driver wants at a speed [s]: the type's headway from its full_headway_speed on,
+/// less in a queue, where drivers close up, so that a lane discharges at the same rate however slow
+/// it gets over the line (HCM 2010, ch. 31: the saturation headway holds from the fourth vehicle
+/// on). The same at every speed where the type says so.
 double kept_headway(const AgentType& type, double speed);
 
 /// Share of that which a driver keeps `since_standing` seconds after it last stood: all of it out

@@ -44,7 +44,7 @@ double lock_along_path(const TrafficParameters& parameters, const Path& path, co
   return type.wheelbase * 2.0 * cross(forward, way) / std::max(way.squaredNorm(), 1.0);
 }
 
-/// Where a vehicle is until it stands if it brakes now, and over the next second: nobody backs out
+/// Where a vehicle is until it stands if it brakes now, and over the time gap: nobody backs out
 /// across the way of who drives past.
 OrientedBox ahead_of(const TrafficParameters& parameters, const AgentGeometry& their) {
   const double way = parameters.time_gap * their.velocity.dot(their.forward);

@@ -13,7 +13,7 @@ namespace sumogamma {
 double walking_place(const TrafficView& view, const Path& path, Surroundings& around,
                      std::size_t row);
 
-/// Room beyond the sides of its way that somebody on foot needs to be at a place [m], a metre
+/// Room beyond the sides of its way that somebody on foot needs to be at a place [m], a bit
 /// beyond the place; 0 on its way. See TrafficState::overtaking_room.
 double room_off_the_way(const TrafficParameters& parameters, const Path& path,
                         const Surroundings& around, double place);
