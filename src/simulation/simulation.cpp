@@ -73,8 +73,9 @@ void tick(Simulation& sim, World& world) {
   Scene& scene = sim.scene;
   sim.workspaces.resize(sim.workers->count());
   sim.commands.resize(rows);
-  const TrafficTick traffic{sim.model, sim.geometry, *sim.workers,      sim.dt,
-                            sim.road,  scene,        sim.traffic.state, sim.traffic.approaches};
+  const TrafficTick traffic{
+      sim.model,         sim.geometry,           *sim.workers,          sim.dt, sim.road, scene,
+      sim.traffic.state, sim.traffic.approaches, sim.traffic.perception};
   update_traffic(traffic, sim.traffic);
   clock.end(sim.times.context);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "scene/extent.h"
 #include "traffic/junction/keep_clear.h"
 #include "traffic/lateral/course.h"
 #include "traffic/longitudinal/allowed_speed.h"
@@ -38,20 +37,11 @@ void note_halt(const TrafficView& view, const Course& course, TrafficState& traf
   }
 }
 
-/// Where a row is on its path.
 Course course_of(const TrafficView& view, const Path& path, std::size_t row) {
   const Scene& scene = view.scene;
-  const double along = scene.path_along[row];
-  const Vec2 tangent = path.line.direction_at(along);
   const AgentType& type = type_of(view.model.types, scene.type[row]);
   const bool remembers = !path.walking && !type.steady_headway;
-  return {path,
-          type,
-          row,
-          along,
-          cross(tangent, scene.position[row] - path.line.point_at(along)),
-          half_extent(scene, row, tangent),
-          path.walking ? std::max(0.0, scene.velocity[row].dot(tangent)) : scene.speed[row],
+  return {view.perception.ego[row], path, type, row,
           scene.manners[row].headway_factor *
               (remembers ? headway_memory(scene.time - view.traffic.stood_at[row]) : 1.0)};
 }
@@ -86,7 +76,7 @@ RoadContext road_context(const TrafficView& view, std::size_t row, double dt, Tr
 void update_road_contexts(const TrafficTick& tick) {
   const TrafficView view = tick.view();
   const Scene& scene = tick.scene;
-  tick.approaches.rebuild(tick.model, tick.road, scene, tick.traffic);
+  tick.approaches.rebuild(tick.model, tick.road, scene, tick.traffic, tick.perception.ego);
   tick.workers.for_each_range(scene.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     StopPoints scratch;
     // a row reads other rows' state but never their new context

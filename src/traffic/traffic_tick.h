@@ -16,8 +16,11 @@ struct TrafficTick {
   Scene& scene;
   TrafficState& traffic;
   ApproachTable& approaches;
+  Perception& perception;
 
-  TrafficView view() const { return {model, road, scene, traffic, geometry.grid, approaches}; }
+  TrafficView view() const {
+    return {model, road, scene, traffic, geometry.grid, approaches, perception};
+  }
 };
 
 }  // namespace sumogamma

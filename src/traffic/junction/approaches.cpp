@@ -35,7 +35,7 @@ ConnectionId halt_counts_for(const RoadNetwork& road, const Path& path, const Pa
 }
 
 void ApproachTable::rebuild(const Model& model, const RoadState& road, const Scene& scene,
-                            const TrafficState& traffic) {
+                            const TrafficState& traffic, std::span<const EgoOnPath> ego) {
   for (const Approach& approach : approaches_) ranges_[index_of(approach.connection)] = {};
   ranges_.resize(model.road.connections.size());
   approaches_.clear();
@@ -67,11 +67,9 @@ void ApproachTable::rebuild(const Model& model, const RoadState& road, const Sce
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const Path* path = road.path(scene.path[row]);
     if (path == nullptr || path->links.empty()) continue;
-    const double along = scene.path_along[row];
-    const Vec2 tangent = path->line.direction_at(along);
-    const double half_length = half_extent(scene, row, tangent);
-    const double speed = std::max(0.0, scene.velocity[row].dot(tangent));
-    const bool wide = is_wide(scene, row);
+    const double along = ego[row].along, half_length = ego[row].half_length;
+    const double speed = std::max(0.0, scene.velocity[row].dot(ego[row].tangent));
+    const bool wide = 2.0 * ego[row].half_width > kWideBody;
     // far enough for the slowest foe to find its gap: ten seconds at the present speed
     const double reach = std::max(path->walking ? 8.0 : 30.0, 10.0 * speed);
     const ConnectionId halted_for = traffic.halted_for[row];

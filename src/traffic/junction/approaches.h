@@ -6,6 +6,7 @@
 #include "model/model.h"
 #include "scene/extent.h"
 #include "scene/road_state.h"
+#include "traffic/ego_on_path.h"
 #include "traffic/traffic_state.h"
 
 namespace sumogamma {
@@ -43,7 +44,7 @@ class ApproachTable {
   /// Registers every agent with a path for the links within its stopping distance and some seconds.
   /// Serial, O(n log n).
   void rebuild(const Model& model, const RoadState& road, const Scene& scene,
-               const TrafficState& traffic);
+               const TrafficState& traffic, std::span<const EgoOnPath> ego);
   /// Foremost first.
   std::span<const Approach> of(ConnectionId id) const;
   /// Frozen copy of what the contexts said at the last tick: rows may read each other's.

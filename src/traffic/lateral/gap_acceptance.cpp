@@ -13,7 +13,7 @@ namespace sumogamma {
 namespace {
 
 /// How far somebody's middle is beside the middle of the lane [m].
-double aside_of(const Scene& scene, const RoadUser& user, const LaneBeside& lane) {
+double aside_of(const Scene& scene, const PathUser& user, const LaneBeside& lane) {
   if (lane.middle != nullptr) {
     const PolylinePosition place = lane.middle->project(scene.position[user.row]);
     if (place.along > 0.0 && place.along < lane.middle->length()) return place.offset;
@@ -22,12 +22,12 @@ double aside_of(const Scene& scene, const RoadUser& user, const LaneBeside& lane
 }
 
 /// Does somebody wait for this row?
-bool waits_for_row(const Scene& scene, const RoadUser& user, std::size_t row) {
+bool waits_for_row(const Scene& scene, const PathUser& user, std::size_t row) {
   return scene.context[user.row].foe == static_cast<std::int64_t>(scene.id[row].value);
 }
 
 /// Is somebody so far behind that it leaves the way for the agent's nose?
-bool leaves_room_for_nose(const Surroundings& around, const RoadUser& user) {
+bool leaves_room_for_nose(const Surroundings& around, const PathUser& user) {
   constexpr double kTooFar = 0.3;  // who halts for somebody rolls on by a hand's breadth [m]
   return user.front <
          around.along + around.half_length - nose_room(2.0 * around.half_length) + kTooFar;
@@ -35,7 +35,7 @@ bool leaves_room_for_nose(const Surroundings& around, const RoadUser& user) {
 
 /// Does somebody come from behind, faster, between the agent and the lane, so that whoever moves
 /// over cuts it off?
-bool comes_between(const Surroundings& around, const RoadUser& user, const LaneBeside& lane) {
+bool comes_between(const Surroundings& around, const PathUser& user, const LaneBeside& lane) {
   const double side = std::copysign(1.0, lane.shift);
   return user.aligned && user.front < around.along - around.half_length &&
          user.speed > around.speed && side * (lane.shift - user.offset) > 0.0 &&
@@ -58,7 +58,7 @@ bool is_gap(const TrafficView& view, const Surroundings& around, std::size_t row
   constexpr double kCourtesy = 2.0, kLeft = 0.4;     // [m/s^2], [m]
   constexpr double kHolds = 0.3, kSides = 0.3;       // [m/s], [m]
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
-  for (const RoadUser& user : around.users) {
+  for (const PathUser& user : around.users) {
     // whom the path comes up to only in that lane is followed anyway
     if (0.5 * (user.rear + user.front) > lane.to) continue;
     // a path that moves over is askew to the lanes
@@ -96,7 +96,7 @@ bool is_contested(const TrafficView& view, const Surroundings& around, std::size
   const TrafficState& traffic = view.traffic;
   constexpr double kHalts = 2.0, kNear = 2.0;  // [s], [m]
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
-  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+  return std::any_of(around.users.begin(), around.users.end(), [&](const PathUser& user) {
     const bool other_side = aside_of(scene, user, lane) * lane.shift > 0.0;
     const bool waits = std::isfinite(traffic.gate[user.row]) ||
                        scene.held[user.row].standing > kHalts || waits_for_row(scene, user, row);
@@ -109,7 +109,7 @@ bool is_contested(const TrafficView& view, const Surroundings& around, std::size
 bool is_let_in(const TrafficView& view, const Surroundings& around, std::size_t row,
                const LaneBeside& lane) {
   const Scene& scene = view.scene;
-  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+  return std::any_of(around.users.begin(), around.users.end(), [&](const PathUser& user) {
     const double aside = std::abs(aside_of(scene, user, lane));
     // who follows in our own lane, be it half in the other, waits for us but leaves no gap there
     return leaves_room_for_nose(around, user) && waits_for_row(scene, user, row) &&
@@ -123,7 +123,7 @@ bool is_beside(const TrafficView& view, const Surroundings& around, std::size_t 
   constexpr double kSide = 0.3;   // [m]
   constexpr double kWaits = 1.0;  // [s]
   const double front = around.along + around.half_length;
-  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+  return std::any_of(around.users.begin(), around.users.end(), [&](const PathUser& user) {
     // who waits for a gap itself, or for us, isn't waited for
     const bool waits = scene.held[user.row].standing > kWaits &&
                        (std::isfinite(traffic.gate[user.row]) || waits_for_row(scene, user, row));

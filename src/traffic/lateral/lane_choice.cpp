@@ -30,9 +30,9 @@ constexpr double kSidewalk = 8.0, kWalls = 4.0, kAside = 4.5;
 /// Way over which lanes are changed at some speed [m].
 double way_of_change(double speed) { return std::max(kChangeTime * speed, kShortest); }
 
-/// As far as a row looks for others [m]: where there is a lane beside, for those who come from
+/// As far as a driver looks for others [m]: where there is a lane beside, for those who come from
 /// behind at full speed, too.
-double outlook(const Model& model, const Path& path, const Scene& scene, std::size_t row) {
+double driver_outlook(const Model& model, const Path& path, const Scene& scene, std::size_t row) {
   constexpr double kLeast = 30.0, kTime = 3.0, kMost = 100.0;  // [m], [s], [m]
   const Lane& lane = model.road.lane(path.stretch_at(scene.path_along[row]).lane);
   const bool alone = lane.inner == kNoLane && lane.outer == kNoLane;
@@ -175,6 +175,14 @@ void wait_for_gap(const TrafficView& view, const Path& path, const Surroundings&
   intent.postpone = due;
 }
 
+/// Does a row look about at this tick? Who has just come looks before it does what its path begins
+/// with.
+bool looks_now(const Scene& scene, std::size_t row, double dt) {
+  const auto period = std::max<std::int64_t>(1, std::llround(kPeriod / dt));
+  return scene.control[row] == Control::Gamma &&
+         ((scene.tick + scene.id[row].value) % period == 0 || !scene.context[row].active);
+}
+
 /// Moves the place aimed at within the lane, at walking pace, towards where it should be; swiftly
 /// over the middle of the road and back.
 void move_aim(double wanted, bool overtakes, double dt, double& aim) {
@@ -198,7 +206,7 @@ void look_about(const TrafficView& view, const Path& path, std::size_t row, Lane
     traffic.overtaking_room[row] = room_off_the_way(path, around, place);
     return;
   }
-  look_around(view, row, outlook(view.model, path, scene, row), 8.0, around);
+  look_around(view, row, driver_outlook(view.model, path, scene, row), 8.0, around);
   traffic.overtaking_room[row] = overtaking_room(view, around, row, work.far[worker]);
   traffic.passing_offset[row] = passing_offset(view, path, around, row);
   if (!path.trip) return;
@@ -238,15 +246,21 @@ void do_as_intended(const TrafficTick& tick, const LaneIntent& intent, std::size
   // who comes there now already reckons with it
   if (intent.wanted != kNoLane) traffic.merge_to[row] = intent.wanted;
   change_path(std::move(*changed), along, row, tick.road, tick.scene, traffic);
+  tick.perception.ego[row] = ego_on_path(tick.road, tick.scene, row);
 }
 
 }  // namespace
+
+double outlook(const TrafficView& view, std::size_t row, double dt) {
+  const Path* path = view.road.path(view.scene.path[row]);
+  if (path == nullptr || !looks_now(view.scene, row, dt)) return 0.0;
+  return path->walking ? kSidewalk : driver_outlook(view.model, *path, view.scene, row);
+}
 
 void choose_lanes(const TrafficTick& tick, LaneChoiceWork& work) {
   const TrafficView view = tick.view();
   const Scene& scene = tick.scene;
   TrafficState& traffic = tick.traffic;
-  const auto period = std::max<std::int64_t>(1, std::llround(kPeriod / tick.dt));
   work.around.resize(tick.workers.count());
   work.far.resize(tick.workers.count());
   work.intents.assign(scene.size(), {});
@@ -256,9 +270,7 @@ void choose_lanes(const TrafficTick& tick, LaneChoiceWork& work) {
         for (std::size_t row = begin; row < end; ++row) {
           const Path* path = view.road.path(scene.path[row]);
           if (path == nullptr || scene.control[row] != Control::Gamma) continue;
-          // who has just come looks before it does what its path begins with
-          const bool looks =
-              (scene.tick + scene.id[row].value) % period == 0 || !scene.context[row].active;
+          const bool looks = looks_now(scene, row, tick.dt);
           work.intents[row].fresh = looks && !path->walking;
           if (looks) look_about(view, *path, row, work, worker, traffic);
           move_aim(traffic.passing_offset[row], traffic.overtaking_room[row] > 0.0, tick.dt,

@@ -31,7 +31,7 @@ struct Overtaken {
 };
 
 /// In the way of the body where it likes to be, and not behind it.
-bool is_in_way(const Surroundings& around, const RoadUser& user, double liked, double behind = 0) {
+bool is_in_way(const Surroundings& around, const PathUser& user, double liked, double behind = 0) {
   return user.front > around.along - around.half_length - behind &&
          std::abs(user.offset - liked) < user.half_width + around.half_width + kInWay;
 }
@@ -40,7 +40,7 @@ bool is_in_way(const Surroundings& around, const RoadUser& user, double liked, d
 /// [m] and by what that one closes up in so many seconds?
 bool has_passed(const Surroundings& around, double liked, double within, double seconds) {
   const double rear = around.along - around.half_length;
-  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+  return std::any_of(around.users.begin(), around.users.end(), [&](const PathUser& user) {
     const double closes = std::max(user.speed - around.speed, 0.0) * seconds;
     return user.aligned && is_narrow(2.0 * user.half_width) && user.front < rear &&
            is_in_way(around, user, liked, within + closes);
@@ -60,8 +60,8 @@ Overtaken find_overtaken(const Surroundings& around, double liked, double inner_
   Overtaken found;
   // the nearest ahead again and again, until a gap
   for (double from = -std::numeric_limits<double>::infinity();;) {
-    const RoadUser* next = nullptr;
-    for (const RoadUser& user : around.users)
+    const PathUser* next = nullptr;
+    for (const PathUser& user : around.users)
       if (is_in_way(around, user, liked) && user.front > from &&
           (!next || user.front < next->front))
         next = &user;
@@ -154,7 +154,7 @@ bool comes_nobody(const Surroundings& around, const Surroundings& far, const Pla
                   double inner_side, double lane_width, double margin) {
   const double front = around.along + around.half_length;
   const double rear = around.along - around.half_length;
-  for (const RoadUser& user : far.users) {
+  for (const PathUser& user : far.users) {
     const double side = inner_side * user.offset;
     if (side + user.half_width < 0.5 * lane_width && user.aligned) continue;
     if (std::abs(side - plan.target) > user.half_width + around.half_width + kInWay) continue;
@@ -220,7 +220,7 @@ double overtaking_room(const TrafficView& view, const Surroundings& around, std:
   const double faster = std::max(around.speed - overtaken.speed, 0.0);
   if (begun && front + faster * faster / (2.0 * kAtEase) > overtaken.rear) return opposite->width;
   if (!is_road_clear(path, around, plan, *opposite, begun)) return 0.0;
-  look_around(view, row, kSight, 8.0, far);
+  look_far(view, row, kSight, 8.0, far);
   const double margin = begun ? kKept : kMargin;
   return comes_nobody(around, far, plan, inner_side, lane_width, margin) ? opposite->width : 0.0;
 }

@@ -67,7 +67,7 @@ struct Filtering {
 };
 
 /// Does a user ahead turn across the place at `offset` right beside it? Who stands lets others by.
-bool turns_across(const Filtering& rider, const RoadUser& user, double offset) {
+bool turns_across(const Filtering& rider, const PathUser& user, double offset) {
   constexpr double kStands = 1.0;  // [m/s]
   constexpr double kBeside = 2.5;  // between the middles [m]
   const Path* path = rider.road.path(rider.scene.path[user.row]);
@@ -80,7 +80,7 @@ bool turns_across(const Filtering& rider, const RoadUser& user, double offset) {
 }
 
 /// Would a narrow vehicle that moves over to `offset` cut off somebody who comes from behind there?
-bool cuts_off(const Surroundings& around, const RoadUser& user, double offset, double margin) {
+bool cuts_off(const Surroundings& around, const PathUser& user, double offset, double margin) {
   constexpr double kAsked = 1.5;  // of whoever is behind at the most [m/s^2]
   const double sides = user.half_width + around.half_width;
   const double gap = around.along - around.half_length - user.front;
@@ -102,7 +102,7 @@ double filtering_hope(const Filtering& rider, double offset, double margin) {
   const double front = around.along + around.half_length;
   const double rear = around.along - around.half_length;
   double hoped = rider.free_speed;
-  for (const RoadUser& user : around.users) {
+  for (const PathUser& user : around.users) {
     if (user.front < rear - 0.3) {
       if (cuts_off(around, user, offset, margin)) return 0.0;
       continue;
@@ -128,12 +128,12 @@ double filtering_hope(const Filtering& rider, double offset, double margin) {
 
 /// Where beside `user` a narrow vehicle passes it: in the middle of what is free up to the next
 /// wide body on that side, at most so far aside that it need not mind its sides.
-double place_beside(const Surroundings& around, const RoadUser& user, double side) {
+double place_beside(const Surroundings& around, const PathUser& user, double side) {
   constexpr double kRoomy = 0.6;  // to a side [m]
   constexpr double kNear = 6.0;   // along the path, of who is beside or soon will be [m]
   const double edge = user.offset + side * user.half_width;
   double free = 2.0 * (around.half_width + kRoomy);
-  for (const RoadUser& other : around.users) {
+  for (const PathUser& other : around.users) {
     if (is_narrow(2.0 * other.half_width) || other.rear > user.front + kNear ||
         other.front < user.rear - kNear)
       continue;
@@ -260,7 +260,7 @@ void keep_to_exit(const RoadNetwork& network, const Path& path, const Surroundin
 }
 
 /// Is somebody beside the agent, or so near ahead that it would pass that one next?
-bool may_be_passed(const Surroundings& around, const RoadUser& user) {
+bool may_be_passed(const Surroundings& around, const PathUser& user) {
   return user.front >= around.along - around.half_length &&
          user.rear <= around.along + around.half_length + 10.0 + 3.0 * around.speed;
 }
@@ -276,7 +276,7 @@ std::optional<double> place_beside_tails(const TrafficView& view, LaneId id,
   const double within = 0.5 * lane.width - around.half_width - kOffEdge;
   double least = -within, most = within;
   bool any = false;
-  for (const RoadUser& user : around.users) {
+  for (const PathUser& user : around.users) {
     if (!may_be_passed(around, user) || !stands_beside_lane(view, user.row, id, user.offset))
       continue;
     const double apart = user.half_width + around.half_width + kGap;
@@ -357,7 +357,7 @@ double pass_somebody(const Passer& passer, const Places& places, double inner_si
   const double half = around.half_width;
   const double worth = best.speed + (narrow ? kSmallGain : kGain);
   const double gap_wanted = passer.over > 0.0 ? kOvertakingGap : side_gap(narrow, around.speed);
-  for (const RoadUser& user : around.users) {
+  for (const PathUser& user : around.users) {
     if ((!user.aligned && !user.on_foot) || !may_be_passed(around, user)) continue;
     if (!narrow && user.half_width > 0.5 * kNarrow) continue;
     if (std::abs(user.offset - places.liked) > user.half_width + half + gap_wanted) continue;

@@ -183,16 +183,20 @@ constexpr Rule kDriving[] = {follow_leader,     let_merge,    obey_links,
 
 }  // namespace
 
+double driver_reach(const AgentType& type, double speed) {
+  const double braking = speed * speed / (2.0 * type.comfortable_deceleration);
+  return std::min(40.0 + 2.5 * speed + braking, 250.0);
+}
+
 Driver driver_of(const TrafficView& view, const Course& course, double free_speed) {
   const double front = course.along + course.half_length;
-  const double braking = course.speed * course.speed / (2.0 * course.type.comfortable_deceleration);
   return {
       view,
       course,
       front,
       {course.row, front + beside_lane(view.model, course), 2.0 * course.half_length, course.speed},
       free_speed,
-      std::min(40.0 + 2.5 * course.speed + braking, 250.0)};
+      driver_reach(course.type, course.speed)};
 }
 
 double acceleration_behind(const Driver& driver, const StopPoint& point) {

@@ -8,7 +8,6 @@
 #include "base/random.h"
 #include "geometry/rotation.h"
 #include "model/stopping_guard.h"
-#include "scene/storey.h"
 
 namespace sumogamma {
 
@@ -71,28 +70,32 @@ OrientedBox ahead_of(const AgentGeometry& their) {
   return {box.center + 0.5 * way * box.forward, box.forward, box.half + Vec2(0.5 * way, 0.0)};
 }
 
+/// May somebody's body be near a row's own, at a position? Of the bodies of the tick's begin.
+bool is_within_reach(const AgentGeometry& own, const Vec2& position, const AgentGeometry& their) {
+  const double reach = own.radius + kFarthestCorner;
+  return (their.position - position).squaredNorm() <= reach * reach;
+}
+
 /// Does a pose keep clear of everybody, or come no closer to who is close?
-bool keeps_clear(const RoadNetwork& network, const Scene& scene, const TickGeometry& geometry,
-                 std::size_t row, const BodyState& body) {
+bool keeps_clear(const TrafficView& view, const TickGeometry& geometry, std::size_t row,
+                 const BodyState& body) {
   const AgentGeometry& own = geometry.agent[row];
   const Vec2 forward = direction_of(body.heading);
   const OrientedBox box{body.position + own.shift * forward, forward, own.half};
-  bool clear = true;
-  geometry.grid.visit_within(
-      body.position, own.radius + kFarthestCorner, [&](std::size_t other, double) {
-        if (other == row || !clear || on_other_storey(network, scene, row, other)) return;
-        const AgentGeometry& their = geometry.agent[other];
-        const double kept = kClear + std::min(their.throttle_way, 0.3);
-        if (!their.is_box) {
-          clear = (their.position - body.position).norm() > own.radius + their.radius + kept ||
-                  (their.position - body.position).norm() > (their.position - own.position).norm();
-          return;
-        }
-        const OrientedBox taken = ahead_of(their);
-        const double gap = separation(box, taken);
-        if (gap < kept) clear = gap > separation(own.box(), taken) - 1e-9;
-      });
-  return clear;
+  return std::none_of(view.perception.near[row].begin(), view.perception.near[row].end(),
+                      [&](std::uint32_t other) {
+                        const AgentGeometry& their = geometry.agent[other];
+                        if (!is_within_reach(own, body.position, their)) return false;
+                        const double kept = kClear + std::min(their.throttle_way, 0.3);
+                        if (!their.is_box) {
+                          const double distance = (their.position - body.position).norm();
+                          return distance <= own.radius + their.radius + kept &&
+                                 distance <= (their.position - own.position).norm();
+                        }
+                        const OrientedBox taken = ahead_of(their);
+                        const double gap = separation(box, taken);
+                        return gap < kept && gap <= separation(own.box(), taken) - 1e-9;
+                      });
 }
 
 /// Has the gap come into another lane that this row waits for?
@@ -116,18 +119,16 @@ bool makes_room(const TrafficView& view, std::size_t row) {
 
 /// Is `holds` true of anybody on wheels near a row, one that is itself on wheels?
 template <typename Holds>
-bool any_wheeled(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                 std::size_t row, Holds holds) {
+bool any_wheeled(const TrafficView& view, const TickGeometry& geometry, std::size_t row,
+                 Holds holds) {
   const AgentGeometry& own = geometry.agent[row];
   if (!own.on_wheels || !own.is_box) return false;
-  bool found = false;
-  geometry.grid.visit_within(
-      own.position, own.radius + kFarthestCorner, [&](std::size_t other, double) {
-        const AgentGeometry& their = geometry.agent[other];
-        found = found || (other != row && their.on_wheels && their.is_box &&
-                          !on_other_storey(model.road, scene, row, other) && holds(other));
-      });
-  return found;
+  const std::vector<std::uint32_t>& near = view.perception.near[row];
+  return std::any_of(near.begin(), near.end(), [&](std::uint32_t other) {
+    const AgentGeometry& their = geometry.agent[other];
+    return their.on_wheels && their.is_box && is_within_reach(own, own.position, their) &&
+           holds(other);
+  });
 }
 
 /// Is a body in the room that another one needs to drive on?
@@ -141,21 +142,18 @@ bool is_in_room_of(const AgentGeometry& body, const AgentGeometry& other) {
 
 /// Does this row stand in the way of somebody wedged of whom `concerns` is true?
 template <typename Concerns>
-bool stands_before(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                   std::size_t row, Concerns concerns) {
-  return any_wheeled(model, scene, geometry, row, [&](std::size_t other) {
-    return is_wedged(scene, other) && is_in_room_of(geometry.agent[row], geometry.agent[other]) &&
-           concerns(other);
+bool stands_before(const TrafficView& view, const TickGeometry& geometry, std::size_t row,
+                   Concerns concerns) {
+  return any_wheeled(view, geometry, row, [&](std::size_t other) {
+    return is_wedged(view.scene, other) &&
+           is_in_room_of(geometry.agent[row], geometry.agent[other]) && concerns(other);
   });
 }
 
 /// Does somebody who lets others go first stand in this row's way? It steps back further.
 bool is_made_way_for(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
-  const Model& model = view.model;
-  const Scene& scene = view.scene;
-  const TrafficState& traffic = view.traffic;
-  return any_wheeled(model, scene, geometry, row, [&](std::size_t other) {
-    return traffic.gives_way_left[other] > 0.0 &&
+  return any_wheeled(view, geometry, row, [&](std::size_t other) {
+    return view.traffic.gives_way_left[other] > 0.0 &&
            is_in_room_of(geometry.agent[other], geometry.agent[row]);
   });
 }
@@ -180,37 +178,33 @@ bool waits_for_wedged(const Scene& scene, std::size_t row) {
 
 /// Does this row stand in the way of somebody wedged, and wait itself for that one or for another
 /// who is? Of three who hold each other the one with room behind may wait for the wrong one.
-bool stands_in_the_way(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                       std::size_t row) {
+bool stands_in_the_way(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
+  const Scene& scene = view.scene;
   constexpr double kLong = 12.0;  // [s]
   return scene.held[row].standing > kLong && !is_wedged(scene, row) && !scene.context[row].at_red &&
-         stands_before(model, scene, geometry, row, [&](std::size_t other) {
+         stands_before(view, geometry, row, [&](std::size_t other) {
            return scene.held[other].blocked > kHeldUp &&
                   (is_in_chain_behind(scene, row, other) || waits_for_wedged(scene, row));
          });
 }
 
 /// Has this row rolled back to let others go first, but not far enough for one of them?
-bool is_still_in_the_way(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                         std::size_t row) {
+bool is_still_in_the_way(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
   constexpr double kSees = 3.0;  // [s]
-  return backward_speed(scene, row) < kStill &&
-         stands_before(model, scene, geometry, row,
-                       [&](std::size_t other) { return scene.held[other].blocked > kSees; });
+  return backward_speed(view.scene, row) < kStill &&
+         stands_before(view, geometry, row,
+                       [&](std::size_t other) { return view.scene.held[other].blocked > kSees; });
 }
 
 /// Is somebody near in front of a row that lets others go first held up for other reasons than the
 /// row?
 bool lets_somebody_go(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
-  const Model& model = view.model;
-  const Scene& scene = view.scene;
-  const TrafficState& traffic = view.traffic;
   constexpr double kHeld = 2.0;  // [s]
   const AgentGeometry& own = geometry.agent[row];
-  return any_wheeled(model, scene, geometry, row, [&](std::size_t other) {
+  return any_wheeled(view, geometry, row, [&](std::size_t other) {
     const Vec2 way = geometry.agent[other].position - own.position;
-    return way.dot(own.forward) > 0.0 && traffic.waiting_time[other] > kHeld &&
-           !is_in_chain_behind(scene, other, row);
+    return way.dot(own.forward) > 0.0 && view.traffic.waiting_time[other] > kHeld &&
+           !is_in_chain_behind(view.scene, other, row);
   });
 }
 
@@ -239,8 +233,7 @@ Backing begin_backing(const TrafficView& view, const TickGeometry& geometry, std
       scene.held[row].blocked > patience(scene, row) && !is_made_way_for(view, geometry, row))
     return {kTries, 0.0};
   if (makes_room(view, row)) return {kMakesRoom, 0.0};
-  if (stands_in_the_way(view.model, scene, geometry, row))
-    return {kStepsBack, kStepsBack + kGivesWay};
+  if (stands_in_the_way(view, geometry, row)) return {kStepsBack, kStepsBack + kGivesWay};
   return {};
 }
 
@@ -255,8 +248,7 @@ Backing next_backing(const TrafficView& view, const TickGeometry& geometry, doub
     now.gives_way = 0.0;
   if (now.left > 0.0) return go_on_backing(scene, row, dt, now);
   if (now.gives_way <= 0.0) return begin_backing(view, geometry, row);
-  if (is_still_in_the_way(view.model, scene, geometry, row))
-    return {kStepsBack, kStepsBack + kGivesWay};
+  if (is_still_in_the_way(view, geometry, row)) return {kStepsBack, kStepsBack + kGivesWay};
   return now;
 }
 
@@ -278,17 +270,15 @@ void update_backing(const TrafficView& view, const TickGeometry& geometry, doubl
 
 std::optional<BodyState> back_out(const TrafficView& view, const TickGeometry& geometry,
                                   std::size_t row, double dt) {
-  const Model& model = view.model;
-  const RoadState& road = view.road;
   const Scene& scene = view.scene;
   const TrafficState& traffic = view.traffic;
   const double now = backward_speed(scene, row);
   const bool backing = traffic.backing_left[row] > 0.0 || now > kStill;
   if (!backing || scene.speed[row] > kStill) return std::nullopt;
   const AgentGeometry& own = geometry.agent[row];
-  const Path* path = road.path(scene.path[row]);
+  const Path* path = view.road.path(scene.path[row]);
   if (path == nullptr || !own.on_wheels || !own.is_box) return std::nullopt;
-  const AgentType& type = type_of(model.types, scene.type[row]);
+  const AgentType& type = type_of(view.model.types, scene.type[row]);
   const BodyState body = body_of(scene, row);
   // as fast as it can still stop before the time is over and before whoever is behind
   const double speed = std::min({kPace, now + kThrottle * dt, kBrake * traffic.backing_left[row]});
@@ -300,8 +290,7 @@ std::optional<BodyState> back_out(const TrafficView& view, const TickGeometry& g
   const std::array locks{along_path, 0.0, most, -most};
   for (const double lock : std::span(locks).first(is_wedged(scene, row) ? 4 : 2)) {
     const auto is_free = [&](double way) {
-      return keeps_clear(model.road, scene, geometry, row,
-                         roll_back(type, body, lock, way / dt, dt));
+      return keeps_clear(view, geometry, row, roll_back(type, body, lock, way / dt, dt));
     };
     // a nose that swings may press into somebody on the way to a place that is free
     if (is_free(to_stop) && (now > kStill || is_free(kRoomToBegin)))

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 
-#include "scene/storey.h"
 #include "traffic/junction/arbitration.h"
+#include "traffic/perception.h"
 #include "traffic/walking/mid_block_crossing.h"
 
 namespace sumogamma {
 
 namespace {
 
+constexpr double kFileReach = 2.5;  ///< within which people walk in file [m]
 constexpr double kRim = 1.0;        ///< of a crossing, from which one gets off it [m]
 constexpr double kLeastWay = 1e-4;  ///< that has a direction: nobody creeps on over it [m]
 
@@ -17,27 +18,25 @@ constexpr double kLeastWay = 1e-4;  ///< that has a direction: nobody creeps on 
 /// as on any sidewalk (Seyfried et al. 2005: 0.36 m + 1.06 s v from middle to middle); whoever
 /// comes towards them is left to avoidance.
 void follow_on_foot(const TrafficView& view, const Course& course, RoadContext& context) {
-  constexpr double kReach = 2.5;   // [m]
   constexpr double kFile = 0.05;   // two who overlap sideways by more than this walk in file [m]
   constexpr double kBeside = 0.1;  // who is no further ahead is beside [m]
   const Scene& scene = view.scene;
   const std::size_t row = course.row;
   const Vec2 left = left_of(context.tangent);
-  const double half_width = half_extent(scene, row, left);
-  view.grid.visit_within(scene.position[row], kReach, [&](std::size_t other, double) {
-    if (other == row || on_other_storey(view.model.road, scene, row, other)) return;
+  const double half_width = half_extent(view, row, left);
+  visit_near(view, row, kFileReach, [&](std::size_t other) {
     if (type_of(view.model.types, scene.type[other]).kinematics != Kinematics::Holonomic) return;
     const Vec2 offset = scene.position[other] - scene.position[row];
     const double ahead = offset.dot(context.tangent);
-    const double aside = half_width + half_extent(scene, other, left) - kFile;
+    const double aside = half_width + half_extent(view, other, left) - kFile;
     if (ahead < kBeside || std::abs(offset.dot(left)) > aside) return;
-    if (direction_of(scene.heading[other]).dot(context.tangent) < 0.5) return;
+    if (view.perception.ego[other].forward.dot(context.tangent) < 0.5) return;
     // where their ways bend each may be ahead of the other: one of them goes
     const Waiting& theirs = view.approaches.waiting(other);
     if (theirs.reason == LimitReason::Leader && theirs.foe == scene.id[row].value &&
         scene.id[row] < scene.id[other])
       return;
-    const double gap = ahead - course.half_length - half_extent(scene, other, context.tangent);
+    const double gap = ahead - course.half_length - half_extent(view, other, context.tangent);
     const double allowed = std::max(gap, 0.0) / (course.type.headway * course.headway_factor);
     if (allowed >= context.allowed_speed || allowed >= context.speed_limit) return;
     context.allowed_speed = allowed;
@@ -96,7 +95,7 @@ void keep_off_red_crossings(const TrafficView& view, const Course& course, RoadC
              stretch.from < course.along + kNear;
     });
     if (crosses && !waits) return;
-    const double extent = half_extent(view.scene, course.row, way / distance);
+    const double extent = half_extent(view, course.row, way / distance);
     way *= std::max(distance - extent, kLeastWay) / distance;
     for (Vec2& kept : context.to_red) {
       if (way == kept || way.isZero()) return;
@@ -188,6 +187,13 @@ void set_walker_limit(const TrafficView& view, const Course& course, RoadContext
 }
 
 }  // namespace
+
+double walker_reach(const TrafficView& view, const Path& path, std::size_t row) {
+  const EgoOnPath& ego = view.perception.ego[row];
+  const double pace = std::min(path.profile_at(ego.along), view.scene.preferred_speed[row]);
+  const Traveller walker{row, ego.along + ego.half_length, 2.0 * ego.half_length, ego.speed};
+  return std::max(kFileReach, reach_at_kerb(view, walker, pace));
+}
 
 void set_walker_limits(const TrafficView& view, const Course& course, RoadContext& context) {
   follow_on_foot(view, course, context);

@@ -25,7 +25,7 @@ constexpr double kKeeps = 0.1;      ///< worth changing one's mind for [m/s]
 enum class Meeting { Counts, StandsInTheWay, IsLeftToAvoidance };
 
 /// People and who drives along the way count; vehicles that drive across it will have passed.
-Meeting meeting_with(const Scene& scene, const RoadUser& user) {
+Meeting meeting_with(const Scene& scene, const PathUser& user) {
   constexpr double kDrives = 0.5;  // [m/s]
   if (user.on_foot) return Meeting::Counts;
   const double speed = scene.velocity[user.row].norm();
@@ -45,21 +45,21 @@ double hoped_pace(const Scene& scene, const Surroundings& around, double place, 
   const double front = around.along + around.half_length;
   const double rear = around.along - around.half_length;
   double hoped = free_speed;
-  auto is_near = [&](const RoadUser& user, double margin) {
+  auto is_near = [&](const PathUser& user, double margin) {
     return user.front >= rear &&
            std::abs(user.offset - place) <= user.half_width + around.half_width + margin;
   };
-  auto meet = [&](const RoadUser& user, double margin) {
+  auto meet = [&](const PathUser& user, double margin) {
     if (!is_near(user, margin)) return;
     const double gap = user.rear - front;
     hoped = std::min(hoped, user.speed + (gap > 0.0 ? gap / kOutlook : -kBeside));
   };
-  for (const RoadUser& user : around.users) {
+  for (const PathUser& user : around.users) {
     meet(user, kMargin);
     if (is_near(user, kAtEase) && meeting_with(scene, user) == Meeting::StandsInTheWay)
       hoped = std::min(hoped, kSqueezes * free_speed);
   }
-  for (const RoadUser& wall : around.walls) meet(wall, kWallMargin);
+  for (const PathUser& wall : around.walls) meet(wall, kWallMargin);
   return hoped;
 }
 
@@ -133,11 +133,11 @@ double walking_place(const TrafficView& view, const Path& path, Surroundings& ar
   const Scene& scene = view.scene;
   const TrafficState& traffic = view.traffic;
   // those left to avoidance are not weighed
-  std::erase_if(around.users, [&](const RoadUser& user) {
+  std::erase_if(around.users, [&](const PathUser& user) {
     return meeting_with(scene, user) == Meeting::IsLeftToAvoidance;
   });
   const bool stands =
-      std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+      std::any_of(around.users.begin(), around.users.end(), [&](const PathUser& user) {
         return user.front > around.along && meeting_with(scene, user) == Meeting::StandsInTheWay;
       });
   const double farthest = stands ? kRound : kFarthest, reach = stands ? 2.0 * kRound : kReach;

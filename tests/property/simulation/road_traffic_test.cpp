@@ -60,8 +60,13 @@ TEST(RoadTraffic, WhoBacksOutDoesNotDependOnTheOrderOfRows) {
       std::vector<Backing> next;
       const auto after = [&](Workers& workers) {
         TrafficState state = sim.traffic.state;
-        const TrafficView view{sim.model, sim.road,          sim.scene,
-                               state,     sim.geometry.grid, sim.traffic.approaches};
+        const TrafficView view{sim.model,
+                               sim.road,
+                               sim.scene,
+                               state,
+                               sim.geometry.grid,
+                               sim.traffic.approaches,
+                               sim.traffic.perception};
         update_backing(view, sim.geometry, sim.dt, workers, next, state);
         return std::pair{state.backing_left, state.gives_way_left};
       };

@@ -206,7 +206,7 @@ TEST(HoldingUp, SoDoesWhoeverThatOneStandsBehind) {
   for (const LimitReason reason : {LimitReason::Leader, LimitReason::Yield}) {
     waits_for(second, reason, first);
     ApproachTable approaches;
-    approaches.rebuild(here.model, here.road, here.scene, here.traffic);
+    approaches.rebuild(here.model, here.road, here.scene, here.traffic, here.view().perception.ego);
     EXPECT_TRUE(approaches.waiting(second).holds_up);
     EXPECT_EQ(approaches.waiting(first).holds_up, reason == LimitReason::Leader);
     EXPECT_FALSE(approaches.waiting(held).holds_up);
