@@ -23,9 +23,15 @@ EgoOnPath ego_on_path(const RoadState& road, const Scene& scene, std::size_t row
 /// Where everybody is on its path, and who is near whom: by row, once a tick.
 struct Perception {
   std::vector<EgoOnPath> ego;
-  std::vector<double> reach;  ///< as far as a row's rules look at this tick, at the most [m]
+  std::vector<double> reach;  ///< as far as a row's rules look at this tick as a rule [m]
   /// Rows within that reach of a row, on its storey; in the grid's order.
   std::vector<std::vector<std::uint32_t>> near;
+
+  void resize(std::size_t rows) {
+    ego.resize(rows);
+    reach.resize(rows);
+    near.resize(rows);
+  }
 };
 
 }  // namespace sumogamma

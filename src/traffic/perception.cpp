@@ -31,21 +31,10 @@ void add_user(const TrafficView& view, const Path& path, std::size_t other, doub
        static_cast<std::uint32_t>(other)});
 }
 
-/// `visit_others` calls what it is given for everybody who may be around.
-template <typename VisitOthers>
-void look(const TrafficView& view, std::size_t row, double reach, double aside,
-          Surroundings& around, VisitOthers visit_others) {
-  const Path& path = *view.road.path(view.scene.path[row]);
-  static_cast<EgoOnPath&>(around) = view.perception.ego[row];
-  around.users.clear();
-  visit_others([&](std::size_t other) { add_user(view, path, other, reach, aside, around); });
-  std::sort(around.users.begin(), around.users.end(),
-            [](const PathUser& a, const PathUser& b) { return a.row < b.row; });
-}
-
 }  // namespace
 
 void perceive(const TrafficView& view, std::size_t row, double reach, Perception& perception) {
+  perception.ego[row] = ego_on_path(view.road, view.scene, row);
   perception.reach[row] = reach;
   std::vector<std::uint32_t>& near = perception.near[row];
   near.clear();
@@ -55,13 +44,13 @@ void perceive(const TrafficView& view, std::size_t row, double reach, Perception
 
 void look_around(const TrafficView& view, std::size_t row, double reach, double aside,
                  Surroundings& around) {
-  look(view, row, reach, aside, around, [&](auto&& add) { visit_near(view, row, reach, add); });
-}
-
-void look_far(const TrafficView& view, std::size_t row, double reach, double aside,
-              Surroundings& around) {
-  look(view, row, reach, aside, around,
-       [&](auto&& add) { visit_storey(view, row, view.scene.position[row], reach, add); });
+  const Path& path = *view.road.path(view.scene.path[row]);
+  static_cast<EgoOnPath&>(around) = view.perception.ego[row];
+  around.users.clear();
+  visit_near(view, row, reach,
+             [&](std::size_t other) { add_user(view, path, other, reach, aside, around); });
+  std::sort(around.users.begin(), around.users.end(),
+            [](const PathUser& a, const PathUser& b) { return a.row < b.row; });
 }
 
 void look_at_walls(const TrafficView& view, const Path& path, std::size_t row, double reach,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -33,7 +32,7 @@ struct Surroundings : EgoOnPath {
 };
 
 /// Calls visit(other) for everybody on a row's storey, but itself, within `radius` of `center` [m].
-/// Asks the grid, in whose order they come: rules do so for what is beyond their row's reach alone.
+/// Asks the grid, in whose order they come.
 template <typename Visit>
 void visit_storey(const TrafficView& view, std::size_t row, const Vec2& center, double radius,
                   Visit&& visit) {
@@ -42,26 +41,23 @@ void visit_storey(const TrafficView& view, std::size_t row, const Vec2& center, 
   });
 }
 
-/// Likewise for everybody within `radius` [m] of a row, which is no more than its reach.
+/// Likewise for everybody within `radius` [m] of a row, which as a rule is no more than its reach.
 template <typename Visit>
 void visit_near(const TrafficView& view, std::size_t row, double radius, Visit&& visit) {
-  assert(radius <= view.perception.reach[row]);
   const std::vector<Vec2>& position = view.scene.position;
+  if (radius > view.perception.reach[row])
+    return visit_storey(view, row, position[row], radius, visit);
   for (const std::size_t other : view.perception.near[row])
     if ((position[other] - position[row]).squaredNorm() <= radius * radius) visit(other);
 }
 
-/// Fills the row's own part of `perception`: who is within `reach` [m].
+/// Fills the row's own part of `perception`, with who is near within `reach` [m].
 void perceive(const TrafficView& view, std::size_t row, double reach, Perception& perception);
 
 /// Fills `around` for a row with a path: everybody whose centre lies within `reach` ahead, or
 /// `reach` behind [m], and within `aside` of the path on the same storey.
 void look_around(const TrafficView& view, std::size_t row, double reach, double aside,
                  Surroundings& around);
-
-/// Likewise beyond the row's reach.
-void look_far(const TrafficView& view, std::size_t row, double reach, double aside,
-              Surroundings& around);
 
 /// Fills around.walls, after look_around, with what is solid within `reach` [m] of a row and within
 /// `aside` of its path, in pieces of half a metre.

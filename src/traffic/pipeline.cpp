@@ -17,29 +17,25 @@ namespace sumogamma {
 
 namespace {
 
-/// How far the rules of a row look at this tick [m].
+/// How far the rules of a row look at this tick, but for those that look far now and then [m]. Who
+/// backs out needs to know of everybody about the place to which it rolls, too.
 double reach_of(const TrafficTick& tick, const TrafficView& view, std::size_t row) {
   const Path* path = view.road.path(view.scene.path[row]);
   const double around = outlook(view, row, tick.dt);
-  if (path != nullptr && path->walking) return std::max(around, walker_reach(view, *path, row));
+  if (path != nullptr && path->walking) return std::max(around, kFileReach);
   const AgentType& type = type_of(view.model.types, view.scene.type[row]);
-  // who backs out needs to know of everybody about the place to which it rolls, too
   return std::max({around, driver_reach(type, view.scene.speed[row]),
                    tick.geometry.agent[row].radius + kFarthestCorner + 1.0});
 }
 
 void perceive_all(const TrafficTick& tick) {
   const TrafficView view = tick.view();
-  const std::size_t rows = view.scene.size();
-  tick.perception.ego.resize(rows);
-  tick.perception.reach.resize(rows);
-  tick.perception.near.resize(rows);
-  tick.workers.for_each_range(rows, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      tick.perception.ego[row] = ego_on_path(view.road, view.scene, row);
-      perceive(view, row, reach_of(tick, view, row), tick.perception);
-    }
-  });
+  tick.perception.resize(view.scene.size());
+  tick.workers.for_each_range(view.scene.size(),
+                              [&](std::size_t, std::size_t begin, std::size_t end) {
+                                for (std::size_t row = begin; row < end; ++row)
+                                  perceive(view, row, reach_of(tick, view, row), tick.perception);
+                              });
 }
 
 }  // namespace

@@ -113,13 +113,9 @@ class RoadScene {
   /// Everybody is near everybody.
   TrafficView view() const {
     const TrafficView view{model, road, scene, traffic, geometry.grid, approaches, perception_};
-    perception_.ego.resize(scene.size());
-    perception_.reach.resize(scene.size());
-    perception_.near.resize(scene.size());
-    for (std::size_t row = 0; row < scene.size(); ++row) {
-      perception_.ego[row] = ego_on_path(road, scene, row);
+    perception_.resize(scene.size());
+    for (std::size_t row = 0; row < scene.size(); ++row)
       perceive(view, row, std::numeric_limits<double>::infinity(), perception_);
-    }
     return view;
   }
   TrafficTick tick(Workers& workers, double dt = 0.05) {

@@ -220,7 +220,7 @@ double overtaking_room(const TrafficView& view, const Surroundings& around, std:
   const double faster = std::max(around.speed - overtaken.speed, 0.0);
   if (begun && front + faster * faster / (2.0 * kAtEase) > overtaken.rear) return opposite->width;
   if (!is_road_clear(path, around, plan, *opposite, begun)) return 0.0;
-  look_far(view, row, kSight, 8.0, far);
+  look_around(view, row, kSight, 8.0, far);
   const double margin = begun ? kKept : kMargin;
   return comes_nobody(around, far, plan, inner_side, lane_width, margin) ? opposite->width : 0.0;
 }

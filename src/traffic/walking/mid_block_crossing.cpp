@@ -25,14 +25,12 @@ constexpr double kStands = 0.3, kCrawls = 1.0;  ///< [m/s]
 
 /// The piece over a road that somebody on foot has before it.
 struct Piece {
-  double kerb = 0;  ///< where it begins along the walker's path [m]
   Vec2 begin, end;
   double front = 0;   ///< of the walker past the begin [m]
   double length = 0;  ///< of the walker [m]
   double half_width = 0;
   double pace = 1;    ///< [m/s]
   double waited = 0;  ///< [s]
-  double width() const { return (end - begin).norm(); }
 };
 
 /// Where a vehicle's path meets a piece: along the path from the vehicle's middle, and along the
@@ -82,22 +80,14 @@ bool holds(const TrafficView& view, std::size_t row, const Meeting& meeting, con
   return patient || taken.begin < kSeen || deceleration_to_stop(speed, gap) > kEasy;
 }
 
-/// It takes to set out and get over a road, with a margin [s].
-double time_over(const Piece& piece) {
-  return kSetsOut + (piece.width() + piece.length) / piece.pace + kMargin;
-}
-
-/// As far as a road is looked along from a kerb [m].
-double reach_from(const Piece& piece) {
-  constexpr double kFast = 17.0;       // [m/s]
-  constexpr double kFarthest = 250.0;  // [m]
-  return std::min(kFast * time_over(piece) + piece.width(), kFarthest);
-}
-
 /// Id of the nearest vehicle that has somebody on foot wait, -1 where none does.
 std::int64_t find_who_comes(const TrafficView& view, std::size_t row, const Piece& piece) {
   const Scene& scene = view.scene;
-  const double time = time_over(piece), reach = reach_from(piece);
+  constexpr double kFast = 17.0;       // [m/s]
+  constexpr double kFarthest = 250.0;  // [m]
+  const double width = (piece.end - piece.begin).norm();
+  const double time = kSetsOut + (width + piece.length) / piece.pace + kMargin;
+  const double reach = std::min(kFast * time + width, kFarthest);
   std::int64_t foe = -1;
   double nearest = reach * reach;
   visit_near(view, row, reach, [&](std::size_t other) {
@@ -106,7 +96,7 @@ std::int64_t find_who_comes(const TrafficView& view, std::size_t row, const Piec
     const Path* path = view.road.path(scene.path[other]);
     if (path == nullptr || path->walking) return;
     const double half_length = scene.footprint[other].radius;
-    const double least = std::sqrt(distance) - piece.width() - half_length;
+    const double least = std::sqrt(distance) - width - half_length;
     const double fastest = std::min(path->profile_at(scene.path_along[other]),
                                     type_of(view.model.types, scene.type[other]).max_speed);
     if (least > time * fastest) return;
@@ -121,11 +111,11 @@ std::int64_t find_who_comes(const TrafficView& view, std::size_t row, const Piec
   return foe;
 }
 
-/// The next piece over a road that somebody looks along before it sets out; none where it isn't
-/// near, or crosses already.
-std::optional<Piece> piece_ahead(const TrafficView& view, const Traveller& walker, double pace) {
-  const Scene& scene = view.scene;
-  const Path& path = *view.road.path(scene.path[walker.row]);
+}  // namespace
+
+LinkDecision decide_at_kerb(const TrafficView& view, const Traveller& walker, double pace) {
+  const auto& [model, road, scene, traffic, grid, approaches, perception] = view;
+  const Path& path = *road.path(scene.path[walker.row]);
   for (const RoadCrossing& over : path.over_road) {
     if (walker.front > over.begin + kOnIt) continue;
     if (walker.front < over.begin - kNear) break;
@@ -133,30 +123,18 @@ std::optional<Piece> piece_ahead(const TrafficView& view, const Traveller& walke
     const RoadContext& before = scene.context[walker.row];
     const bool let_go = before.active && before.reason != LimitReason::Crossing;
     if (let_go && walker.front > over.begin - kSetOut) break;
-    return Piece{over.begin,
-                 path.line.point_at(over.begin),
-                 path.line.point_at(over.end),
-                 walker.front - over.begin,
-                 walker.length,
-                 0.5 * type_of(view.model.types, scene.type[walker.row]).width,
-                 std::max(pace, 0.3),
-                 view.traffic.waiting_time[walker.row]};
+    const Piece piece{path.line.point_at(over.begin),
+                      path.line.point_at(over.end),
+                      walker.front - over.begin,
+                      walker.length,
+                      0.5 * type_of(model.types, scene.type[walker.row]).width,
+                      std::max(pace, 0.3),
+                      traffic.waiting_time[walker.row]};
+    const std::int64_t foe = find_who_comes(view, walker.row, piece);
+    if (foe < 0) break;
+    return {true, over.begin - kBefore, LimitReason::Crossing, foe};
   }
-  return std::nullopt;
-}
-
-}  // namespace
-
-double reach_at_kerb(const TrafficView& view, const Traveller& walker, double pace) {
-  const auto piece = piece_ahead(view, walker, pace);
-  return piece ? reach_from(*piece) : 0.0;
-}
-
-LinkDecision decide_at_kerb(const TrafficView& view, const Traveller& walker, double pace) {
-  const auto piece = piece_ahead(view, walker, pace);
-  const std::int64_t foe = piece ? find_who_comes(view, walker.row, *piece) : -1;
-  if (foe < 0) return {};
-  return {true, piece->kerb - kBefore, LimitReason::Crossing, foe};
+  return {};
 }
 
 }  // namespace sumogamma

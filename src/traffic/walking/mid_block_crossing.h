@@ -12,7 +12,4 @@ namespace sumogamma {
 /// to walk at [m/s].
 LinkDecision decide_at_kerb(const TrafficView& view, const Traveller& walker, double pace);
 
-/// How far it looks along the road for that [m]; 0 where there is none to look along.
-double reach_at_kerb(const TrafficView& view, const Traveller& walker, double pace);
-
 }  // namespace sumogamma

@@ -10,7 +10,6 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kFileReach = 2.5;  ///< within which people walk in file [m]
 constexpr double kRim = 1.0;        ///< of a crossing, from which one gets off it [m]
 constexpr double kLeastWay = 1e-4;  ///< that has a direction: nobody creeps on over it [m]
 
@@ -187,13 +186,6 @@ void set_walker_limit(const TrafficView& view, const Course& course, RoadContext
 }
 
 }  // namespace
-
-double walker_reach(const TrafficView& view, const Path& path, std::size_t row) {
-  const EgoOnPath& ego = view.perception.ego[row];
-  const double pace = std::min(path.profile_at(ego.along), view.scene.preferred_speed[row]);
-  const Traveller walker{row, ego.along + ego.half_length, 2.0 * ego.half_length, ego.speed};
-  return std::max(kFileReach, reach_at_kerb(view, walker, pace));
-}
 
 void set_walker_limits(const TrafficView& view, const Course& course, RoadContext& context) {
   follow_on_foot(view, course, context);

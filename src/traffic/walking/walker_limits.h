@@ -5,8 +5,8 @@
 
 namespace sumogamma {
 
-/// How far somebody on foot with a path looks for those below [m].
-double walker_reach(const TrafficView& view, const Path& path, std::size_t row);
+/// Within which people walk in file [m].
+inline constexpr double kFileReach = 2.5;
 
 /// How fast somebody on foot may go, and how far aside, besides what its path allows: behind those
 /// who walk the same way, at kerbs and crossings.
