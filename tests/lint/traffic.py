@@ -1,4 +1,5 @@
-"""Checks the rules of the road (src/traffic): every column of what they remember has one writer, every tunable stands in one place.
+"""Checks the rules of the road (src/traffic): every column of what they remember has one writer, every tunable stands in one place, the grid
+of agents has one reader.
 
 usage: traffic.py PROJECT_FOLDER [--list]
 
@@ -6,6 +7,7 @@ A column is a member of `struct TrafficState` in src/traffic/traffic_state.h tha
 .cpp that assigns to it or to an entry, changes its size, or binds it to a reference or pointer that isn't const. traffic_state.h and
 .cpp themselves add and remove rows and don't count. An entry that is passed on by reference isn't seen: rules that only read take a
 `const TrafficState&`, which the compiler holds.
+Who is around whom is asked of the grid once a row and tick, by src/traffic/perception; what a rule asks for beyond its row's reach is in FAR.
 A tunable is a named constant of src/traffic with a number of its own, but for those in src/traffic/parameters.h and .cpp.
 """
 import os
@@ -18,8 +20,11 @@ from project import finish, numbered_lines, project_files
 HEADER = "src/traffic/traffic_state.h"
 PARAMETERS = r"src/traffic/parameters\.(h|cpp)"
 # by folder, how many tunables still stand elsewhere: numbers that only get smaller
-STILL = {"src/traffic": 12, "src/traffic/junction": 84, "src/traffic/lateral": 92, "src/traffic/longitudinal": 43,
-         "src/traffic/recovery": 40, "src/traffic/walking": 50}
+STILL = {"src/traffic/walking": 1}
+PERCEPTION = "src/traffic/perception"
+FAR = {"src/traffic/longitudinal/leader.cpp": 1}  # calls of visit_storey by file
+GRID = re.compile(r"\bvisit_(?:within|runs)\s*\(")
+STOREY = re.compile(r"\bvisit_storey\s*\(")
 CONSTANT = re.compile(r"\bconst(?:expr)?\s+(?:double|float|int|auto)\s+(?=k[A-Z]\w*\s*[={])([^;]*);")
 PLACE = r"(?:\s*\[(?:[^\[\]]|\[[^\[\]]*\])*\])?"  # of an entry, whose index may be another's entry
 CHANGERS = "assign|resize|push_back|emplace_back|clear|swap|insert|erase|reserve|fill"
@@ -77,6 +82,21 @@ def check_columns(root, paths):
     return complaints, len(found)
 
 
+def queries(root, paths):
+    """Complaints about who asks the grid besides perception."""
+    asked = 0
+    for path in paths:
+        text = code(root, path)
+        own = path.rsplit(".", 1)[0] == PERCEPTION
+        for call in GRID.finditer(text):
+            asked += own
+            if not own or asked > 1:
+                yield f"{path}:{line_of(text, call.start())}: a neighbour query of its own, which {PERCEPTION} makes once a row and tick"
+        for k, call in enumerate(STOREY.finditer(text), 1):
+            if not own and k > FAR.get(path, 0):
+                yield f"{path}:{line_of(text, call.start())}: visit_storey asks the grid again, visit_near reads what is known"
+
+
 def tunables(root, paths):
     """Where a named constant with a number stands outside parameters: its file, line and name."""
     for path in paths:
@@ -92,6 +112,7 @@ def tunables(root, paths):
 def main(root, shown):
     paths = [p for p in project_files(root) if p.startswith("src/traffic/") and p.endswith((".h", ".cpp"))]
     complaints, checked = check_columns(root, paths)
+    complaints += queries(root, paths)
     found = defaultdict(list)
     for path, number, name in tunables(root, paths):
         found[os.path.dirname(path)].append(f"{path}:{number}: {name} belongs into src/traffic/parameters.h")
