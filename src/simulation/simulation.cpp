@@ -81,6 +81,7 @@ void tick(Simulation& sim, World& world) {
                             scene,
                             sim.traffic.state,
                             sim.traffic.approaches,
+                            sim.traffic.perception,
                             sim.traffic.parameters,
                             sim.traffic.code};
   update_traffic(traffic, sim.traffic);

@@ -3,51 +3,56 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/extent.h"
-#include "scene/storey.h"
 #include "traffic/patience.h"
 
 namespace sumogamma {
 
+namespace {
+
+/// Adds somebody who is within `aside` of the row's path.
+void add_user(const TrafficView& view, const Path& path, std::size_t other, double reach,
+              double aside, Surroundings& around) {
+  const Scene& scene = view.scene;
+  const PolylinePosition place =
+      path.line.project(scene.position[other], around.along - reach, around.along + reach);
+  const double farthest = aside + scene.footprint[other].radius;
+  if (place.distance > farthest && place.along > 0.0) return;
+  const Vec2 direction = path.line.direction_at(place.along);
+  const Vec2 from_line = scene.position[other] - path.line.point_at(place.along);
+  // a path may begin close behind its agent: who is further back is there straight on
+  const double beyond = place.along <= 0.0 ? std::min(direction.dot(from_line), 0.0) : 0.0;
+  const double offset = beyond < 0.0 ? cross(direction, from_line) : place.offset;
+  if (std::abs(offset) > farthest) return;
+  const double half_length = half_extent(view, other, direction);
+  const double middle = place.along + beyond;
+  around.users.push_back(
+      {middle - half_length, middle + half_length, offset,
+       half_extent(view, other, left_of(direction)), scene.velocity[other].dot(direction),
+       direction.dot(view.perception.ego[other].forward) > 0.5,
+       type_of(view.model.types, scene.type[other]).kinematics == Kinematics::Holonomic,
+       static_cast<std::uint32_t>(other)});
+}
+
+}  // namespace
+
+void perceive(const TrafficView& view, std::size_t row, double reach, Perception& perception) {
+  perception.ego[row] = ego_on_path(view.road, view.scene, row);
+  perception.reach[row] = reach;
+  std::vector<std::uint32_t>& near = perception.near[row];
+  near.clear();
+  visit_storey(view, row, view.scene.position[row], reach,
+               [&](std::size_t other) { near.push_back(static_cast<std::uint32_t>(other)); });
+}
+
 void look_around(const TrafficView& view, std::size_t row, double reach, double aside,
                  Surroundings& around) {
-  const Model& model = view.model;
-  const RoadState& road = view.road;
-  const Scene& scene = view.scene;
-  const SpatialGrid& grid = view.grid;
-  const Path& path = *road.path(scene.path[row]);
-  const double along = scene.path_along[row];
-  const Vec2 tangent = path.line.direction_at(along);
-  around.along = along;
-  around.tangent = tangent;
-  around.offset = cross(tangent, scene.position[row] - path.line.point_at(along));
-  around.half_length = half_extent(scene, row, tangent);
-  around.half_width = half_extent(scene, row, left_of(direction_of(scene.heading[row])));
-  around.speed = scene.speed[row];
+  const Path& path = *view.road.path(view.scene.path[row]);
+  static_cast<EgoOnPath&>(around) = view.perception.ego[row];
   around.users.clear();
-  grid.visit_within(scene.position[row], reach, [&](std::size_t other, double) {
-    if (other == row || on_other_storey(model.road, scene, row, other)) return;
-    const PolylinePosition place =
-        path.line.project(scene.position[other], along - reach, along + reach);
-    const double farthest = aside + scene.footprint[other].radius;
-    if (place.distance > farthest && place.along > 0.0) return;
-    const Vec2 direction = path.line.direction_at(place.along);
-    const Vec2 from_line = scene.position[other] - path.line.point_at(place.along);
-    // a path may begin close behind its agent: who is further back is there straight on
-    const double beyond = place.along <= 0.0 ? std::min(direction.dot(from_line), 0.0) : 0.0;
-    const double offset = beyond < 0.0 ? cross(direction, from_line) : place.offset;
-    if (std::abs(offset) > farthest) return;
-    const double half_length = half_extent(scene, other, direction);
-    const double middle = place.along + beyond;
-    around.users.push_back(
-        {middle - half_length, middle + half_length, offset,
-         half_extent(scene, other, left_of(direction)), scene.velocity[other].dot(direction),
-         direction.dot(direction_of(scene.heading[other])) > 0.5,
-         type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic,
-         static_cast<std::uint32_t>(other)});
-  });
+  visit_near(view, row, reach,
+             [&](std::size_t other) { add_user(view, path, other, reach, aside, around); });
   std::sort(around.users.begin(), around.users.end(),
-            [](const RoadUser& a, const RoadUser& b) { return a.row < b.row; });
+            [](const PathUser& a, const PathUser& b) { return a.row < b.row; });
 }
 
 void look_at_walls(const TrafficView& view, const Path& path, std::size_t row, double reach,
@@ -81,7 +86,7 @@ void look_at_red_crossings(const TrafficView& view, const Path& path, std::size_
   for (const Vec2& way : context.to_red) {
     if (way.isZero()) continue;
     const Vec2 onto = way.normalized();
-    const Vec2 tip = view.scene.position[row] + way + half_extent(view.scene, row, onto) * onto;
+    const Vec2 tip = view.scene.position[row] + way + half_extent(view, row, onto) * onto;
     const PolylinePosition place = path.line.project(tip, around.along - view.parameters.near,
                                                      around.along + view.parameters.near);
     around.walls.push_back({place.along - 0.5 * view.parameters.sampling_step,
@@ -95,7 +100,7 @@ double hoped_speed(const TrafficParameters& parameters, const Surroundings& arou
   const double front = around.along + around.half_length;
   const double rear = around.along - around.half_length;
   double hoped = free_speed;
-  for (const RoadUser& user : around.users) {
+  for (const PathUser& user : around.users) {
     if (user.front < rear - 0.3) continue;
     if (std::abs(user.offset - offset) > user.half_width + around.half_width + margin) continue;
     const double gap = user.rear - front;

@@ -3,12 +3,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/storey.h"
 #include "traffic/traffic_view.h"
 
 namespace sumogamma {
 
 /// Somebody on the road near an agent, in the coordinates of the agent's path.
-struct RoadUser {
+struct PathUser {
   double rear = 0, front = 0;  ///< along the path [m]
   double offset = 0;           ///< of the centre beside the path, positive left [m]
   double half_width = 0;       ///< across the path [m]
@@ -24,15 +25,34 @@ struct Sides {
 };
 
 /// An agent and whoever is on the road around it.
-struct Surroundings {
-  double along = 0, offset = 0;  ///< the agent's centre [m]
-  Vec2 tangent = Vec2(1, 0);     ///< unit direction of its path there
-  double half_length = 0, half_width = 0;
-  double speed = 0;
-  std::vector<RoadUser> users;       ///< in order of row
-  std::vector<RoadUser> walls;       ///< pieces of what is solid, as somebody who stands there
+struct Surroundings : EgoOnPath {
+  std::vector<PathUser> users;       ///< in order of row
+  std::vector<PathUser> walls;       ///< pieces of what is solid, as somebody who stands there
   std::vector<std::uint32_t> sides;  ///< buffer
 };
+
+/// Calls visit(other) for everybody on a row's storey, but itself, within `radius` of `center` [m].
+/// Asks the grid, in whose order they come.
+template <typename Visit>
+void visit_storey(const TrafficView& view, std::size_t row, const Vec2& center, double radius,
+                  Visit&& visit) {
+  view.grid.visit_within(center, radius, [&](std::size_t other, double) {
+    if (other != row && !on_other_storey(view.model.road, view.scene, row, other)) visit(other);
+  });
+}
+
+/// Likewise for everybody within `radius` [m] of a row, which as a rule is no more than its reach.
+template <typename Visit>
+void visit_near(const TrafficView& view, std::size_t row, double radius, Visit&& visit) {
+  const std::vector<Vec2>& position = view.scene.position;
+  if (radius > view.perception.reach[row])
+    return visit_storey(view, row, position[row], radius, visit);
+  for (const std::size_t other : view.perception.near[row])
+    if ((position[other] - position[row]).squaredNorm() <= radius * radius) visit(other);
+}
+
+/// Fills the row's own part of `perception`, with who is near within `reach` [m].
+void perceive(const TrafficView& view, std::size_t row, double reach, Perception& perception);
 
 /// Fills `around` for a row with a path: everybody whose centre lies within `reach` ahead, or
 /// `reach` behind [m], and within `aside` of the path on the same storey.

@@ -1,14 +1,44 @@
 #include "traffic/pipeline.h"
 
+#include <algorithm>
+
 #include "model/stopping_guard.h"
 #include "scene/locate.h"
+#include "traffic/longitudinal/stop_points.h"
 #include "traffic/patience.h"
+#include "traffic/perception.h"
 #include "traffic/recovery/detour.h"
 #include "traffic/recovery/lost_way.h"
 #include "traffic/recovery/reversing.h"
 #include "traffic/road_context.h"
 
 namespace sumogamma {
+
+namespace {
+
+/// How far the rules of a row look at this tick, but for those that look far now and then [m]. Who
+/// backs out needs to know of everybody about the place to which it rolls, too.
+double reach_of(const TrafficTick& tick, const TrafficView& view, std::size_t row) {
+  const Path* path = view.road.path(view.scene.path[row]);
+  const double around = outlook(view, row, tick.dt);
+  if (path != nullptr && path->walking) return std::max(around, view.parameters.near);
+  const AgentType& type = type_of(view.model.types, view.scene.type[row]);
+  return std::max(
+      {around, driver_reach(type, view.scene.speed[row]),
+       tick.geometry.agent[row].radius + kFarthestCorner + 2.0 * view.parameters.least_gap});
+}
+
+void perceive_all(const TrafficTick& tick) {
+  const TrafficView view = tick.view();
+  tick.perception.resize(view.scene.size());
+  tick.workers.for_each_range(view.scene.size(),
+                              [&](std::size_t, std::size_t begin, std::size_t end) {
+                                for (std::size_t row = begin; row < end; ++row)
+                                  perceive(view, row, reach_of(tick, view, row), tick.perception);
+                              });
+}
+
+}  // namespace
 
 void update_traffic(const TrafficTick& tick, Traffic& traffic) {
   Scene& scene = tick.scene;
@@ -22,6 +52,7 @@ void update_traffic(const TrafficTick& tick, Traffic& traffic) {
   });
   find_ways_back(tick);
   prepare_tick(tick.model, scene, tick.workers, tick.geometry);
+  perceive_all(tick);
   choose_lanes(tick, traffic.lanes);
   if (tick.model.options.take_detours) traffic.detours += take_detours(tick);
   update_road_contexts(tick);

@@ -17,6 +17,7 @@ struct Traffic {
   std::uint64_t detours = 0;  ///< taken by drivers whose way was shut
 
   ApproachTable approaches;
+  Perception perception;
   LaneChoiceWork lanes;
   std::vector<Backing> backing;
 };

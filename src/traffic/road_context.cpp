@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "scene/extent.h"
 #include "traffic/junction/keep_clear.h"
 #include "traffic/lateral/course.h"
 #include "traffic/longitudinal/allowed_speed.h"
@@ -37,20 +36,11 @@ void note_halt(const TrafficView& view, const Course& course, TrafficState& traf
   }
 }
 
-/// Where a row is on its path.
 Course course_of(const TrafficView& view, const Path& path, std::size_t row) {
   const Scene& scene = view.scene;
-  const double along = scene.path_along[row];
-  const Vec2 tangent = path.line.direction_at(along);
   const AgentType& type = type_of(view.model.types, scene.type[row]);
   const bool remembers = !path.walking && !type.steady_headway;
-  return {path,
-          type,
-          row,
-          along,
-          cross(tangent, scene.position[row] - path.line.point_at(along)),
-          half_extent(scene, row, tangent),
-          path.walking ? std::max(0.0, scene.velocity[row].dot(tangent)) : scene.speed[row],
+  return {view.perception.ego[row], path, type, row,
           scene.manners[row].headway_factor *
               (remembers ? headway_memory(view.parameters, scene.time - view.traffic.stood_at[row])
                          : 1.0)};

@@ -16,11 +16,12 @@ struct TrafficTick {
   Scene& scene;
   TrafficState& traffic;
   ApproachTable& approaches;
+  Perception& perception;
   const TrafficParameters& parameters;
   const TrafficCode& code;
 
   TrafficView view() const {
-    return {model, road, scene, traffic, geometry.grid, approaches, parameters, code};
+    return {model, road, scene, traffic, geometry.grid, approaches, perception, parameters, code};
   }
 };
 

@@ -2,9 +2,11 @@
 
 #include "geometry/spatial_grid.h"
 #include "model/model.h"
+#include "scene/extent.h"
 #include "scene/road_state.h"
 #include "scene/scene.h"
 #include "scene/traffic_code.h"
+#include "traffic/ego_on_path.h"
 #include "traffic/junction/approaches.h"
 #include "traffic/parameters.h"
 #include "traffic/traffic_state.h"
@@ -18,11 +20,17 @@ struct TrafficView {
   const RoadState& road;
   const Scene& scene;
   const TrafficState& traffic;
-  const SpatialGrid& grid;
+  const SpatialGrid& grid;          ///< for perception alone: rules read `perception`
   const ApproachTable& approaches;  ///< of this tick once contexts are made: not while lanes are
                                     ///< chosen, and ways found
+  const Perception& perception;     ///< likewise of this tick once ways are found
   const TrafficParameters& parameters;
   const TrafficCode& code;
 };
+
+/// Half the extent of a row's footprint along a unit direction [m].
+inline double half_extent(const TrafficView& view, std::size_t row, const Vec2& direction) {
+  return half_extent(view.scene.footprint[row], view.perception.ego[row].forward, direction);
+}
 
 }  // namespace sumogamma

@@ -1,5 +1,5 @@
 """Checks the rules of the road (src/traffic): every column of what they remember has one writer, every tunable stands in one place, and
-clocks are compared in one place.
+clocks are compared in one place, the grid of agents has one reader.
 
 usage: traffic.py PROJECT_FOLDER [--list]
 
@@ -12,6 +12,7 @@ epsilons, which are written as powers of ten (1e-4).
 A clock tells for how long, or since when, something has lasted. Only src/traffic/patience.cpp compares one with seconds: a number other
 than 0, a constant, or a parameter. Two clocks may be compared with each other, and one with 0. A clock is seen as a member (held.standing)
 or under the name that a function gives it (const double standing = held.standing).
+Who is around whom is asked of the grid once a row and tick, by src/traffic/perception; what a rule asks for beyond its row's reach is in FAR.
 """
 import os
 import re
@@ -27,6 +28,10 @@ CLOCK = r"(?:\.|->)(?:waiting_time|standing|blocked|keeps_clear|halted_at|stood_
 # by file, how often a clock is still compared elsewhere: numbers that only get smaller
 STILL_COMPARED = {"src/traffic/longitudinal/leader.cpp": 1, "src/traffic/recovery/detour.cpp": 1, "src/traffic/recovery/reversing.cpp": 4,
                   "src/traffic/road_context.cpp": 1}
+PERCEPTION = "src/traffic/perception"
+FAR = {"src/traffic/longitudinal/leader.cpp": 1}  # calls of visit_storey by file
+GRID = re.compile(r"\bvisit_(?:within|runs)\s*\(")
+STOREY = re.compile(r"\bvisit_storey\s*\(")
 CONSTANT = re.compile(r"\bconst(?:expr)?\s+(?:double|float|int|auto)\s+(?=k[A-Z]\w*\s*[={])([^;]*);")
 PLACE = r"(?:\s*\[(?:[^\[\]]|\[[^\[\]]*\])*\])?"  # of an entry, whose index may be another's entry
 CHANGERS = "assign|resize|push_back|emplace_back|clear|swap|insert|erase|reserve|fill"
@@ -84,6 +89,21 @@ def check_columns(root, paths):
     return complaints, len(found)
 
 
+def queries(root, paths):
+    """Complaints about who asks the grid besides perception."""
+    asked = 0
+    for path in paths:
+        text = code(root, path)
+        own = path.rsplit(".", 1)[0] == PERCEPTION
+        for call in GRID.finditer(text):
+            asked += own
+            if not own or asked > 1:
+                yield f"{path}:{line_of(text, call.start())}: a neighbour query of its own, which {PERCEPTION} makes once a row and tick"
+        for k, call in enumerate(STOREY.finditer(text), 1):
+            if not own and k > FAR.get(path, 0):
+                yield f"{path}:{line_of(text, call.start())}: visit_storey asks the grid again, visit_near reads what is known"
+
+
 def tunables(root, paths):
     """Where a named constant with a number stands outside parameters: its file, line and name."""
     for path in paths:
@@ -139,6 +159,7 @@ def main(root, shown):
     complaints, checked = check_columns(root, paths)
     complaints += [f"{path}:{number}: {name} belongs into src/traffic/parameters.h" for path, number, name in tunables(root, paths)]
     complaints += check_clocks(root, paths, shown)
+    complaints += queries(root, paths)
     finish("traffic", complaints, checked + len(paths))
 
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 #include "scene/locate.h"
 #include "support/plain_net.h"
 #include "traffic/junction/occupation.h"
+#include "traffic/perception.h"
 #include "traffic/road_context.h"
 #include "traffic/traffic_view.h"
 
@@ -108,11 +110,19 @@ class RoadScene {
 
   const Path& path(std::size_t row) const { return *road.path(scene.path[row]); }
   const RoadContext& context(std::size_t row) const { return scene.context[row]; }
+  /// Everybody is near everybody.
   TrafficView view() const {
-    return {model, road, scene, traffic, geometry.grid, approaches, parameters, code};
+    const TrafficView view{model,      road,        scene,      traffic, geometry.grid,
+                           approaches, perception_, parameters, code};
+    perception_.resize(scene.size());
+    for (std::size_t row = 0; row < scene.size(); ++row)
+      perceive(view, row, std::numeric_limits<double>::infinity(), perception_);
+    return view;
   }
   TrafficTick tick(Workers& workers, double dt = 0.05) {
-    return {model, geometry, workers, dt, road, scene, traffic, approaches, parameters, code};
+    view();
+    return {model,   geometry,   workers,     dt,         road, scene,
+            traffic, approaches, perception_, parameters, code};
   }
   /// Front of a row past a link's stop line [m].
   double past_line(std::size_t row, std::size_t link = 0) const {
@@ -139,6 +149,7 @@ class RoadScene {
   TrafficCode code;
 
  private:
+  mutable Perception perception_;
   static const std::vector<KinematicTable>& kinematic_tables() {
     static const std::vector<KinematicTable> tables = [] {
       Workers workers;

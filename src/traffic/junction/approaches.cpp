@@ -77,11 +77,10 @@ void ApproachTable::rebuild(const TrafficView& view) {
   for (std::size_t row = 0; row < scene.size(); ++row) {
     const Path* path = road.path(scene.path[row]);
     if (path == nullptr || path->links.empty()) continue;
-    const double along = scene.path_along[row];
-    const Vec2 tangent = path->line.direction_at(along);
-    const double half_length = half_extent(scene, row, tangent);
-    const double speed = std::max(0.0, scene.velocity[row].dot(tangent));
-    const bool wide = is_wide(scene, row);
+    const EgoOnPath& ego = view.perception.ego[row];
+    const double along = ego.along, half_length = ego.half_length;
+    const double speed = std::max(0.0, scene.velocity[row].dot(ego.tangent));
+    const bool wide = 2.0 * ego.half_width > kWideBody;
     // far enough for the slowest foe to find its gap: ten seconds at the present speed
     const double reach = std::max(path->walking ? 8.0 : 30.0, 10.0 * speed);
     const ConnectionId halted_for = view.traffic.halted_for[row];
@@ -112,11 +111,11 @@ std::span<const Approach> ApproachTable::of(ConnectionId id) const {
   return std::span<const Approach>(approaches_).subspan(range.begin, range.end - range.begin);
 }
 
-bool waits_for_itself(const TrafficParameters& parameters, const Scene& scene,
-                      const ApproachTable& approaches, std::size_t row) {
-  return waits_for(
-      scene, row, row, static_cast<int>(parameters.longest_chain),
-      [&](std::size_t waiting) { return find_foe(scene, approaches.waiting(waiting).foe); });
+bool waits_for_itself(const TrafficView& view, std::size_t row) {
+  const auto longest = static_cast<int>(view.parameters.longest_chain);
+  return waits_for(view.scene, row, row, longest, [&](std::size_t waiting) {
+    return find_foe(view.scene, view.approaches.waiting(waiting).foe);
+  });
 }
 
 }  // namespace sumogamma

@@ -6,7 +6,6 @@
 #include "model/model.h"
 #include "scene/extent.h"
 #include "scene/road_state.h"
-#include "traffic/parameters.h"
 #include "traffic/traffic_state.h"
 
 namespace sumogamma {
@@ -68,7 +67,6 @@ ConnectionId halt_counts_for(const RoadNetwork& road, const Path& path, const Pa
                              double length);
 
 /// Does a row wait, over whom it waits for and so on, for itself?
-bool waits_for_itself(const TrafficParameters& parameters, const Scene& scene,
-                      const ApproachTable& approaches, std::size_t row);
+bool waits_for_itself(const TrafficView& view, std::size_t row);
 
 }  // namespace sumogamma

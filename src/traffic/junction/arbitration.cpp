@@ -51,9 +51,9 @@ bool has_to_halt_first(const TrafficView& view, const Traveller& traveller, cons
 
 /// Does somebody ride so far beside the middle of its lane that on the junction it might wait where
 /// a foe's long body sweeps? Whether that one turns isn't asked.
-bool is_aside_for(const TrafficParameters& parameters, const Approach& foe,
-                  const TrafficState& traffic, std::size_t row) {
-  return foe.length > kLongBody && std::abs(traffic.passing_offset[row]) >= parameters.ample_side;
+bool is_aside_for(const Encounter& e) {
+  return e.foe.length > kLongBody &&
+         std::abs(e.traffic.passing_offset[e.subject.row]) >= e.parameters.ample_side;
 }
 
 /// Where the subject halts for its foe [m along its path]: at its line, inside the junction where
@@ -63,9 +63,8 @@ std::optional<double> line_before(const Encounter& e, double stop_at) {
   const Traveller& subject = e.subject;
   const bool on_foot = is_on_foot(e, subject.row);
   const WaitingPlace place = waiting_place(e.parameters, e.link, e.zone.begin);
-  const bool has_place = place.inside && !e.at_red &&
-                         (e.own_link.signal != kNoSignal ||
-                          !is_aside_for(e.parameters, e.foe, e.traffic, subject.row));
+  const bool has_place =
+      place.inside && !e.at_red && (e.own_link.signal != kNoSignal || !is_aside_for(e));
   const double line = has_place && subject.front < place.along + 0.3 ? place.along
                       : e.to_line() > -0.2
                           ? stop_at
@@ -186,7 +185,7 @@ bool has_crossing_traffic(const Model& model, ConnectionId link) {
 
 ZipperLeader find_zipper_leader(const TrafficView& view, const Traveller& traveller,
                                 const PathLink& link) {
-  const auto& [model, road, scene, traffic, grid, approaches, parameters, code] = view;
+  const auto& [model, road, scene, traffic, grid, approaches, perception, parameters, code] = view;
   ZipperLeader leader;
   for (const ConflictZone& zone : model.conflicts[index_of(link.connection)]) {
     if (!runs_together(model, link.connection, zone.foe)) continue;

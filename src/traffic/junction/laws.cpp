@@ -198,9 +198,7 @@ bool drives_by(const Encounter& e) {
 bool is_deadlock(const Encounter& e) {
   const Patience both = std::min(waited(e, e.subject.row), waited(e, e.foe.row));
   if (!is_on_junction(e) || both < Patience::Waiting) return false;
-  if (both < Patience::Pressing &&
-      !waits_for_itself(e.parameters, e.scene, e.approaches, e.subject.row))
-    return false;
+  if (both < Patience::Pressing && !waits_for_itself(e, e.subject.row)) return false;
   const LimitReason reason = e.foe_waits.reason;
   const bool yields = reason == LimitReason::Yield || reason == LimitReason::Crossing;
   // who isn't held by a rule and moves has begun to try

@@ -19,10 +19,9 @@ bool is_for(const SweptWay& way, const Scene& scene, std::size_t row) {
 }
 
 /// Is the line of a link drawn before what is swept there?
-bool moves_line(const TrafficParameters& parameters, const Model& model, const PathLink& link,
-                const SweptWay& way) {
-  return way.begin > -parameters.soon_way &&
-         model.road.connection(link.connection).signal != kNoSignal;
+bool moves_line(const TrafficView& view, const PathLink& link, const SweptWay& way) {
+  return way.begin > -view.parameters.soon_way &&
+         view.model.road.connection(link.connection).signal != kNoSignal;
 }
 
 /// Does a foe get there first where the two would be in each other's way?
@@ -55,7 +54,7 @@ bool has_long_wanted(const TrafficView& view, const Approach& foe, bool there) {
 /// See leave_turning_room; of somebody whose trip `ends` at the line, who is gone from there on.
 LinkDecision leave_room(const TrafficView& view, const Traveller& traveller, const PathLink& link,
                         bool ends) {
-  const auto& [model, road, scene, traffic, grid, approaches, parameters, code] = view;
+  const auto& [model, road, scene, traffic, grid, approaches, perception, parameters, code] = view;
   LinkDecision decision;
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const double front = traveller.front - link.stop_line;
@@ -117,15 +116,14 @@ LinkDecision leave_room(const TrafficView& view, const Traveller& traveller, con
 double drawn_line(const TrafficView& view, const Traveller& traveller, const PathLink& link) {
   double line = link.halt;
   for (const SweptWay& way : view.model.swept_ways[index_of(link.connection)])
-    if (way.foe_sweeps && moves_line(view.parameters, view.model, link, way) &&
-        is_for(way, view.scene, traveller.row))
+    if (way.foe_sweeps && moves_line(view, link, way) && is_for(way, view.scene, traveller.row))
       line = std::min(line, link.stop_line + way.begin);
   return line;
 }
 
 double halt_for_long_bodies(const TrafficView& view, const Traveller& traveller,
                             const PathLink& link) {
-  const auto& [model, road, scene, traffic, grid, approaches, parameters, code] = view;
+  const auto& [model, road, scene, traffic, grid, approaches, perception, parameters, code] = view;
   double halt = link.halt;
   for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
     const double place = link.stop_line + way.begin;
@@ -138,8 +136,8 @@ double halt_for_long_bodies(const TrafficView& view, const Traveller& traveller,
              !on_other_storey(view.model.road, view.scene, traveller.row, foe.row);
     };
     // who means to go at red goes up to the end of its lane
-    const bool drawn = moves_line(view.parameters, model, link, way) &&
-                       !goes_at_red(view, traveller.row, link.connection);
+    const bool drawn =
+        moves_line(view, link, way) && !goes_at_red(view, traveller.row, link.connection);
     const auto foes = approaches.of(way.foe);
     if (drawn || std::any_of(foes.begin(), foes.end(), comes)) halt = place;
   }

@@ -5,7 +5,6 @@
 
 #include "geometry/rotation.h"
 #include "model/tracking.h"
-#include "scene/extent.h"
 #include "traffic/lateral/passing.h"
 #include "traffic/patience.h"
 
@@ -20,14 +19,14 @@ double look_ahead(const Course& course) {
 }
 
 /// See RoadContext::bend. Not amid a lane change, which may be given up.
-Vec2 bend_of(const Course& course, double heading) {
+Vec2 bend_of(const Course& course) {
   const double end = course.along + std::max(kBendTime * course.speed, 0.5);
   const Polyline& line = course.path.line;
   if (end > line.length() || course.path.stretch_at(course.along).changing ||
       course.path.stretch_at(end).changing)
     return {1, 0};
   const Vec2 chord = line.point_at(end) - line.point_at(course.along);
-  return to_body(chord / (end - course.along), direction_of(heading));
+  return to_body(chord / (end - course.along), course.forward);
 }
 
 /// Mean direction of the path between two places.
@@ -149,7 +148,7 @@ double aim_on_wheels(const TrafficView& view, const Course& course, double offse
   const double there = inside_of(course, curvature, offset) +
                        lean_of(view.parameters, course, curvature, view.model.road.left_hand);
   context.tangent = direction_to_steer(course, curvature);
-  context.bend = bend_of(course, view.scene.heading[course.row]);
+  context.bend = bend_of(course);
   context.sub_goal = view.scene.position[course.row] + look_ahead(course) * context.tangent +
                      (there - course.offset) * left_of(context.tangent);
   return there;
@@ -160,7 +159,7 @@ void set_edges(const TrafficView& view, const Course& course, const Sides& room,
                RoadContext& context) {
   const LaneId soon = course.path.stretch_at(course.along + view.parameters.waiting_room).lane;
   if (view.model.road.lane(soon).kind == LaneKind::Internal) return;
-  const Vec2 heading = to_body(direction_of(view.scene.heading[course.row]), context.tangent);
+  const Vec2 heading = to_body(course.forward, context.tangent);
   const double to_turn = (1.0 - heading.x()) / tightest_bend(course.type);
   context.edge_left = room.left - course.offset - (heading.y() > 0.0 ? to_turn : 0.0);
   context.edge_right = room.right + course.offset - (heading.y() < 0.0 ? to_turn : 0.0);
@@ -188,9 +187,7 @@ Sides corridor_of(const TrafficView& view, const Course& course, const Sides& ro
 }  // namespace
 
 void set_geometry(const TrafficView& view, const Course& course, RoadContext& context) {
-  const Scene& scene = view.scene;
-  const double half_width =
-      half_extent(scene, course.row, left_of(direction_of(scene.heading[course.row])));
+  const double half_width = course.half_width;
   const Sides over = room_over(view, course);
   double offset = offset_ahead(view, course, over, half_width);
   if (course.path.walking)
@@ -198,7 +195,7 @@ void set_geometry(const TrafficView& view, const Course& course, RoadContext& co
   else
     offset = aim_on_wheels(view, course, offset, context);
   const PathStretch& here = course.path.stretch_at(course.along);
-  const double extent = half_extent(scene, course.row, left_of(context.tangent));
+  const double extent = half_extent(view, course.row, left_of(context.tangent));
   Sides room{here.room_left + over.left, here.room_right + over.right};
   if (!course.path.walking) {
     set_edges(view, course, room, context);

@@ -5,13 +5,10 @@
 namespace sumogamma {
 
 /// One row's view of its path at this instant.
-struct Course {
+struct Course : EgoOnPath {
   const Path& path;
   const AgentType& type;
   std::size_t row;
-  double along, offset;
-  double half_length;
-  double speed;  ///< on foot along the path, on wheels along the heading [m/s]
   double headway_factor;
 };
 

@@ -8,7 +8,7 @@ namespace sumogamma {
 /// The lane beside the one that the junction ahead leads to, on which a vehicle comes out of it:
 /// where its own is full of a queue, the other is not and leads on as well, and all who might come
 /// into that have red. kNoLane where it keeps its own, for long bodies always.
-LaneId free_entry(const TrafficParameters& parameters, const Model& model, const RoadState& road,
-                  const LaneQueues& queues, const Path& path, const Surroundings& around);
+LaneId free_entry(const TrafficView& view, const LaneQueues& queues, const Path& path,
+                  const Surroundings& around);
 
 }  // namespace sumogamma

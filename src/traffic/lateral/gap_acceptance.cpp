@@ -14,7 +14,7 @@ namespace sumogamma {
 namespace {
 
 /// How far somebody's middle is beside the middle of the lane [m].
-double aside_of(const Scene& scene, const RoadUser& user, const LaneBeside& lane) {
+double aside_of(const Scene& scene, const PathUser& user, const LaneBeside& lane) {
   if (lane.middle != nullptr) {
     const PolylinePosition place = lane.middle->project(scene.position[user.row]);
     if (place.along > 0.0 && place.along < lane.middle->length()) return place.offset;
@@ -23,13 +23,13 @@ double aside_of(const Scene& scene, const RoadUser& user, const LaneBeside& lane
 }
 
 /// Does somebody wait for this row?
-bool waits_for_row(const Scene& scene, const RoadUser& user, std::size_t row) {
+bool waits_for_row(const Scene& scene, const PathUser& user, std::size_t row) {
   return scene.context[user.row].foe == static_cast<std::int64_t>(scene.id[row].value);
 }
 
 /// Is somebody so far behind that it leaves the way for the agent's nose?
 bool leaves_room_for_nose(const TrafficParameters& parameters, const Surroundings& around,
-                          const RoadUser& user) {
+                          const PathUser& user) {
   return user.front < around.along + around.half_length -
                           nose_room(parameters, 2.0 * around.half_length) +
                           parameters.line_tolerance;
@@ -37,7 +37,7 @@ bool leaves_room_for_nose(const TrafficParameters& parameters, const Surrounding
 
 /// Does somebody come from behind, faster, between the agent and the lane, so that whoever moves
 /// over cuts it off?
-bool comes_between(const Surroundings& around, const RoadUser& user, const LaneBeside& lane) {
+bool comes_between(const Surroundings& around, const PathUser& user, const LaneBeside& lane) {
   const double side = std::copysign(1.0, lane.shift);
   return user.aligned && user.front < around.along - around.half_length &&
          user.speed > around.speed && side * (lane.shift - user.offset) > 0.0 &&
@@ -56,7 +56,7 @@ bool is_gap(const TrafficView& view, const Surroundings& around, std::size_t row
   const Scene& scene = view.scene;
   const TrafficState& traffic = view.traffic;
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
-  for (const RoadUser& user : around.users) {
+  for (const PathUser& user : around.users) {
     // whom the path comes up to only in that lane is followed anyway
     if (0.5 * (user.rear + user.front) > lane.to) continue;
     // a path that moves over is askew to the lanes
@@ -97,7 +97,7 @@ bool is_contested(const TrafficView& view, const Surroundings& around, std::size
   const Scene& scene = view.scene;
   const TrafficState& traffic = view.traffic;
   const double front = around.along + around.half_length, rear = around.along - around.half_length;
-  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+  return std::any_of(around.users.begin(), around.users.end(), [&](const PathUser& user) {
     const bool other_side = aside_of(scene, user, lane) * lane.shift > 0.0;
     const bool waits = std::isfinite(traffic.gate[user.row]) ||
                        stood(view, user.row) >= Patience::Waiting ||
@@ -112,7 +112,7 @@ bool is_contested(const TrafficView& view, const Surroundings& around, std::size
 bool is_let_in(const TrafficView& view, const Surroundings& around, std::size_t row,
                const LaneBeside& lane) {
   const Scene& scene = view.scene;
-  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+  return std::any_of(around.users.begin(), around.users.end(), [&](const PathUser& user) {
     const double aside = std::abs(aside_of(scene, user, lane));
     // who follows in our own lane, be it half in the other, waits for us but leaves no gap there
     return leaves_room_for_nose(view.parameters, around, user) && waits_for_row(scene, user, row) &&
@@ -124,7 +124,7 @@ bool is_beside(const TrafficView& view, const Surroundings& around, std::size_t 
   const Scene& scene = view.scene;
   const TrafficState& traffic = view.traffic;
   const double front = around.along + around.half_length;
-  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+  return std::any_of(around.users.begin(), around.users.end(), [&](const PathUser& user) {
     // who waits for a gap itself, or for us, isn't waited for
     const bool waits = stood(view, user.row) >= Patience::Waiting &&
                        (std::isfinite(traffic.gate[user.row]) || waits_for_row(scene, user, row));

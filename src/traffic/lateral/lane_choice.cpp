@@ -21,11 +21,12 @@ double way_of_change(const TrafficParameters& parameters, double speed) {
   return std::max(parameters.soon * speed, parameters.soon_way);
 }
 
-/// As far as a row looks for others [m]: where there is a lane beside, for those who come from
+/// As far as a driver looks for others [m]: where there is a lane beside, for those who come from
 /// behind at full speed, too.
-double outlook(const TrafficParameters& parameters, const Model& model, const Path& path,
-               const Scene& scene, std::size_t row) {
-  const Lane& lane = model.road.lane(path.stretch_at(scene.path_along[row]).lane);
+double driver_outlook(const TrafficView& view, const Path& path, std::size_t row) {
+  const Scene& scene = view.scene;
+  const TrafficParameters& parameters = view.parameters;
+  const Lane& lane = view.model.road.lane(path.stretch_at(scene.path_along[row]).lane);
   const bool alone = lane.inner == kNoLane && lane.outer == kNoLane;
   const double speed = alone ? scene.speed[row] : std::max(scene.speed[row], lane.speed_limit);
   return std::min(parameters.junction_outlook + parameters.soon * speed, parameters.queue_outlook);
@@ -39,13 +40,14 @@ double shift_to(const Model& model, const Lane& from, const Lane& to) {
 
 /// Does a lane run into one with the lane of the path, soon after `along`? Who drives faster there
 /// gains nothing by changing: it is let in at the end.
-bool run_together_soon(const TrafficParameters& parameters, const Model& model, const Path& path,
-                       double along, LaneId other) {
+bool run_together_soon(const TrafficView& view, const Path& path, double along, LaneId other) {
   const auto link = path.link_from(along);
-  if (link == path.links.end() || link->stop_line - along > parameters.queue_outlook) return false;
-  const auto& outgoing = model.road.lane(other).outgoing;
-  return std::any_of(outgoing.begin(), outgoing.end(),
-                     [&](ConnectionId id) { return runs_together(model, link->connection, id); });
+  if (link == path.links.end() || link->stop_line - along > view.parameters.queue_outlook)
+    return false;
+  const auto& outgoing = view.model.road.lane(other).outgoing;
+  return std::any_of(outgoing.begin(), outgoing.end(), [&](ConnectionId id) {
+    return runs_together(view.model, link->connection, id);
+  });
 }
 
 /// Way from `along` to behind the last signal within `reach` [m], 0 where there is none.
@@ -98,7 +100,7 @@ LaneId better_lane(const TrafficView& view, const LaneQueues& queues, const Path
     if (there <= most || there < view.parameters.queue_speed ||
         !is_gap(view, around, row, {.shift = shift, .middle = &other.centerline},
                 view.parameters.easy_braking) ||
-        run_together_soon(view.parameters, model, path, around.along, id))
+        run_together_soon(view, path, around.along, id))
       continue;
     most = there;
     best = id;
@@ -167,6 +169,15 @@ void wait_for_gap(const TrafficView& view, const Path& path, const Surroundings&
   intent.postpone = due;
 }
 
+/// Does a row look about at this tick? Who has just come looks before it does what its path begins
+/// with.
+bool looks_now(const TrafficView& view, std::size_t row, double dt) {
+  const Scene& scene = view.scene;
+  const auto period = std::max<std::int64_t>(1, std::llround(view.parameters.look_period / dt));
+  return scene.control[row] == Control::Gamma &&
+         ((scene.tick + scene.id[row].value) % period == 0 || !scene.context[row].active);
+}
+
 /// Moves the place aimed at within the lane, at walking pace, towards where it should be; swiftly
 /// over the middle of the road and back.
 void move_aim(const TrafficParameters& parameters, double wanted, bool overtakes, double dt,
@@ -190,11 +201,11 @@ void look_about(const TrafficView& view, const Path& path, std::size_t row, Lane
     traffic.overtaking_room[row] = room_off_the_way(view.parameters, path, around, place);
     return;
   }
-  look_around(view, row, outlook(view.parameters, view.model, path, scene, row), 8.0, around);
+  look_around(view, row, driver_outlook(view, path, row), 8.0, around);
   traffic.overtaking_room[row] = overtaking_room(view, around, row, work.far[worker]);
   traffic.passing_offset[row] = passing_offset(view, path, around, row);
   if (!path.trip) return;
-  intent.entered = free_entry(view.parameters, view.model, view.road, work.queues, path, around);
+  intent.entered = free_entry(view, work.queues, path, around);
   wait_for_gap(view, path, around, row, intent);
   if (intent.wanted == kNoLane && scene.halt[row].left <= 0.0 && !std::isfinite(intent.gate) &&
       !filters(view, around, row))
@@ -236,28 +247,31 @@ void do_as_intended(const TrafficTick& tick, const LaneIntent& intent, std::size
   // who comes there now already reckons with it
   if (intent.wanted != kNoLane) traffic.merge_to[row] = intent.wanted;
   change_path(std::move(*changed), along, row, tick.road, tick.scene, traffic);
+  tick.perception.ego[row] = ego_on_path(tick.road, tick.scene, row);
 }
 
 }  // namespace
+
+double outlook(const TrafficView& view, std::size_t row, double dt) {
+  const Path* path = view.road.path(view.scene.path[row]);
+  if (path == nullptr || !looks_now(view, row, dt)) return 0.0;
+  return path->walking ? view.parameters.soon_way : driver_outlook(view, *path, row);
+}
 
 void choose_lanes(const TrafficTick& tick, LaneChoiceWork& work) {
   const TrafficView view = tick.view();
   const Scene& scene = tick.scene;
   TrafficState& traffic = tick.traffic;
-  const auto period =
-      std::max<std::int64_t>(1, std::llround(tick.parameters.look_period / tick.dt));
   work.around.resize(tick.workers.count());
   work.far.resize(tick.workers.count());
   work.intents.assign(scene.size(), {});
-  measure_queues(tick.parameters, tick.model, tick.road, scene, work.queues);
+  measure_queues(view, work.queues);
   tick.workers.for_each_range(
       scene.size(), [&](std::size_t worker, std::size_t begin, std::size_t end) {
         for (std::size_t row = begin; row < end; ++row) {
           const Path* path = view.road.path(scene.path[row]);
           if (path == nullptr || scene.control[row] != Control::Gamma) continue;
-          // who has just come looks before it does what its path begins with
-          const bool looks =
-              (scene.tick + scene.id[row].value) % period == 0 || !scene.context[row].active;
+          const bool looks = looks_now(view, row, tick.dt);
           work.intents[row].fresh = looks && !path->walking;
           if (looks) look_about(view, *path, row, work, worker, traffic);
           move_aim(tick.parameters, traffic.passing_offset[row], traffic.overtaking_room[row] > 0.0,

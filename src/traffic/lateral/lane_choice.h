@@ -27,6 +27,9 @@ struct LaneChoiceWork {
   LaneQueues queues;
 };
 
+/// How far a row looks around at this tick [m], 0 where it doesn't. dt [s].
+double outlook(const TrafficView& view, std::size_t row, double dt);
+
 /// Lanes and places within them, before anybody's road context is put together: who drives on a
 /// road with several lanes moves over where that is faster, safe for whoever comes from behind (the
 /// criterion of MOBIL, Kesting et al. 2007) and leads on along the trip; its path is made again.

@@ -1,19 +1,17 @@
 #include "traffic/lateral/lane_queues.h"
 
-#include "scene/extent.h"
-
 namespace sumogamma {
 
-void measure_queues(const TrafficParameters& parameters, const Model& model, const RoadState& road,
-                    const Scene& scene, LaneQueues& queues) {
-  queues.assign(model.road.lanes.size(), 0.0);
+void measure_queues(const TrafficView& view, LaneQueues& queues) {
+  const Scene& scene = view.scene;
+  queues.assign(view.model.road.lanes.size(), 0.0);
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    const Path* path = road.path(scene.path[row]);
-    if (path == nullptr || path->walking || scene.speed[row] > parameters.queue_speed) continue;
-    const AgentType& type = type_of(model.types, scene.type[row]);
-    const double along = scene.path_along[row];
-    queues[index_of(path->stretch_at(along).lane)] +=
-        2.0 * half_extent(scene, row, path->line.direction_at(along)) + type.min_gap;
+    const Path* path = view.road.path(scene.path[row]);
+    if (path == nullptr || path->walking || scene.speed[row] > view.parameters.queue_speed)
+      continue;
+    const EgoOnPath& ego = view.perception.ego[row];
+    queues[index_of(path->stretch_at(ego.along).lane)] +=
+        2.0 * ego.half_length + type_of(view.model.types, scene.type[row]).min_gap;
   }
 }
 

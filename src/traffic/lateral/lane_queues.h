@@ -2,9 +2,7 @@
 
 #include <vector>
 
-#include "model/model.h"
-#include "scene/road_state.h"
-#include "traffic/parameters.h"
+#include "traffic/traffic_view.h"
 
 namespace sumogamma {
 
@@ -13,8 +11,7 @@ namespace sumogamma {
 using LaneQueues = std::vector<double>;
 
 /// From everybody with a driving path.
-void measure_queues(const TrafficParameters& parameters, const Model& model, const RoadState& road,
-                    const Scene& scene, LaneQueues& queues);
+void measure_queues(const TrafficView& view, LaneQueues& queues);
 
 /// Length of the queues on the lanes that a path leads along within `reach` from `along` on [m].
 double queue_ahead(const LaneQueues& queues, const Path& path, double along, double reach);

@@ -23,7 +23,7 @@ struct Overtaken {
 
 /// In the way of the body where it likes to be, and not behind it.
 bool is_in_way(const TrafficParameters& parameters, const Surroundings& around,
-               const RoadUser& user, double liked, double behind = 0) {
+               const PathUser& user, double liked, double behind = 0) {
   return user.front > around.along - around.half_length - behind &&
          std::abs(user.offset - liked) <
              user.half_width + around.half_width + parameters.ample_side;
@@ -34,7 +34,7 @@ bool is_in_way(const TrafficParameters& parameters, const Surroundings& around,
 bool has_passed(const TrafficParameters& parameters, const Surroundings& around, double liked,
                 double within, double seconds) {
   const double rear = around.along - around.half_length;
-  return std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
+  return std::any_of(around.users.begin(), around.users.end(), [&](const PathUser& user) {
     const double closes = std::max(user.speed - around.speed, 0.0) * seconds;
     return user.aligned && is_narrow(2.0 * user.half_width) && user.front < rear &&
            is_in_way(parameters, around, user, liked, within + closes);
@@ -56,8 +56,8 @@ Overtaken find_overtaken(const TrafficParameters& parameters, const Surroundings
   Overtaken found;
   // the nearest ahead again and again, until a gap
   for (double from = -std::numeric_limits<double>::infinity();;) {
-    const RoadUser* next = nullptr;
-    for (const RoadUser& user : around.users)
+    const PathUser* next = nullptr;
+    for (const PathUser& user : around.users)
       if (is_in_way(parameters, around, user, liked) && user.front > from &&
           (!next || user.front < next->front))
         next = &user;
@@ -157,7 +157,7 @@ bool comes_nobody(const TrafficParameters& parameters, const Surroundings& aroun
                   const Surroundings& far, const Plan& plan, const OwnSide& side, double margin) {
   const double front = around.along + around.half_length;
   const double rear = around.along - around.half_length;
-  for (const RoadUser& user : far.users) {
+  for (const PathUser& user : far.users) {
     const double aside = side.inner * user.offset;
     if (aside + user.half_width < 0.5 * side.lane_width && user.aligned) continue;
     if (std::abs(aside - plan.target) > user.half_width + around.half_width + parameters.ample_side)

@@ -40,12 +40,11 @@ int side_of_turn(const RoadNetwork& network, const PathLink& link) {
 }
 
 /// Likewise of somebody who is on a junction, or will be soon at its speed [m/s].
-int turning_side(const TrafficParameters& parameters, const RoadNetwork& network, const Path& path,
-                 double along, double speed) {
+int turning_side(const TrafficView& view, const Path& path, double along, double speed) {
   const auto link = path.link_from(along);
-  const bool soon = link != path.links.end() &&
-                    link->stop_line - along <= std::max(parameters.near, parameters.soon * speed);
-  return soon ? side_of_turn(network, *link) : 0;
+  const double way = std::max(view.parameters.near, view.parameters.soon * speed);
+  const bool soon = link != path.links.end() && link->stop_line - along <= way;
+  return soon ? side_of_turn(view.model.road, *link) : 0;
 }
 
 /// A narrow vehicle among those around it.
@@ -57,27 +56,27 @@ struct Filtering {
 };
 
 /// Does a user ahead turn across the place at `offset` right beside it? Who stands lets others by.
-bool turns_across(const Filtering& rider, const RoadUser& user, double offset) {
+bool turns_across(const Filtering& rider, const PathUser& user, double offset) {
   const Path* path = rider.view.road.path(rider.view.scene.path[user.row]);
   if (path == nullptr || user.speed < rider.view.parameters.crawling_speed ||
       std::abs(offset - user.offset) > rider.view.parameters.farthest_aside ||
       user.front < rider.around.along + rider.around.half_length)
     return false;
-  const int side = turning_side(rider.view.parameters, rider.view.model.road, *path,
-                                rider.view.scene.path_along[user.row], user.speed);
+  const int side =
+      turning_side(rider.view, *path, rider.view.scene.path_along[user.row], user.speed);
   return side != 0 && side != rider.turns && side * (offset - user.offset) > 0.0;
 }
 
 /// Would a narrow vehicle that moves over to `offset` cut off somebody who comes from behind there?
-bool cuts_off(const TrafficParameters& parameters, const Surroundings& around, const RoadUser& user,
-              double offset, double margin) {
+bool cuts_off(const Filtering& rider, const PathUser& user, double offset, double margin) {
+  const Surroundings& around = rider.around;
   const double sides = user.half_width + around.half_width;
   const double gap = around.along - around.half_length - user.front;
   const bool moves_before_it = std::abs(user.offset - offset) < sides + margin &&
                                std::abs(user.offset - around.offset) > sides;
   const double closing = user.speed - around.speed;
   return moves_before_it && user.aligned && closing > 0.0 &&
-         closing * closing > 2.0 * parameters.easy_braking * std::max(gap, 0.0);
+         closing * closing > 2.0 * rider.view.parameters.easy_braking * std::max(gap, 0.0);
 }
 
 /// See hoped_speed: that of a narrow vehicle, which looks further ahead. It goes by slowly where it
@@ -88,9 +87,9 @@ double filtering_hope(const Filtering& rider, double offset, double margin) {
   const double front = around.along + around.half_length;
   const double rear = around.along - around.half_length;
   double hoped = rider.free_speed;
-  for (const RoadUser& user : around.users) {
+  for (const PathUser& user : around.users) {
     if (user.front < rear - 0.3) {
-      if (cuts_off(rider.view.parameters, around, user, offset, margin)) return 0.0;
+      if (cuts_off(rider, user, offset, margin)) return 0.0;
       continue;
     }
     const double clearance = std::abs(user.offset - offset) - user.half_width - around.half_width;
@@ -117,10 +116,10 @@ double filtering_hope(const Filtering& rider, double offset, double margin) {
 /// Where beside `user` a narrow vehicle passes it: in the middle of what is free up to the next
 /// wide body on that side, at most so far aside that it need not mind its sides.
 double place_beside(const TrafficParameters& parameters, const Surroundings& around,
-                    const RoadUser& user, double side) {
+                    const PathUser& user, double side) {
   const double edge = user.offset + side * user.half_width;
   double free = 2.0 * (around.half_width + parameters.ample_side);
-  for (const RoadUser& other : around.users) {
+  for (const PathUser& other : around.users) {
     if (is_narrow(2.0 * other.half_width) || other.rear > user.front + parameters.near ||
         other.front < user.rear - parameters.near)
       continue;
@@ -171,6 +170,11 @@ double passing_speed(const TrafficParameters& parameters, const Passed& passed,
 
 namespace {
 
+/// Between which places beside its path a body may be, and where it likes to be there [m].
+struct Places {
+  double most_left = 0, most_right = 0, liked = 0;
+};
+
 /// Those links, one close behind the other where roads between junctions are short.
 std::span<const PathLink> links_ahead(const TrafficParameters& parameters, const Path& path,
                                       const Surroundings& around) {
@@ -184,34 +188,33 @@ std::span<const PathLink> links_ahead(const TrafficParameters& parameters, const
 /// Who is about to turn filters beside its lane only on the side to which it turns: on the other
 /// one the way of the lane beside, or of who goes straight on from its own, crosses its way, and
 /// the two press against each other on the junction.
-void keep_to_turning_side(const TrafficParameters& parameters, const RoadNetwork& network,
-                          const Path& path, const Surroundings& around, double& most_left,
-                          double& most_right) {
-  for (const PathLink& link : links_ahead(parameters, path, around)) {
-    const int side = side_of_turn(network, link);
-    const Lane& lane = network.lane(path.stretch_at(link.stop_line - 0.1).lane);
+void keep_to_turning_side(const TrafficView& view, const Path& path, const Surroundings& around,
+                          Places& places) {
+  for (const PathLink& link : links_ahead(view.parameters, path, around)) {
+    const int side = side_of_turn(view.model.road, link);
+    const Lane& lane = view.model.road.lane(path.stretch_at(link.stop_line - 0.1).lane);
     const double within = std::max(0.5 * lane.width - around.half_width, 0.0);
-    if (side < 0) most_left = std::min(most_left, within);
-    if (side > 0) most_right = std::max(most_right, -within);
+    if (side < 0) places.most_left = std::min(places.most_left, within);
+    if (side > 0) places.most_right = std::max(places.most_right, -within);
   }
 }
 
 /// Before a signal who filters stays over the edge of its own lane, whose light it goes by: the one
 /// of the lane beside may be red when its own is green.
-void keep_to_light(const TrafficParameters& parameters, const RoadNetwork& network,
-                   const Path& path, const Surroundings& around, double& most_left,
-                   double& most_right) {
+void keep_to_light(const TrafficView& view, const Path& path, const Surroundings& around,
+                   Places& places) {
+  const RoadNetwork& network = view.model.road;
   const auto link =
       std::find_if(path.link_from(around.along), path.links.end(), [&](const PathLink& ahead) {
         return ahead.stop_line >= around.along &&
                network.connection(ahead.connection).signal != kNoSignal;
       });
-  if (link == path.links.end() || link->stop_line - around.along > parameters.junction_outlook)
+  if (link == path.links.end() || link->stop_line - around.along > view.parameters.junction_outlook)
     return;
   const Connection& connection = network.connection(link->connection);
-  const double within = 0.5 * network.lane(connection.from).width + (1.0 - 0.5) * around.half_width;
-  most_left = std::min(most_left, within);
-  most_right = std::max(most_right, -within);
+  const double within = 0.5 * network.lane(connection.from).width + 0.5 * around.half_width;
+  places.most_left = std::min(places.most_left, within);
+  places.most_right = std::max(places.most_right, -within);
 }
 
 /// How far to the left and to the right of the path a body aims at the most where there is so much
@@ -225,34 +228,37 @@ double farthest_right(const TrafficParameters& parameters, double room, double h
 
 /// What the stretch leaves on which a body is, less at the kerb where a corner is rounded ahead:
 /// there the path lies nearer to it than the middle of the lane does.
-Sides sides_of(const TrafficParameters& parameters, const RoadNetwork& network, const Path& path,
-               const Surroundings& around) {
+Sides sides_of(const TrafficView& view, const Path& path, const Surroundings& around) {
+  const TrafficParameters& parameters = view.parameters;
+  const bool left_hand = view.model.road.left_hand;
   const PathStretch& here = path.stretch_at(around.along);
   const Cut cut =
       path.cut_between(around.along - around.half_length,
                        around.along + around.half_length + parameters.time_gap * around.speed);
   Sides sides{here.room_left, here.room_right};
-  double& at_kerb = network.left_hand ? sides.left : sides.right;
+  double& at_kerb = left_hand ? sides.left : sides.right;
   if (here.kerb < at_kerb + parameters.tight_side)
-    at_kerb -= std::max((network.left_hand ? cut.left : cut.right) - parameters.tight_side, 0.0);
+    at_kerb -= std::max((left_hand ? cut.left : cut.right) - parameters.tight_side, 0.0);
   return sides;
 }
 
 /// Nobody passes on a junction where there is no room behind it: who is beside a bus as it turns
 /// into a road with fewer lanes comes out over the middle of that or on its sidewalk.
-void keep_to_exit(const TrafficParameters& parameters, const RoadNetwork& network, const Path& path,
-                  const Surroundings& around, double& most_left, double& most_right) {
+void keep_to_exit(const TrafficView& view, const Path& path, const Surroundings& around,
+                  Places& places) {
+  const TrafficParameters& parameters = view.parameters;
   for (const PathLink& link : links_ahead(parameters, path, around)) {
     const PathStretch& exit = path.stretch_at(link.end + 0.1);
-    if (network.lane(exit.lane).kind != LaneKind::Normal) continue;
-    most_left = std::min(most_left, farthest_left(parameters, exit.room_left, around.half_width));
-    most_right =
-        std::max(most_right, farthest_right(parameters, exit.room_right, around.half_width));
+    if (view.model.road.lane(exit.lane).kind != LaneKind::Normal) continue;
+    places.most_left =
+        std::min(places.most_left, farthest_left(parameters, exit.room_left, around.half_width));
+    places.most_right =
+        std::max(places.most_right, farthest_right(parameters, exit.room_right, around.half_width));
   }
 }
 
 /// Is somebody beside the agent, or so near ahead that it would pass that one next?
-bool may_be_passed(const Surroundings& around, const RoadUser& user) {
+bool may_be_passed(const Surroundings& around, const PathUser& user) {
   return user.front >= around.along - around.half_length &&
          user.rear <= around.along + around.half_length + 10.0 + 3.0 * around.speed;
 }
@@ -267,7 +273,7 @@ std::optional<double> place_beside_tails(const TrafficView& view, LaneId id,
   const double within = 0.5 * lane.width - around.half_width - view.parameters.tight_side;
   double least = -within, most = within;
   bool any = false;
-  for (const RoadUser& user : around.users) {
+  for (const PathUser& user : around.users) {
     if (!may_be_passed(around, user) || !stands_beside_lane(view, user.row, id, user.offset))
       continue;
     const double apart = user.half_width + around.half_width + view.parameters.side_clearance;
@@ -294,30 +300,24 @@ bool stands_beside_lane(const TrafficView& view, std::size_t other, LaneId lane,
 
 namespace {
 
-/// Between which places beside its path a body may be, and where it likes to be there [m].
-struct Places {
-  double most_left = 0, most_right = 0, liked = 0;
-};
-
 /// `over`: room over the middle of the road [m].
 Places places_of(const TrafficView& view, const Path& path, const Surroundings& around,
                  std::size_t row, double over) {
   const RoadNetwork& network = view.model.road;
   const double half = around.half_width;
   const double over_left = network.left_hand ? 0.0 : over, over_right = over - over_left;
-  const Sides sides = sides_of(view.parameters, network, path, around);
+  const Sides sides = sides_of(view, path, around);
   Places places;
   places.most_left = farthest_left(view.parameters, sides.left + over_left, half);
   places.most_right = farthest_right(view.parameters, sides.right + over_right, half);
-  keep_to_turning_side(view.parameters, network, path, around, places.most_left, places.most_right);
-  if (over == 0.0)
-    keep_to_light(view.parameters, network, path, around, places.most_left, places.most_right);
+  keep_to_turning_side(view, path, around, places);
+  if (over == 0.0) keep_to_light(view, path, around, places);
   // what a junction has beside its lanes is for who has to get past, and for bodies that swing
   const Lane& lane = network.lane(path.stretch_at(around.along).lane);
   const double on_lane = std::clamp(view.scene.manners[row].path_offset,
                                     std::min(places.most_right + lane.beside_right, 0.0),
                                     std::max(places.most_left - lane.beside_left, 0.0));
-  keep_to_exit(view.parameters, network, path, around, places.most_left, places.most_right);
+  keep_to_exit(view, path, around, places);
   places.liked = std::clamp(on_lane, places.most_right, places.most_left);
   return places;
 }
@@ -343,15 +343,15 @@ struct Hope {
 
 /// The best place beside anybody who is in the way, if it is worth it. Only who is in the way is
 /// passed, and not by changing lanes; wide vehicles pass narrow ones alone, on the inner side.
-double pass_somebody(const TrafficParameters& parameters, const Passer& passer,
-                     const Places& places, double inner_side, Hope best) {
+double pass_somebody(const Passer& passer, const Places& places, double inner_side, Hope best) {
+  const TrafficParameters& parameters = passer.rider.view.parameters;
   const Surroundings& around = passer.around;
   const bool narrow = passer.narrow;
   const double half = around.half_width;
   const double worth = best.speed + (narrow ? parameters.small_gain : parameters.worthwhile_gain);
   const double gap_wanted =
       passer.over > 0.0 ? parameters.overtaking_gap : side_gap(narrow, around.speed);
-  for (const RoadUser& user : around.users) {
+  for (const PathUser& user : around.users) {
     if ((!user.aligned && !user.on_foot) || !may_be_passed(around, user)) continue;
     if (!narrow && user.half_width > 0.5 * kNarrowWidth) continue;
     if (std::abs(user.offset - places.liked) > user.half_width + half + gap_wanted) continue;
@@ -380,7 +380,7 @@ double passing_offset(const TrafficView& view, const Path& path, const Surroundi
   const double free_speed =
       std::min(path.profile_at(around.along), view.scene.preferred_speed[row]);
   const bool narrow = is_narrow(2.0 * around.half_width);
-  const int turns = turning_side(view.parameters, network, path, around.along, around.speed);
+  const int turns = turning_side(view, path, around.along, around.speed);
   const Passer passer{around, {view, around, free_speed, turns}, narrow, over};
   const double as_liked = passer.hope(places.liked, view.parameters.tight_side);
   Hope best{places.liked, as_liked};
@@ -402,7 +402,7 @@ double passing_offset(const TrafficView& view, const Path& path, const Surroundi
   }
   // wide vehicles keep to their lane where ways cross
   if (!narrow && is_near_junction(path, around)) return places.liked;
-  return pass_somebody(view.parameters, passer, places, network.left_hand ? -1.0 : 1.0, best);
+  return pass_somebody(passer, places, network.left_hand ? -1.0 : 1.0, best);
 }
 
 }  // namespace sumogamma

@@ -11,21 +11,19 @@ namespace {
 
 /// The throttle goes down at ease where the vehicle drives: a cap on the jerk that following and
 /// avoidance leave, however they take turns. Brakes and the start are not eased.
-double eased(const TrafficParameters& parameters, const Scene& scene, const Course& course,
-             double acceleration, double dt) {
-  if (course.speed < parameters.flow_speed) return acceleration;
-  const double now = scene.acceleration[course.row].dot(direction_of(scene.heading[course.row]));
-  return std::min(acceleration, std::max(now, 0.0) + parameters.throttle_jerk * dt);
+double eased(const TrafficView& view, const Course& course, double acceleration, double dt) {
+  if (course.speed < view.parameters.flow_speed) return acceleration;
+  const double now = view.scene.acceleration[course.row].dot(course.forward);
+  return std::min(acceleration, std::max(now, 0.0) + view.parameters.throttle_jerk * dt);
 }
 
 /// Who has to be aside within `way` aims at a sub-goal no further ahead.
-void aim_sooner(const TrafficParameters& parameters, const Scene& scene, const Course& course,
-                double way, RoadContext& context) {
-  const Vec2 position = scene.position[course.row];
+void aim_sooner(const TrafficView& view, const Course& course, double way, RoadContext& context) {
+  const Vec2 position = view.scene.position[course.row];
   const Vec2 goal = to_body(context.sub_goal - position, context.tangent);
   const double ahead =
-      std::min(goal.x(), std::max({0.6 * way, parameters.steepest_aim * std::abs(goal.y()),
-                                   parameters.closed_up_gap}));
+      std::min(goal.x(), std::max({0.6 * way, view.parameters.steepest_aim * std::abs(goal.y()),
+                                   view.parameters.closed_up_gap}));
   context.sub_goal = position + from_body(Vec2(ahead, goal.y()), context.tangent);
 }
 
@@ -64,10 +62,9 @@ void set_allowed_speed(const TrafficView& view, const Course& course, double dt,
   context.to_halt = found.to_halt;
   context.at_red = found.at_red;
   if (std::isfinite(found.ahead.turning_way))
-    aim_sooner(view.parameters, view.scene, course, found.ahead.turning_way, context);
+    aim_sooner(view, course, found.ahead.turning_way, context);
   const double binding = binding_acceleration(driver, found, context);
-  context.allowed_speed =
-      std::max(0.0, course.speed + eased(view.parameters, view.scene, course, binding, dt) * dt);
+  context.allowed_speed = std::max(0.0, course.speed + eased(view, course, binding, dt) * dt);
   if (view.traffic.gives_way_left[course.row] > 0.0) {
     context.allowed_speed = 0.0;
     context.reason = LimitReason::GivesWay;

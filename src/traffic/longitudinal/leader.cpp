@@ -4,11 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include "scene/extent.h"
-#include "scene/storey.h"
 #include "traffic/lateral/overtaking.h"
 #include "traffic/lateral/passing.h"
 #include "traffic/patience.h"
+#include "traffic/perception.h"
 
 namespace sumogamma {
 
@@ -21,22 +20,24 @@ bool waits_at_kerb(const Model& model, const Scene& scene, std::size_t row) {
 }
 
 /// Do two bodies that head the same way, more or less, lie close together?
-bool near_each_other(const TrafficParameters& parameters, const Scene& scene, std::size_t row,
-                     std::size_t other) {
+bool near_each_other(const TrafficView& view, std::size_t row, std::size_t other) {
+  const Scene& scene = view.scene;
+  const std::vector<EgoOnPath>& ego = view.perception.ego;
   const double reach =
-      scene.footprint[row].radius + scene.footprint[other].radius + parameters.closed_up_gap;
+      scene.footprint[row].radius + scene.footprint[other].radius + view.parameters.closed_up_gap;
   return (scene.position[other] - scene.position[row]).norm() < reach &&
-         direction_of(scene.heading[other]).dot(direction_of(scene.heading[row])) > 0.0;
+         ego[other].forward.dot(ego[row].forward) > 0.0;
 }
 
 /// How far the nose of `other` is ahead of the one of `row` [m], seen along the mean of their
 /// headings: just as far as the one of `row` is behind the other. Along their paths, which may
 /// cross, either might be ahead of the other, and both would wait.
-double nose_lead(const Scene& scene, std::size_t row, std::size_t other) {
-  const Vec2 mean =
-      (direction_of(scene.heading[row]) + direction_of(scene.heading[other])).normalized();
-  return (scene.position[other] - scene.position[row]).dot(mean) + half_extent(scene, other, mean) -
-         half_extent(scene, row, mean);
+double nose_lead(const TrafficView& view, std::size_t row, std::size_t other) {
+  const std::vector<Vec2>& position = view.scene.position;
+  const std::vector<EgoOnPath>& ego = view.perception.ego;
+  const Vec2 mean = (ego[row].forward + ego[other].forward).normalized();
+  return (position[other] - position[row]).dot(mean) + half_extent(view, other, mean) -
+         half_extent(view, row, mean);
 }
 
 /// Has somebody stood for long at its gate, waiting for a gap in the lane beside?
@@ -99,32 +100,23 @@ void note_merging(const DrivingAhead::Vehicle& vehicle, bool on_its_way, Driving
 double aim_beside(const TrafficView& view, std::size_t row, double offset) {
   const Path* path = view.road.path(view.scene.path[row]);
   if (path == nullptr || path->walking) return offset;
-  const double along = view.scene.path_along[row];
-  const double own =
-      cross(path->line.direction_at(along), view.scene.position[row] - path->line.point_at(along));
-  return offset + view.traffic.lateral_aim[row] - own;
+  return offset + view.traffic.lateral_aim[row] - view.perception.ego[row].offset;
 }
 
 /// Is somebody beside a vehicle, its middle ahead, where that means to be beside its path?
-bool is_way_aside_taken(const TrafficView& view, const Path& path, std::size_t row,
-                        double own_offset) {
-  const Model& model = view.model;
-  const Scene& scene = view.scene;
-  const TrafficState& traffic = view.traffic;
-  const SpatialGrid& grid = view.grid;
-  const double aim = traffic.lateral_aim[row], along = scene.path_along[row];
-  if (std::abs(aim - own_offset) < view.parameters.touching) return false;
-  const Vec2 tangent = path.line.direction_at(along), left = left_of(tangent);
-  const double half_length = half_extent(scene, row, tangent);
-  const double half_width = half_extent(scene, row, left_of(direction_of(scene.heading[row])));
+bool is_way_aside_taken(const TrafficView& view, std::size_t row) {
+  const EgoOnPath& ego = view.perception.ego[row];
+  const double aim = view.traffic.lateral_aim[row];
+  if (std::abs(aim - ego.offset) < view.parameters.touching) return false;
   bool taken = false;
-  grid.visit_within(scene.position[row], view.parameters.near, [&](std::size_t other, double) {
-    if (other == row || taken || on_other_storey(model.road, scene, row, other)) return;
-    const Vec2 place = to_body(scene.position[other] - scene.position[row], tangent);
-    const double offset = own_offset + place.y();
-    taken = place.x() > 0.0 && place.x() < half_length + half_extent(scene, other, tangent) &&
-            place.y() * (aim - own_offset) > 0.0 &&
-            std::abs(offset - aim) < half_width + half_extent(scene, other, left);
+  visit_near(view, row, view.parameters.near, [&](std::size_t other) {
+    if (taken) return;
+    const Vec2 place = to_body(view.scene.position[other] - view.scene.position[row], ego.tangent);
+    const double offset = ego.offset + place.y();
+    taken =
+        place.x() > 0.0 && place.x() < ego.half_length + half_extent(view, other, ego.tangent) &&
+        place.y() * (aim - ego.offset) > 0.0 &&
+        std::abs(offset - aim) < ego.half_width + half_extent(view, other, left_of(ego.tangent));
   });
   return taken;
 }
@@ -141,15 +133,11 @@ void cap_passing(double speed, std::int64_t id, DrivingAhead& ahead) {
 }
 
 /// A driver's own side of its look ahead.
-struct Own {
+struct Own : EgoOnPath {
   const TrafficView& view;
   std::size_t row;
   const Path& path;
   const AgentType& type;
-  double along, offset;  ///< of the middle on its path, and beside it [m]
-  Vec2 tangent, forward;
-  double half_length, half_width;  ///< [m]
-  double speed;                    ///< [m/s]
   double aim, wanted;  ///< where beside its path it is on its way to, and means to be [m]
   double margin;       ///< kept to the sides [m]
   bool narrow, overtakes;
@@ -160,32 +148,22 @@ struct Own {
 Own own_side(const TrafficView& view, const Path& path, std::size_t row) {
   const Scene& scene = view.scene;
   const AgentType& type = type_of(view.model.types, scene.type[row]);
-  const double along = scene.path_along[row];
-  const Vec2 tangent = path.line.direction_at(along);
-  const Vec2 forward = direction_of(scene.heading[row]);
-  const double offset = cross(tangent, scene.position[row] - path.line.point_at(along));
+  const EgoOnPath& ego = view.perception.ego[row];
   const double wanted = view.traffic.passing_offset[row];
   const bool narrow = is_narrow(type.width);
   const bool overtakes = view.traffic.overtaking_room[row] > 0.0;
-  return {view,
+  return {ego,
+          view,
           row,
           path,
           type,
-          along,
-          offset,
-          tangent,
-          forward,
-          half_extent(scene, row, tangent),
-          half_extent(scene, row, left_of(forward)),
-          scene.speed[row],
           view.traffic.lateral_aim[row],
           wanted,
           kept_aside(type, scene.speed[row]),
           narrow,
           overtakes,
-          !narrow && !overtakes && std::abs(offset - wanted) > view.parameters.ample_side,
-          narrow && stood(view, row) < Patience::Pressing &&
-              is_way_aside_taken(view, path, row, offset)};
+          !narrow && !overtakes && std::abs(ego.offset - wanted) > view.parameters.ample_side,
+          narrow && stood(view, row) < Patience::Pressing && is_way_aside_taken(view, row)};
 }
 
 /// Somebody on a driver's way, as it sees it.
@@ -207,8 +185,8 @@ struct Seen {
 /// Is somebody ahead? Of two abreast just one is: close together the one with its nose ahead.
 bool is_ahead(const Own& own, std::size_t other, double along) {
   const Scene& scene = own.view.scene;
-  const bool close = near_each_other(own.view.parameters, scene, own.row, other);
-  const double ahead_by = close ? nose_lead(scene, own.row, other) : along - own.along;
+  const bool close = near_each_other(own.view, own.row, other);
+  const double ahead_by = close ? nose_lead(own.view, own.row, other) : along - own.along;
   const bool both_narrow =
       own.narrow && is_narrow(type_of(own.view.model.types, scene.type[other]).width);
   const double abreast =
@@ -219,8 +197,6 @@ bool is_ahead(const Own& own, std::size_t other, double along) {
 /// Where somebody is on the driver's way; none where it isn't ahead there.
 std::optional<Seen> see(const Own& own, std::size_t other, double reach) {
   const Scene& scene = own.view.scene;
-  if (other == own.row || on_other_storey(own.view.model.road, scene, own.row, other))
-    return std::nullopt;
   // cheap rejection: well behind
   const double beyond = (scene.position[other] - scene.position[own.row]).dot(own.tangent);
   if (beyond < -reach * 0.3 - 10.0) return std::nullopt;
@@ -236,15 +212,15 @@ std::optional<Seen> see(const Own& own, std::size_t other, double reach) {
     return std::nullopt;
   if (!is_ahead(own, other, seen.place.along)) return std::nullopt;
   seen.direction = own.path.line.direction_at(seen.place.along);
-  seen.half_width = half_extent(scene, other, left_of(seen.direction));
-  seen.rear = seen.place.along - half_extent(scene, other, seen.direction);
+  seen.half_width = half_extent(own.view, other, left_of(seen.direction));
+  seen.rear = seen.place.along - half_extent(own.view, other, seen.direction);
   seen.gap = seen.rear - own.along - own.half_length;
   seen.speed = std::max(0.0, scene.velocity[other].dot(seen.direction));
   seen.sides = own.half_width + seen.half_width;
   seen.clearance = std::abs(seen.place.offset - own.aim) - seen.sides;
   seen.on_foot =
       type_of(own.view.model.types, scene.type[other]).kinematics == Kinematics::Holonomic;
-  seen.aligned = seen.direction.dot(direction_of(scene.heading[other])) > 0.5;
+  seen.aligned = seen.direction.dot(own.view.perception.ego[other].forward) > 0.5;
   // a narrow vehicle that means to pass is about to leave whoever is ahead of it now
   const bool clear_aside = seen.aligned && !seen.on_foot && seen.clearance > own.margin &&
                            (seen.place.offset - own.aim) * (seen.place.offset - own.offset) >= 0.0;
@@ -262,7 +238,7 @@ void pass(const Own& own, const Seen& seen, DrivingAhead& ahead) {
   const std::int64_t id = scene.id[seen.other].value;
   if (seen.passes) {
     const double reach_aside =
-        seen.gap < 0.0 ? half_extent(scene, own.row, left_of(own.tangent)) : own.half_width;
+        seen.gap < 0.0 ? half_extent(own.view, own.row, left_of(own.tangent)) : own.half_width;
     const double apart = own.offset - seen.place.offset;
     const Passed passed{seen.gap,
                         std::abs(apart) - seen.half_width - reach_aside,
@@ -352,7 +328,7 @@ Leader find_leader(const TrafficView& view, std::size_t row, double reach, Drivi
   if (path == nullptr) return leader;
   const Own own = own_side(view, *path, row);
   ahead.seen_to = own.along + reach;
-  view.grid.visit_within(scene.position[row], reach, [&](std::size_t other, double) {
+  visit_near(view, row, reach, [&](std::size_t other) {
     const auto seen = see(own, other, reach);
     if (!seen) return;
     pass(own, *seen, ahead);
@@ -369,39 +345,30 @@ Leader find_leader(const TrafficView& view, std::size_t row, double reach, Drivi
 
 void see_queue(const TrafficView& view, std::size_t row, double to, DrivingAhead& ahead) {
   const Model& model = view.model;
-  const RoadState& road = view.road;
   const Scene& scene = view.scene;
-  const TrafficState& traffic = view.traffic;
-  const SpatialGrid& grid = view.grid;
-  const Path* path = road.path(scene.path[row]);
+  const Path* path = view.road.path(scene.path[row]);
   const double from = ahead.seen_to;
   if (path == nullptr || to <= from) return;
   ahead.seen_to = to;
-  const double half_width = half_extent(scene, row, left_of(direction_of(scene.heading[row])));
   const double margin = kept_aside(type_of(model.types, scene.type[row]), scene.speed[row]);
   const Vec2 middle = path->line.point_at(0.5 * (from + to));
-  grid.visit_within(
-      middle, 0.5 * (to - from) + view.parameters.near, [&](std::size_t other, double) {
-        if (other == row ||
-            type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic)
-          return;
-        const PolylinePosition place = path->line.project(scene.position[other], from, to);
-        if (place.distance > view.parameters.near || place.along <= from || place.along >= to)
-          return;
-        const Vec2 direction = path->line.direction_at(place.along);
-        const double sides = half_width + half_extent(scene, other, left_of(direction)) + margin;
-        if (direction.dot(direction_of(scene.heading[other])) <= 0.5 ||
-            std::abs(place.offset - traffic.lateral_aim[row]) > sides ||
-            on_other_storey(model.road, scene, row, other))
-          return;
-        const auto begin = ahead.vehicles.begin();
-        const auto end = begin + static_cast<std::ptrdiff_t>(ahead.count);
-        if (std::any_of(begin, end, [&](const auto& seen) { return seen.row == other; })) return;
-        const double half = half_extent(scene, other, direction);
-        ahead.add({place.along - half, place.along + half,
-                   std::max(0.0, scene.velocity[other].dot(direction)), scene.id[other].value,
-                   other});
-      });
+  visit_storey(view, row, middle, 0.5 * (to - from) + view.parameters.near, [&](std::size_t other) {
+    if (type_of(model.types, scene.type[other]).kinematics == Kinematics::Holonomic) return;
+    const PolylinePosition place = path->line.project(scene.position[other], from, to);
+    if (place.distance > view.parameters.near || place.along <= from || place.along >= to) return;
+    const Vec2 direction = path->line.direction_at(place.along);
+    const double sides =
+        view.perception.ego[row].half_width + half_extent(view, other, left_of(direction)) + margin;
+    if (direction.dot(view.perception.ego[other].forward) <= 0.5 ||
+        std::abs(place.offset - view.traffic.lateral_aim[row]) > sides)
+      return;
+    const auto begin = ahead.vehicles.begin();
+    const auto end = begin + static_cast<std::ptrdiff_t>(ahead.count);
+    if (std::any_of(begin, end, [&](const auto& seen) { return seen.row == other; })) return;
+    const double half = half_extent(view, other, direction);
+    ahead.add({place.along - half, place.along + half,
+               std::max(0.0, scene.velocity[other].dot(direction)), scene.id[other].value, other});
+  });
 }
 
 }  // namespace sumogamma

@@ -52,11 +52,11 @@ void let_merge(const Driver& driver, StopPoints& found) {
 
 /// Stop lines of neighbouring lanes need not be level: who reaches over the edge of its lane halts
 /// a little before its own [m].
-double beside_lane(const TrafficParameters& parameters, const Model& model, const Course& course) {
-  const Lane& lane = model.road.lane(course.path.stretch_at(course.along).lane);
+double beside_lane(const TrafficView& view, const Course& course) {
+  const Lane& lane = view.model.road.lane(course.path.stretch_at(course.along).lane);
   const bool beside = lane.kind == LaneKind::Normal &&
                       std::abs(course.offset) + 0.5 * course.type.width > 0.5 * lane.width;
-  return beside ? parameters.stop_margin : 0.0;
+  return beside ? view.parameters.stop_margin : 0.0;
 }
 
 /// Who rides wholly in the lane beside its own, past a queue, drives over that lane's line: at red
@@ -181,16 +181,19 @@ constexpr Rule kDriving[] = {follow_leader,     let_merge,    obey_links,
 
 }  // namespace
 
+double driver_reach(const AgentType& type, double speed) {
+  const double braking = speed * speed / (2.0 * type.comfortable_deceleration);
+  return std::min(40.0 + 2.5 * speed + braking, 250.0);
+}
+
 Driver driver_of(const TrafficView& view, const Course& course, double free_speed) {
   const double front = course.along + course.half_length;
-  const double braking = course.speed * course.speed / (2.0 * course.type.comfortable_deceleration);
   return {view,
           course,
           front,
-          {course.row, front + beside_lane(view.parameters, view.model, course),
-           2.0 * course.half_length, course.speed},
+          {course.row, front + beside_lane(view, course), 2.0 * course.half_length, course.speed},
           free_speed,
-          std::min(40.0 + 2.5 * course.speed + braking, 250.0)};
+          driver_reach(course.type, course.speed)};
 }
 
 double acceleration_behind(const Driver& driver, const StopPoint& point) {

@@ -33,6 +33,9 @@ struct Driver {
   double reach = 0;       ///< as far as it looks ahead [m]
 };
 
+/// How far a driver looks ahead [m].
+double driver_reach(const AgentType& type, double speed);
+
 Driver driver_of(const TrafficView& view, const Course& course, double free_speed);
 
 /// What the rules found for one driver.

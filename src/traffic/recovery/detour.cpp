@@ -78,6 +78,7 @@ std::uint64_t take_detours(const TrafficTick& tick) {
       std::max<std::int64_t>(1, std::llround(tick.parameters.look_period / model.options.step));
   auto go_on = [&](Path way, double along, std::size_t row) {
     change_path(std::move(way), along, row, road, scene, traffic);
+    tick.perception.ego[row] = ego_on_path(road, scene, row);
     forget_lane_change(traffic, row);
   };
   for (std::size_t row = 0; row < scene.size(); ++row) {

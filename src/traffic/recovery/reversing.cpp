@@ -8,7 +8,6 @@
 #include "base/random.h"
 #include "geometry/rotation.h"
 #include "model/stopping_guard.h"
-#include "scene/storey.h"
 #include "traffic/patience.h"
 
 namespace sumogamma {
@@ -20,25 +19,28 @@ double backward_speed(const Scene& scene, std::size_t row) {
 }
 
 /// How long this row stands wedged before it backs out [s]: drawn anew for each stretch of time.
-double patience(const TrafficParameters& parameters, const Scene& scene, std::size_t row) {
-  const auto stretch = static_cast<std::uint64_t>(scene.time / parameters.stuck);
-  return random_uniform(0, scene.id[row].value, stretch, Draw::Intention, parameters.pressing,
-                        parameters.stuck);
+double patience(const TrafficView& view, std::size_t row) {
+  const double least = view.parameters.pressing, most = view.parameters.stuck;
+  const auto stretch = static_cast<std::uint64_t>(view.scene.time / most);
+  return random_uniform(0, view.scene.id[row].value, stretch, Draw::Intention, least, most);
 }
 
 /// How long this row lets others go first after it has backed out [s].
-double courtesy(const TrafficParameters& parameters, const Scene& scene, std::size_t row) {
-  return parameters.giving_way_time +
-         random_uniform(1, scene.id[row].value, static_cast<std::uint64_t>(scene.time),
-                        Draw::Intention, 0.0, parameters.giving_way_spread);
+double courtesy(const TrafficView& view, std::size_t row) {
+  const auto second = static_cast<std::uint64_t>(view.scene.time);
+  return view.parameters.giving_way_time + random_uniform(1, view.scene.id[row].value, second,
+                                                          Draw::Intention, 0.0,
+                                                          view.parameters.giving_way_spread);
 }
 
 /// Front wheels that bring the rear axle back along the path (pure pursuit backwards).
-double lock_along_path(const TrafficParameters& parameters, const Path& path, const Scene& scene,
-                       const AgentType& type, std::size_t row) {
+double lock_along_path(const TrafficView& view, const Path& path, const AgentType& type,
+                       std::size_t row) {
+  const Scene& scene = view.scene;
   const Vec2 forward = direction_of(scene.heading[row]);
   const Vec2 axle = scene.position[row] - type.rear_axle_to_center * forward;
-  const double behind = scene.path_along[row] - type.rear_axle_to_center - parameters.near_line;
+  const double behind =
+      scene.path_along[row] - type.rear_axle_to_center - view.parameters.near_line;
   if (behind < 0.0) return 0.0;
   const Vec2 way = path.line.point_at(behind) - axle;
   return type.wheelbase * 2.0 * cross(forward, way) / std::max(way.squaredNorm(), 1.0);
@@ -55,29 +57,32 @@ OrientedBox ahead_of(const TrafficParameters& parameters, const AgentGeometry& t
   return {box.center + 0.5 * way * box.forward, box.forward, box.half + Vec2(0.5 * way, 0.0)};
 }
 
+/// May somebody's body be near a row's own, at a position? Of the bodies of the tick's begin.
+bool is_within_reach(const AgentGeometry& own, const Vec2& position, const AgentGeometry& their) {
+  const double reach = own.radius + kFarthestCorner;
+  return (their.position - position).squaredNorm() <= reach * reach;
+}
+
 /// Does a pose keep clear of everybody, or come no closer to who is close?
 bool keeps_clear(const TrafficView& view, const TickGeometry& geometry, std::size_t row,
                  const BodyState& body) {
   const AgentGeometry& own = geometry.agent[row];
   const Vec2 forward = direction_of(body.heading);
   const OrientedBox box{body.position + own.shift * forward, forward, own.half};
-  bool clear = true;
-  geometry.grid.visit_within(
-      body.position, own.radius + kFarthestCorner, [&](std::size_t other, double) {
-        if (other == row || !clear || on_other_storey(view.model.road, view.scene, row, other))
-          return;
-        const AgentGeometry& their = geometry.agent[other];
-        const double kept = view.parameters.side_clearance + std::min(their.throttle_way, 0.3);
-        if (!their.is_box) {
-          clear = (their.position - body.position).norm() > own.radius + their.radius + kept ||
-                  (their.position - body.position).norm() > (their.position - own.position).norm();
-          return;
-        }
-        const OrientedBox taken = ahead_of(view.parameters, their);
-        const double gap = separation(box, taken);
-        if (gap < kept) clear = gap > separation(own.box(), taken) - 1e-9;
-      });
-  return clear;
+  const std::vector<std::uint32_t>& near = view.perception.near[row];
+  return std::none_of(near.begin(), near.end(), [&](std::uint32_t other) {
+    const AgentGeometry& their = geometry.agent[other];
+    if (!is_within_reach(own, body.position, their)) return false;
+    const double kept = view.parameters.side_clearance + std::min(their.throttle_way, 0.3);
+    if (!their.is_box) {
+      const double distance = (their.position - body.position).norm();
+      return distance <= own.radius + their.radius + kept &&
+             distance <= (their.position - own.position).norm();
+    }
+    const OrientedBox taken = ahead_of(view.parameters, their);
+    const double gap = separation(box, taken);
+    return gap < kept && gap <= separation(own.box(), taken) - 1e-9;
+  });
 }
 
 /// Has the gap come into another lane that this row waits for?
@@ -104,15 +109,12 @@ bool any_wheeled(const TrafficView& view, const TickGeometry& geometry, std::siz
                  Holds holds) {
   const AgentGeometry& own = geometry.agent[row];
   if (!own.on_wheels || !own.is_box) return false;
-  bool found = false;
-  geometry.grid.visit_within(
-      own.position, own.radius + kFarthestCorner, [&](std::size_t other, double) {
-        const AgentGeometry& their = geometry.agent[other];
-        found =
-            found || (other != row && their.on_wheels && their.is_box &&
-                      !on_other_storey(view.model.road, view.scene, row, other) && holds(other));
-      });
-  return found;
+  const std::vector<std::uint32_t>& near = view.perception.near[row];
+  return std::any_of(near.begin(), near.end(), [&](std::uint32_t other) {
+    const AgentGeometry& their = geometry.agent[other];
+    return their.on_wheels && their.is_box && is_within_reach(own, own.position, their) &&
+           holds(other);
+  });
 }
 
 /// Is a body in the room that another one needs to drive on?
@@ -140,9 +142,8 @@ bool stands_before(const TrafficView& view, const TickGeometry& geometry, std::s
 
 /// Does somebody who lets others go first stand in this row's way? It steps back further.
 bool is_made_way_for(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
-  const TrafficState& traffic = view.traffic;
   return any_wheeled(view, geometry, row, [&](std::size_t other) {
-    return traffic.gives_way_left[other] > 0.0 &&
+    return view.traffic.gives_way_left[other] > 0.0 &&
            is_in_room_of(view.parameters, geometry.agent[other], geometry.agent[row]);
   });
 }
@@ -200,8 +201,9 @@ bool lets_somebody_go(const TrafficView& view, const TickGeometry& geometry, std
 /// One that rolls back goes on with it for its time, unless it moves on, and then lets the others
 /// go first. Who finds no gap to change lanes and comes up against somebody behind gives way from
 /// there. Not for other reasons: that may lock up a large junction.
-Backing go_on_backing(const TrafficParameters& parameters, const Scene& scene, std::size_t row,
-                      double dt, Backing now) {
+Backing go_on_backing(const TrafficView& view, std::size_t row, double dt, Backing now) {
+  const Scene& scene = view.scene;
+  const TrafficParameters& parameters = view.parameters;
   const bool moved_on = scene.speed[row] > parameters.slow_walk;
   const double standing = scene.held[row].standing;
   const bool no_further = scene.context[row].reason == LimitReason::Merge &&
@@ -212,7 +214,7 @@ Backing go_on_backing(const TrafficParameters& parameters, const Scene& scene, s
   // who made room for somebody follows it again
   const bool rolled = standing < parameters.backing_time;
   const bool for_itself = scene.context[row].reason != LimitReason::Leader;
-  return {0.0, rolled && for_itself && !moved_on ? courtesy(parameters, scene, row) : 0.0};
+  return {0.0, rolled && for_itself && !moved_on ? courtesy(view, row) : 0.0};
 }
 
 /// For how long a row rolls back that does neither that nor lets others go first [s]; 0: not at
@@ -220,13 +222,11 @@ Backing go_on_backing(const TrafficParameters& parameters, const Scene& scene, s
 Backing begin_backing(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
   const Scene& scene = view.scene;
   if (!scene.context[row].at_red && is_wedged(scene, row) &&
-      scene.held[row].blocked > patience(view.parameters, scene, row) &&
-      !is_made_way_for(view, geometry, row))
+      scene.held[row].blocked > patience(view, row) && !is_made_way_for(view, geometry, row))
     return {view.parameters.backing_time, 0.0};
   if (makes_room(view, row)) return {view.parameters.backing_time, 0.0};
   if (stands_in_the_way(view, geometry, row))
-    return {view.parameters.giving_way_time,
-            view.parameters.giving_way_time + view.parameters.giving_way_time};
+    return {view.parameters.giving_way_time, 2.0 * view.parameters.giving_way_time};
   return {};
 }
 
@@ -240,11 +240,10 @@ Backing next_backing(const TrafficView& view, const TickGeometry& geometry, doub
       scene.held[row].standing > view.parameters.giving_way_time &&
       !lets_somebody_go(view, geometry, row))
     now.gives_way = 0.0;
-  if (now.left > 0.0) return go_on_backing(view.parameters, scene, row, dt, now);
+  if (now.left > 0.0) return go_on_backing(view, row, dt, now);
   if (now.gives_way <= 0.0) return begin_backing(view, geometry, row);
   if (is_still_in_the_way(view, geometry, row))
-    return {view.parameters.giving_way_time,
-            view.parameters.giving_way_time + view.parameters.giving_way_time};
+    return {view.parameters.giving_way_time, 2.0 * view.parameters.giving_way_time};
   return now;
 }
 
@@ -266,17 +265,15 @@ void update_backing(const TrafficView& view, const TickGeometry& geometry, doubl
 
 std::optional<BodyState> back_out(const TrafficView& view, const TickGeometry& geometry,
                                   std::size_t row, double dt) {
-  const Model& model = view.model;
-  const RoadState& road = view.road;
   const Scene& scene = view.scene;
   const TrafficState& traffic = view.traffic;
   const double now = backward_speed(scene, row);
   const bool backing = traffic.backing_left[row] > 0.0 || now > 1e-2;
   if (!backing || scene.speed[row] > 1e-2) return std::nullopt;
   const AgentGeometry& own = geometry.agent[row];
-  const Path* path = road.path(scene.path[row]);
+  const Path* path = view.road.path(scene.path[row]);
   if (path == nullptr || !own.on_wheels || !own.is_box) return std::nullopt;
-  const AgentType& type = type_of(model.types, scene.type[row]);
+  const AgentType& type = type_of(view.model.types, scene.type[row]);
   const BodyState body = body_of(scene, row);
   // as fast as it can still stop before the time is over and before whoever is behind
   const double speed = std::min({view.parameters.slow_walk, now + view.parameters.easy_braking * dt,
@@ -284,7 +281,7 @@ std::optional<BodyState> back_out(const TrafficView& view, const TickGeometry& g
   const double to_stop = speed * dt + 0.5 * speed * speed / view.parameters.easy_braking;
   // back along its path, or else straight or to a side: who stands beside may leave just that. Who
   // makes room stays on its road
-  const double along_path = lock_along_path(view.parameters, *path, scene, type, row);
+  const double along_path = lock_along_path(view, *path, type, row);
   const double most = std::tan(type.max_steering);
   const std::array locks{along_path, 0.0, most, -most};
   for (const double lock : std::span(locks).first(is_wedged(scene, row) ? 4 : 2)) {

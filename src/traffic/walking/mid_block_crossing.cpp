@@ -4,10 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include "scene/storey.h"
 #include "traffic/junction/occupation.h"
 #include "traffic/longitudinal/car_following.h"
 #include "traffic/patience.h"
+#include "traffic/perception.h"
 
 namespace sumogamma {
 
@@ -81,8 +81,9 @@ std::int64_t find_who_comes(const TrafficView& view, std::size_t row, const Piec
       std::min(2.0 * view.parameters.flow_speed * time + width, view.parameters.sight);
   std::int64_t foe = -1;
   double nearest = reach * reach;
-  view.grid.visit_within(scene.position[row], reach, [&](std::size_t other, double distance) {
-    if (other == row || distance > nearest) return;
+  visit_near(view, row, reach, [&](std::size_t other) {
+    const double distance = (scene.position[other] - scene.position[row]).squaredNorm();
+    if (distance > nearest) return;
     const Path* path = view.road.path(scene.path[other]);
     if (path == nullptr || path->walking) return;
     const double half_length = scene.footprint[other].radius;
@@ -90,7 +91,6 @@ std::int64_t find_who_comes(const TrafficView& view, std::size_t row, const Piec
     const double fastest = std::min(path->profile_at(scene.path_along[other]),
                                     type_of(view.model.types, scene.type[other]).max_speed);
     if (least > time * fastest) return;
-    if (on_other_storey(view.model.road, scene, row, other)) return;
     const auto meeting =
         find_meeting(path->line, scene.path_along[other], half_length + 1.0, reach, piece);
     if (!meeting || !holds(view, other, *meeting, piece)) return;
@@ -105,7 +105,7 @@ std::int64_t find_who_comes(const TrafficView& view, std::size_t row, const Piec
 }  // namespace
 
 LinkDecision decide_at_kerb(const TrafficView& view, const Traveller& walker, double pace) {
-  const auto& [model, road, scene, traffic, grid, approaches, parameters, code] = view;
+  const auto& [model, road, scene, traffic, grid, approaches, perception, parameters, code] = view;
   const Path& path = *road.path(scene.path[walker.row]);
   for (const RoadCrossing& over : path.over_road) {
     if (walker.front > over.begin + view.parameters.line_tolerance) continue;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "scene/storey.h"
 #include "traffic/junction/arbitration.h"
 #include "traffic/patience.h"
+#include "traffic/perception.h"
 #include "traffic/walking/mid_block_crossing.h"
 
 namespace sumogamma {
@@ -20,21 +20,20 @@ void follow_on_foot(const TrafficView& view, const Course& course, RoadContext& 
   const Scene& scene = view.scene;
   const std::size_t row = course.row;
   const Vec2 left = left_of(context.tangent);
-  const double half_width = half_extent(scene, row, left);
-  view.grid.visit_within(scene.position[row], view.parameters.near, [&](std::size_t other, double) {
-    if (other == row || on_other_storey(view.model.road, scene, row, other)) return;
+  const double half_width = half_extent(view, row, left);
+  visit_near(view, row, view.parameters.near, [&](std::size_t other) {
     if (type_of(view.model.types, scene.type[other]).kinematics != Kinematics::Holonomic) return;
     const Vec2 offset = scene.position[other] - scene.position[row];
     const double ahead = offset.dot(context.tangent);
-    const double aside = half_width + half_extent(scene, other, left) - view.parameters.touching;
+    const double aside = half_width + half_extent(view, other, left) - view.parameters.touching;
     if (ahead < view.parameters.touching || std::abs(offset.dot(left)) > aside) return;
-    if (direction_of(scene.heading[other]).dot(context.tangent) < 0.5) return;
+    if (view.perception.ego[other].forward.dot(context.tangent) < 0.5) return;
     // where their ways bend each may be ahead of the other: one of them goes
     const Waiting& theirs = view.approaches.waiting(other);
     if (theirs.reason == LimitReason::Leader && theirs.foe == scene.id[row].value &&
         scene.id[row] < scene.id[other])
       return;
-    const double gap = ahead - course.half_length - half_extent(scene, other, context.tangent);
+    const double gap = ahead - course.half_length - half_extent(view, other, context.tangent);
     const double allowed = std::max(gap, 0.0) / (course.type.headway * course.headway_factor);
     if (allowed >= context.allowed_speed || allowed >= context.speed_limit) return;
     context.allowed_speed = allowed;
@@ -92,7 +91,7 @@ void keep_off_red_crossings(const TrafficView& view, const Course& course, RoadC
              stretch.from < course.along + view.parameters.near_line;
     });
     if (crosses && !waits) return;
-    const double extent = half_extent(view.scene, course.row, way / distance);
+    const double extent = half_extent(view, course.row, way / distance);
     way *= std::max(distance - extent, kLeastWay) / distance;
     for (Vec2& kept : context.to_red) {
       if (way == kept || way.isZero()) return;
@@ -117,14 +116,14 @@ void keep_off_red_crossings(const TrafficView& view, const Course& course, RoadC
 /// or before its place beside the path gets onto the crossing, as inside the corner in which the
 /// way turns there; behind the crossing before, in the middle of what is between the two where that
 /// is no deeper than a body.
-double kerb_halt(const TrafficParameters& parameters, const Model& model, const Course& course,
-                 const PathLink& link) {
+double kerb_halt(const TrafficView& view, const Course& course, const PathLink& link) {
+  const TrafficParameters& parameters = view.parameters;
   const Polyline& line = course.path.line;
   const Vec2 begin = line.point_at(link.stop_line), way = line.point_at(link.end) - begin;
   if (way.norm() < parameters.line_tolerance) return link.halt;
   const Vec2 across = way.normalized();
   const LaneId crossing = course.path.stretch_at(0.5 * (link.stop_line + link.end)).lane;
-  const double half_width = 0.5 * model.road.lane(crossing).width;
+  const double half_width = 0.5 * view.model.road.lane(crossing).width;
   double crossed = -std::numeric_limits<double>::infinity();
   for (const PathLink& before : course.path.links)
     if (before.stop_line < link.stop_line) crossed = std::max(crossed, before.end);
@@ -164,7 +163,7 @@ void set_walker_limit(const TrafficView& view, const Course& course, RoadContext
         past > (was_held ? view.parameters.near_line : view.parameters.footstep))
       continue;
     if (link.halt > front + 8.0) break;
-    link.halt = kerb_halt(view.parameters, view.model, course, link);
+    link.halt = kerb_halt(view, course, link);
     if (link.halt > front + 4.0) continue;
     Traveller waiting = traveller;
     waiting.front = std::min(front, link.stop_line + view.parameters.footstep);

@@ -13,39 +13,39 @@ namespace {
 enum class Meeting { Counts, StandsInTheWay, IsLeftToAvoidance };
 
 /// People and who drives along the way count; vehicles that drive across it will have passed.
-Meeting meeting_with(const TrafficParameters& parameters, const Scene& scene,
-                     const RoadUser& user) {
+Meeting meeting_with(const TrafficView& view, const PathUser& user) {
   if (user.on_foot) return Meeting::Counts;
-  const double speed = scene.velocity[user.row].norm();
-  if (speed < parameters.halting_speed) return Meeting::StandsInTheWay;
+  const double speed = view.scene.velocity[user.row].norm();
+  if (speed < view.parameters.halting_speed) return Meeting::StandsInTheWay;
   return std::abs(user.speed) > 0.7 * speed ? Meeting::Counts : Meeting::IsLeftToAvoidance;
 }
 
 /// Speed that can be hoped for at a place: of those ahead there, the slower and the nearer the
 /// less. Who comes the other way counts for less than nothing, so that streams part. Close past a
 /// vehicle that stands it is half: avoidance keeps more from it than there is between the bodies.
-double hoped_pace(const TrafficParameters& parameters, const Scene& scene,
-                  const Surroundings& around, double place, double free_speed) {
+double hoped_pace(const TrafficView& view, const Surroundings& around, double place,
+                  double free_speed) {
+  const TrafficParameters& parameters = view.parameters;
   const double front = around.along + around.half_length;
   const double rear = around.along - around.half_length;
   double hoped = free_speed;
-  auto is_near = [&](const RoadUser& user, double margin) {
+  auto is_near = [&](const PathUser& user, double margin) {
     return user.front >= rear &&
            std::abs(user.offset - place) <= user.half_width + around.half_width + margin;
   };
-  auto meet = [&](const RoadUser& user, double margin) {
+  auto meet = [&](const PathUser& user, double margin) {
     if (!is_near(user, margin)) return;
     const double gap = user.rear - front;
     hoped = std::min(
         hoped, user.speed + (gap > 0.0 ? gap / parameters.outlook : -parameters.standing_speed));
   };
-  for (const RoadUser& user : around.users) {
+  for (const PathUser& user : around.users) {
     meet(user, parameters.touching);
     if (is_near(user, parameters.side_clearance) &&
-        meeting_with(parameters, scene, user) == Meeting::StandsInTheWay)
+        meeting_with(view, user) == Meeting::StandsInTheWay)
       hoped = std::min(hoped, parameters.open_share * free_speed);
   }
-  for (const RoadUser& wall : around.walls) meet(wall, parameters.tight_side);
+  for (const PathUser& wall : around.walls) meet(wall, parameters.tight_side);
   return hoped;
 }
 
@@ -70,29 +70,25 @@ Sides sides_of_way(const TrafficParameters& parameters, const Path& path,
   return {std::max(here.room_left - half, 0.0), std::max(here.room_right - half, 0.0)};
 }
 
-double free_pace(const Path& path, const Scene& scene, const Surroundings& around,
-                 std::size_t row) {
-  return std::min(path.profile_at(around.along), scene.preferred_speed[row]);
+double free_pace(const TrafficView& view, const Path& path, std::size_t row) {
+  return std::min(path.profile_at(view.perception.ego[row].along), view.scene.preferred_speed[row]);
 }
 
 /// The best of the places between two sides, no further than `reach` from the body [m].
 double best_place(const TrafficView& view, const Path& path, const Surroundings& around,
                   std::size_t row, const Sides& sides, double reach) {
-  const Scene& scene = view.scene;
-  const TrafficState& traffic = view.traffic;
   double most_left = sides.left, most_right = -sides.right;
   keep_to_waiting_room(view.parameters, path, around.along, most_left, most_right);
-  const double liked = std::clamp(scene.manners[row].path_offset, most_right, most_left);
-  const double free_speed = free_pace(path, scene, around, row);
-  if (hoped_pace(view.parameters, scene, around, liked, free_speed) >
-      view.parameters.free_share * free_speed)
+  const double liked = std::clamp(view.scene.manners[row].path_offset, most_right, most_left);
+  const double free_speed = free_pace(view, path, row);
+  if (hoped_pace(view, around, liked, free_speed) > view.parameters.free_share * free_speed)
     return liked;
   auto worth = [&](double place) {
-    return hoped_pace(view.parameters, scene, around, place, free_speed) -
+    return hoped_pace(view, around, place, free_speed) -
            view.parameters.sidestep_cost * std::abs(place - around.offset) -
            view.parameters.sidestep_cost * std::abs(place - liked);
   };
-  double best = std::clamp(traffic.passing_offset[row], most_right, most_left);
+  double best = std::clamp(view.traffic.passing_offset[row], most_right, most_left);
   double most = worth(best) + view.parameters.moving_speed;
   auto weigh = [&](double place) {
     if (place < most_right || place > most_left || std::abs(place - around.offset) > reach) return;
@@ -121,16 +117,13 @@ double room_off_the_way(const TrafficParameters& parameters, const Path& path,
 
 double walking_place(const TrafficView& view, const Path& path, Surroundings& around,
                      std::size_t row) {
-  const Scene& scene = view.scene;
-  const TrafficState& traffic = view.traffic;
   // those left to avoidance are not weighed
-  std::erase_if(around.users, [&](const RoadUser& user) {
-    return meeting_with(view.parameters, scene, user) == Meeting::IsLeftToAvoidance;
+  std::erase_if(around.users, [&](const PathUser& user) {
+    return meeting_with(view, user) == Meeting::IsLeftToAvoidance;
   });
   const bool stands =
-      std::any_of(around.users.begin(), around.users.end(), [&](const RoadUser& user) {
-        return user.front > around.along &&
-               meeting_with(view.parameters, scene, user) == Meeting::StandsInTheWay;
+      std::any_of(around.users.begin(), around.users.end(), [&](const PathUser& user) {
+        return user.front > around.along && meeting_with(view, user) == Meeting::StandsInTheWay;
       });
   const double farthest = stands ? view.parameters.near : view.parameters.walking_aside,
                reach = stands ? 2.0 * view.parameters.near : view.parameters.walking_aside;
@@ -139,10 +132,10 @@ double walking_place(const TrafficView& view, const Path& path, Surroundings& ar
       best_place(view, path, around, row,
                  {std::min(way.left, farthest), std::min(way.right, farthest)}, reach);
   // who has waited for long before a vehicle that shuts its way steps off that, until it is past
-  const bool is_off = traffic.overtaking_room[row] > 0.0;
+  const bool is_off = view.traffic.overtaking_room[row] > 0.0;
   if (!stands || (!is_off && waited(view, row) < Patience::Impatient)) return on_it;
-  const double free_speed = free_pace(path, scene, around, row);
-  if (hoped_pace(view.parameters, scene, around, on_it, free_speed) >
+  const double free_speed = free_pace(view, path, row);
+  if (hoped_pace(view, around, on_it, free_speed) >
       (is_off ? view.parameters.open_share : view.parameters.shut_share) * free_speed)
     return on_it;
   return best_place(view, path, around, row, {view.parameters.near, view.parameters.near}, reach);

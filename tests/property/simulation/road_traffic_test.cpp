@@ -66,6 +66,7 @@ TEST(RoadTraffic, WhoBacksOutDoesNotDependOnTheOrderOfRows) {
                                state,
                                sim.geometry.grid,
                                sim.traffic.approaches,
+                               sim.traffic.perception,
                                sim.traffic.parameters,
                                sim.traffic.code};
         update_backing(view, sim.geometry, sim.dt, workers, next, state);

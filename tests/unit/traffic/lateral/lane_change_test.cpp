@@ -750,7 +750,7 @@ TEST(Surrounding, WhoIsBehindTheBeginOfAPathIsSeenWhereItIs) {
     const Vec2 way = here.scene.position[behind] - here.scene.position[own];
     ASSERT_LT(here.scene.path_along[own] + way.x(), -0.5) << "behind its begin";
     ASSERT_EQ(around.users.size(), 1u) << before_line;
-    const RoadUser& user = around.users.front();
+    const PathUser& user = around.users.front();
     EXPECT_NEAR(user.offset, way.y(), 0.05);
     EXPECT_NEAR(0.5 * (user.front + user.rear), around.along + way.x(), 0.05);
   }
