@@ -107,17 +107,6 @@ std::size_t find_foe(const Scene& scene, std::int64_t id);
 /// none.
 std::size_t foe_row(const Scene& scene, std::size_t row);
 
-/// Does a row wait for another, over whom it waits for and so on, `most` of them at the most?
-/// `foe_of` says whom each row waits for, size() where for nobody.
-template <typename FoeOf>
-bool waits_for(const Scene& scene, std::size_t row, std::size_t other, int most, FoeOf foe_of) {
-  for (int k = 0; k < most && row < scene.size(); ++k) {
-    row = foe_of(row);
-    if (row == other) return true;
-  }
-  return false;
-}
-
 /// 64-bit FNV-1a hash continued from `hash` over every agent's id and exact state bits.
 std::uint64_t hash_state(const Scene& scene, std::uint64_t hash = kFnvBasis);
 

@@ -82,6 +82,7 @@ void tick(Simulation& sim, World& world) {
                             sim.traffic.state,
                             sim.traffic.approaches,
                             sim.traffic.perception,
+                            sim.traffic.waits,
                             sim.traffic.parameters,
                             sim.traffic.code};
   update_traffic(traffic, sim.traffic);

@@ -7,33 +7,28 @@ namespace sumogamma {
 namespace {
 
 /// Fills in who is at the head of the chain of agents that wait for one another from `row` on.
-void find_head(const Scene& scene, std::size_t row, StuckAgent& agent) {
-  std::vector<std::size_t> chain{row};
-  for (;;) {
-    const std::size_t foe = foe_row(scene, chain.back());
-    if (foe == scene.size()) break;
-    agent.ring = std::find(chain.begin(), chain.end(), foe) != chain.end();
-    if (agent.ring) return;
-    chain.push_back(foe);
-  }
-  if (chain.size() == 1) return;
-  const RoadContext& context = scene.context[chain.back()];
-  agent.head = scene.id[chain.back()].value;
+void find_head(const WaitGraph& waits, const Scene& scene, std::size_t row, StuckAgent& agent) {
+  std::size_t head = row;
+  waits.find_ahead(row, [&](std::size_t next) {
+    head = next;
+    return agent.ring = waits.in_ring(next);
+  });
+  if (agent.ring || head == row) return;
+  const RoadContext& context = scene.context[head];
+  agent.head = scene.id[head].value;
   agent.head_reason = context.active ? context.reason : LimitReason::None;
 }
 
 /// Does a row wait, over whom it waits for and so on, for somebody who waits for a signal?
-bool waits_behind_signal(const Scene& scene, std::size_t row) {
-  constexpr int kLongest = 64;  // a ring has no end
-  for (int k = 0; k < kLongest && row < scene.size(); ++k) {
-    if (scene.context[row].active && scene.context[row].reason == LimitReason::Signal) return true;
-    row = foe_row(scene, row);
-  }
-  return false;
+bool waits_behind_signal(const WaitGraph& waits, const Scene& scene, std::size_t row) {
+  const auto waits_for_signal = [&](std::size_t one) {
+    return scene.context[one].active && scene.context[one].reason == LimitReason::Signal;
+  };
+  return waits_for_signal(row) || waits.find_ahead(row, waits_for_signal) < waits.size();
 }
 
 /// What is known of a row at the moment when it becomes stuck, or held.
-StuckAgent stuck_agent(const Scene& scene, std::size_t row, double since) {
+StuckAgent stuck_agent(const WaitGraph& waits, const Scene& scene, std::size_t row, double since) {
   const RoadContext& context = scene.context[row];
   StuckAgent agent;
   agent.id = scene.id[row];
@@ -43,7 +38,7 @@ StuckAgent stuck_agent(const Scene& scene, std::size_t row, double since) {
   agent.since = since;
   agent.reason = context.active ? context.reason : LimitReason::None;
   agent.foe = context.active ? context.foe : -1;
-  find_head(scene, row, agent);
+  find_head(waits, scene, row, agent);
   return agent;
 }
 
@@ -58,6 +53,7 @@ void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
   by_type_.resize(types.size());
   red_lights_.update(road, scene);
   track_.match(scene.id);
+  waits_.rebuild(scene);
   stuck_now_ = 0;
   for (std::size_t row = 0; row < scene.size(); ++row) {
     State& state = track_[row];
@@ -97,13 +93,13 @@ void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
 
 void FlowMonitor::add_standing(const Scene& scene, std::size_t row, State& state) {
   const bool excused = at_planned_halt(scene, row) || red_lights_.ahead(scene.lane[row].lane) ||
-                       waits_behind_signal(scene, row);
+                       waits_behind_signal(waits_, scene, row);
   if (!excused) state.standing += step_;
   longest_ = std::max(longest_, state.standing);
   // half a step less: sums of steps don't meet a whole number of seconds exactly
   if (state.record < 0 && state.standing > kStuckTime - 0.5 * step_) {
     state.record = static_cast<std::int32_t>(stuck_.size());
-    stuck_.push_back(stuck_agent(scene, row, state.stopped_at));
+    stuck_.push_back(stuck_agent(waits_, scene, row, state.stopped_at));
     if (!state.ever_stuck) ++stuck_agents_;
     state.ever_stuck = true;
   }
@@ -124,7 +120,7 @@ void FlowMonitor::add_stay(const Scene& scene, std::size_t row, State& state) {
   longest_held_ = std::max(longest_held_, state.stays);
   if (state.held_record < 0 && state.stays > kHeldTime - 0.5 * step_) {
     state.held_record = static_cast<std::int32_t>(held_.size());
-    held_.push_back(stuck_agent(scene, row, state.stays_since));
+    held_.push_back(stuck_agent(waits_, scene, row, state.stays_since));
     if (!state.ever_held) ++held_agents_;
     state.ever_held = true;
   }

@@ -8,6 +8,7 @@
 #include "scene/agent_type.h"
 #include "scene/road_state.h"
 #include "scene/scene.h"
+#include "scene/wait_graph.h"
 #include "study/agent_track.h"
 #include "study/red_lights.h"
 
@@ -78,6 +79,7 @@ class FlowMonitor {
   std::size_t stuck_now() const { return stuck_now_; }
 
  private:
+  WaitGraph waits_;
   struct State {
     bool known = false, stands = false;
     bool ever_stuck = false;

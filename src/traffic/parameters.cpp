@@ -134,8 +134,6 @@ constexpr TrafficParameter kParameters[] = {
     {"giving_way_time", "s", &P::giving_way_time, 1.0, 60.0,
      "for which others are let go first after that, at the least"},
     {"giving_way_spread", "s", &P::giving_way_spread, 0.0, 60.0, "and up to so much longer, drawn"},
-    {"longest_chain", "–", &P::longest_chain, 2.0, 64.0,
-     "of those who wait for one another that is followed"},
     {"footstep", "m", &P::footstep, 0.1, 2.0,
      "taken back at a kerb, or on past it before one crosses"},
     {"walking_aside", "m", &P::walking_aside, 0.2, 10.0,

@@ -98,7 +98,6 @@ struct TrafficParameters {
   double backing_time = 12.0;
   double giving_way_time = 5.0;
   double giving_way_spread = 18.0;
-  double longest_chain = 16.0;
 
   // on foot
   double footstep = 0.5;

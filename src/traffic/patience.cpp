@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/random.h"
+
 namespace sumogamma {
 
 Patience patience_after(const TrafficParameters& parameters, double seconds) {
@@ -32,6 +34,17 @@ Patience kept_clear(const TrafficView& view, std::size_t row) {
 
 Patience halted(const TrafficView& view, std::size_t row) {
   return patience_after(view.parameters, view.scene.time - view.approaches.waiting(row).halted_at);
+}
+
+bool has_come_to_a_halt(const TrafficView& view, std::size_t row) {
+  return view.scene.held[row].standing >= view.parameters.reaction_time;
+}
+
+bool is_out_of_patience(const TrafficView& view, std::size_t row) {
+  const double least = view.parameters.pressing, most = view.parameters.stuck;
+  const auto stretch = static_cast<std::uint64_t>(view.scene.time / most);
+  return view.scene.held[row].blocked >
+         random_uniform(0, view.scene.id[row].value, stretch, Draw::Intention, least, most);
 }
 
 double impatience_after(const TrafficParameters& parameters, double seconds) {

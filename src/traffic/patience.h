@@ -32,6 +32,12 @@ Patience kept_clear(const TrafficView& view, std::size_t row);
 /// Since it came to a halt before the link that it last halted for.
 Patience halted(const TrafficView& view, std::size_t row);
 
+/// Has a row stood for a moment, so that it has come to a halt?
+bool has_come_to_a_halt(const TrafficView& view, std::size_t row);
+/// Has a row been blocked for longer than it bears? Drawn between Pressing and Stuck, anew for each
+/// stretch of time, so that of several who are wedged one is the first.
+bool is_out_of_patience(const TrafficView& view, std::size_t row);
+
 /// From 0 to 1 while somebody waits (Daganzo's and SUMO's impatience): 1 where it is Desperate.
 double impatience_after(const TrafficParameters& parameters, double seconds);
 

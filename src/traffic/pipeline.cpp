@@ -65,6 +65,7 @@ void remember_tick(const TrafficTick& tick, Traffic& traffic) {
     count_waiting(tick.parameters, tick.dt, kinematics, scene, tick.traffic, row);
     update_held(tick.dt, scene, row);
   }
+  tick.waits.rebuild(scene);
   update_backing(tick.view(), tick.geometry, tick.dt, tick.workers, traffic.backing, tick.traffic);
 }
 

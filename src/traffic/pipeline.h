@@ -18,6 +18,7 @@ struct Traffic {
 
   ApproachTable approaches;
   Perception perception;
+  WaitGraph waits;
   LaneChoiceWork lanes;
   std::vector<Backing> backing;
 };

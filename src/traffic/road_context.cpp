@@ -6,6 +6,7 @@
 #include "traffic/lateral/course.h"
 #include "traffic/longitudinal/allowed_speed.h"
 #include "traffic/longitudinal/car_following.h"
+#include "traffic/patience.h"
 #include "traffic/walking/walker_limits.h"
 
 namespace sumogamma {
@@ -17,7 +18,7 @@ namespace {
 void note_halt(const TrafficView& view, const Course& course, TrafficState& traffic) {
   const RoadNetwork& road = view.model.road;
   const Scene& scene = view.scene;
-  if (scene.held[course.row].standing < view.parameters.reaction_time) return;
+  if (!has_come_to_a_halt(view, course.row)) return;
   const double front = course.along + course.half_length;
   for (const PathLink& link : course.path.links) {
     if (link.stop_line < front - 0.3 && front > link.inside + 0.3) continue;
@@ -76,6 +77,7 @@ RoadContext road_context(const TrafficView& view, std::size_t row, double dt, Tr
 void update_road_contexts(const TrafficTick& tick) {
   const TrafficView view = tick.view();
   const Scene& scene = tick.scene;
+  tick.waits.rebuild(scene);
   tick.approaches.rebuild(view);
   tick.workers.for_each_range(scene.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     StopPoints scratch;

@@ -17,11 +17,13 @@ struct TrafficTick {
   TrafficState& traffic;
   ApproachTable& approaches;
   Perception& perception;
+  WaitGraph& waits;
   const TrafficParameters& parameters;
   const TrafficCode& code;
 
   TrafficView view() const {
-    return {model, road, scene, traffic, geometry.grid, approaches, perception, parameters, code};
+    return {model,      road,       scene, traffic,    geometry.grid,
+            approaches, perception, waits, parameters, code};
   }
 };
 

@@ -6,6 +6,7 @@
 #include "scene/road_state.h"
 #include "scene/scene.h"
 #include "scene/traffic_code.h"
+#include "scene/wait_graph.h"
 #include "traffic/ego_on_path.h"
 #include "traffic/junction/approaches.h"
 #include "traffic/parameters.h"
@@ -24,6 +25,7 @@ struct TrafficView {
   const ApproachTable& approaches;  ///< of this tick once contexts are made: not while lanes are
                                     ///< chosen, and ways found
   const Perception& perception;     ///< likewise of this tick once ways are found
+  const WaitGraph& waits;           ///< as contexts were when this part of the tick began
   const TrafficParameters& parameters;
   const TrafficCode& code;
 };

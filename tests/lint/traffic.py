@@ -26,8 +26,7 @@ PARAMETERS = r"src/traffic/parameters\.(h|cpp)"
 PATIENCE = "src/traffic/patience.cpp"
 CLOCK = r"(?:\.|->)(?:waiting_time|standing|blocked|keeps_clear|halted_at|stood_at)\b"
 # by file, how often a clock is still compared elsewhere: numbers that only get smaller
-STILL_COMPARED = {"src/traffic/longitudinal/leader.cpp": 1, "src/traffic/recovery/detour.cpp": 1, "src/traffic/recovery/reversing.cpp": 4,
-                  "src/traffic/road_context.cpp": 1}
+STILL_COMPARED = {"src/traffic/recovery/reversing.cpp": 2}
 PERCEPTION = "src/traffic/perception"
 FAR = {"src/traffic/longitudinal/leader.cpp": 1}  # calls of visit_storey by file
 GRID = re.compile(r"\bvisit_(?:within|runs)\s*\(")

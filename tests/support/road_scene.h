@@ -112,8 +112,9 @@ class RoadScene {
   const RoadContext& context(std::size_t row) const { return scene.context[row]; }
   /// Everybody is near everybody.
   TrafficView view() const {
-    const TrafficView view{model,      road,        scene,      traffic, geometry.grid,
-                           approaches, perception_, parameters, code};
+    const TrafficView view{model,      road,        scene,  traffic,    geometry.grid,
+                           approaches, perception_, waits_, parameters, code};
+    waits_.rebuild(scene);
     perception_.resize(scene.size());
     for (std::size_t row = 0; row < scene.size(); ++row)
       perceive(view, row, std::numeric_limits<double>::infinity(), perception_);
@@ -121,8 +122,8 @@ class RoadScene {
   }
   TrafficTick tick(Workers& workers, double dt = 0.05) {
     view();
-    return {model,   geometry,   workers,     dt,         road, scene,
-            traffic, approaches, perception_, parameters, code};
+    return {model,   geometry,   workers,     dt,     road,       scene,
+            traffic, approaches, perception_, waits_, parameters, code};
   }
   /// Front of a row past a link's stop line [m].
   double past_line(std::size_t row, std::size_t link = 0) const {
@@ -150,6 +151,7 @@ class RoadScene {
 
  private:
   mutable Perception perception_;
+  mutable WaitGraph waits_;
   static const std::vector<KinematicTable>& kinematic_tables() {
     static const std::vector<KinematicTable> tables = [] {
       Workers workers;

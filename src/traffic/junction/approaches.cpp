@@ -57,11 +57,11 @@ void ApproachTable::note_waiting(const TrafficView& view) {
       continue;
     if (!comes_with_right_of_way(model, road, scene, row)) continue;
     // whoever that one stands behind holds it up, too
-    std::size_t foe = find_foe(scene, waiting_[row].foe);
+    std::size_t foe = view.waits.foe(row);
     while (foe < scene.size() && !waiting_[foe].holds_up) {
       waiting_[foe].holds_up = true;
       if (waiting_[foe].reason != LimitReason::Leader) break;
-      foe = find_foe(scene, waiting_[foe].foe);
+      foe = view.waits.foe(foe);
     }
   }
 }
@@ -109,13 +109,6 @@ std::span<const Approach> ApproachTable::of(ConnectionId id) const {
   if (id == kNoConnection || index_of(id) >= ranges_.size()) return {};
   const Range range = ranges_[index_of(id)];
   return std::span<const Approach>(approaches_).subspan(range.begin, range.end - range.begin);
-}
-
-bool waits_for_itself(const TrafficView& view, std::size_t row) {
-  const auto longest = static_cast<int>(view.parameters.longest_chain);
-  return waits_for(view.scene, row, row, longest, [&](std::size_t waiting) {
-    return find_foe(view.scene, view.approaches.waiting(waiting).foe);
-  });
 }
 
 }  // namespace sumogamma

@@ -66,7 +66,4 @@ class ApproachTable {
 ConnectionId halt_counts_for(const RoadNetwork& road, const Path& path, const PathLink& link,
                              double length);
 
-/// Does a row wait, over whom it waits for and so on, for itself?
-bool waits_for_itself(const TrafficView& view, std::size_t row);
-
 }  // namespace sumogamma

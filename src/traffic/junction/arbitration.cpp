@@ -185,7 +185,8 @@ bool has_crossing_traffic(const Model& model, ConnectionId link) {
 
 ZipperLeader find_zipper_leader(const TrafficView& view, const Traveller& traveller,
                                 const PathLink& link) {
-  const auto& [model, road, scene, traffic, grid, approaches, perception, parameters, code] = view;
+  const auto& [model, road, scene, traffic, grid, approaches, perception, waits, parameters, code] =
+      view;
   ZipperLeader leader;
   for (const ConflictZone& zone : model.conflicts[index_of(link.connection)]) {
     if (!runs_together(model, link.connection, zone.foe)) continue;

@@ -239,7 +239,7 @@ void note_keeping_clear(const TrafficView& view, const Course& course, const Roa
     kept += dt;
     // who waits for itself, in the end, gains nothing by the room that it leaves
     if (patience() >= Patience::Desperate ||
-        (patience() >= Patience::Pressing && waits_for_itself(view, course.row)))
+        (patience() >= Patience::Pressing && view.waits.in_ring(course.row)))
       kept = view.parameters.desperate + view.parameters.pressing;
   } else if (patience() >= Patience::Desperate) {
     kept -= dt;

@@ -198,7 +198,7 @@ bool drives_by(const Encounter& e) {
 bool is_deadlock(const Encounter& e) {
   const Patience both = std::min(waited(e, e.subject.row), waited(e, e.foe.row));
   if (!is_on_junction(e) || both < Patience::Waiting) return false;
-  if (both < Patience::Pressing && !waits_for_itself(e, e.subject.row)) return false;
+  if (both < Patience::Pressing && !e.waits.in_ring(e.subject.row)) return false;
   const LimitReason reason = e.foe_waits.reason;
   const bool yields = reason == LimitReason::Yield || reason == LimitReason::Crossing;
   // who isn't held by a rule and moves has begun to try
@@ -224,7 +224,7 @@ bool ends_in_queue(const Encounter& e) {
   if (e.foe_link.to == e.own_link.to || e.foe_link.signal != kNoSignal ||
       waited(e, e.subject.row) < Patience::Stuck || e.foe_waits.reason != LimitReason::Leader)
     return false;
-  const std::size_t leader = find_foe(e.scene, e.foe_waits.foe);
+  const std::size_t leader = e.waits.foe(e.foe.row);
   if (leader == e.scene.size() || e.scene.speed[leader] > e.parameters.standing_speed) return false;
   const Vec2 forward = direction_of(e.scene.heading[e.foe.row]);
   const double gap = (e.scene.position[leader] - e.scene.position[e.foe.row]).norm() -

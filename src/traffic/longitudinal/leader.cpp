@@ -14,9 +14,9 @@ namespace sumogamma {
 namespace {
 
 /// Somebody on foot who stands: at a kerb, as far as anyone can tell.
-bool waits_at_kerb(const Model& model, const Scene& scene, std::size_t row) {
-  return scene.held[row].standing > 1.5 &&
-         type_of(model.types, scene.type[row]).kinematics == Kinematics::Holonomic;
+bool waits_at_kerb(const TrafficView& view, std::size_t row) {
+  return stood(view, row) >= Patience::Waiting &&
+         type_of(view.model.types, view.scene.type[row]).kinematics == Kinematics::Holonomic;
 }
 
 /// Do two bodies that head the same way, more or less, lie close together?
@@ -267,7 +267,7 @@ void pass(const Own& own, const Seen& seen, DrivingAhead& ahead) {
 bool is_clear_of_way(const Own& own, const Seen& seen) {
   const double blend = std::clamp(1.0 - (seen.place.along - own.along) / 15.0, 0.0, 1.0);
   const double swept = blend * own.offset + (1.0 - blend) * own.aim;
-  const bool at_kerb = waits_at_kerb(own.view.model, own.view.scene, seen.other);
+  const bool at_kerb = waits_at_kerb(own.view, seen.other);
   const double kept = at_kerb ? -0.35 : seen.gap < 0.0 ? 0.02 : own.margin;
   const bool comes_back =
       own.returns && seen.gap > 0.0 && std::abs(seen.place.offset - own.wanted) - seen.sides < kept;

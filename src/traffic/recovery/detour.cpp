@@ -30,8 +30,9 @@ const PathLink* shut_link(const TrafficView& view, const Path& path, std::size_t
 }
 
 /// Time that each edge takes as the roads are now [s], by EdgeId.
-std::vector<double> travel_times(const TrafficParameters& parameters, const RoadNetwork& network,
-                                 const Scene& scene) {
+std::vector<double> travel_times(const TrafficView& view) {
+  const RoadNetwork& network = view.model.road;
+  const Scene& scene = view.scene;
   std::vector<double> times(network.edges.size());
   for (std::size_t i = 0; i < times.size(); ++i) {
     const Edge& edge = network.edges[i];
@@ -40,11 +41,11 @@ std::vector<double> travel_times(const TrafficParameters& parameters, const Road
     times[i] = lane.centerline.length() / std::max(lane.speed_limit, 1.0);
   }
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (scene.lane[row].lane == kNoLane || scene.held[row].standing < 1.0) continue;
+    if (scene.lane[row].lane == kNoLane || stood(view, row) < Patience::Waiting) continue;
     const Lane& lane = network.lane(scene.lane[row].lane);
     if (lane.kind != LaneKind::Normal) continue;
-    times[index_of(lane.edge)] +=
-        parameters.queued_vehicle_time / static_cast<double>(network.edge(lane.edge).lanes.size());
+    times[index_of(lane.edge)] += view.parameters.queued_vehicle_time /
+                                  static_cast<double>(network.edge(lane.edge).lanes.size());
   }
   return times;
 }
@@ -96,7 +97,7 @@ std::uint64_t take_detours(const TrafficTick& tick) {
         continue;
       }
     }
-    if (times.empty()) times = travel_times(tick.parameters, model.road, scene);
+    if (times.empty()) times = travel_times(view);
     const PathStretch& here = path->stretch_at(along);
     // by any way but the one that is shut
     const EdgeId full = model.road.lane(model.road.connection(shut->connection).to).edge;

@@ -18,13 +18,6 @@ double backward_speed(const Scene& scene, std::size_t row) {
   return std::max(0.0, -scene.velocity[row].dot(direction_of(scene.heading[row])));
 }
 
-/// How long this row stands wedged before it backs out [s]: drawn anew for each stretch of time.
-double patience(const TrafficView& view, std::size_t row) {
-  const double least = view.parameters.pressing, most = view.parameters.stuck;
-  const auto stretch = static_cast<std::uint64_t>(view.scene.time / most);
-  return random_uniform(0, view.scene.id[row].value, stretch, Draw::Intention, least, most);
-}
-
 /// How long this row lets others go first after it has backed out [s].
 double courtesy(const TrafficView& view, std::size_t row) {
   const auto second = static_cast<std::uint64_t>(view.scene.time);
@@ -96,7 +89,7 @@ bool finds_gap(const TrafficView& view, std::size_t row) {
 bool makes_room(const TrafficView& view, std::size_t row) {
   const RoadContext& context = view.scene.context[row];
   if (context.reason != LimitReason::Leader || stood(view, row) < Patience::Pressing) return false;
-  const std::size_t leader = foe_row(view.scene, row);
+  const std::size_t leader = view.waits.foe(row);
   return leader < view.scene.size() && stood(view, leader) >= Patience::Pressing &&
          view.traffic.backing_left[leader] > 0.0 &&
          view.traffic.backing_left[leader] <
@@ -148,34 +141,18 @@ bool is_made_way_for(const TrafficView& view, const TickGeometry& geometry, std:
   });
 }
 
-/// Does a row wait for another, be it over others?
-bool is_in_chain_behind(const TrafficView& view, std::size_t row, std::size_t other) {
-  const auto longest = static_cast<int>(view.parameters.longest_chain);
-  return waits_for(view.scene, row, other, longest,
-                   [&](std::size_t waiting) { return foe_row(view.scene, waiting); });
-}
-
-/// Is there somebody wedged at the end of the chain of those who wait for one another from this row
-/// on?
-bool waits_for_wedged(const TrafficView& view, std::size_t row) {
-  const Scene& scene = view.scene;
-  std::size_t last = row;
-  for (int k = 0; k < static_cast<int>(view.parameters.longest_chain); ++k) {
-    const std::size_t next = foe_row(scene, last);
-    if (next >= scene.size()) break;
-    last = next;
-  }
-  return last != row && is_wedged(scene, last);
-}
-
 /// Does this row stand in the way of somebody wedged, and wait itself for that one or for another
 /// who is? Of three who hold each other the one with room behind may wait for the wrong one.
 bool stands_in_the_way(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
+  const auto waits_for_wedged = [&] {
+    return view.waits.find_ahead(row, [&](std::size_t one) { return is_wedged(view.scene, one); }) <
+           view.waits.size();
+  };
   const Scene& scene = view.scene;
   return stood(view, row) >= Patience::Pressing && !is_wedged(scene, row) &&
          !scene.context[row].at_red && stands_before(view, geometry, row, [&](std::size_t other) {
            return blocked(view, other) >= Patience::Pressing &&
-                  (is_in_chain_behind(view, row, other) || waits_for_wedged(view, row));
+                  (view.waits.waits_for(row, other) || waits_for_wedged());
          });
 }
 
@@ -194,7 +171,7 @@ bool lets_somebody_go(const TrafficView& view, const TickGeometry& geometry, std
   return any_wheeled(view, geometry, row, [&](std::size_t other) {
     const Vec2 way = geometry.agent[other].position - own.position;
     return way.dot(own.forward) > 0.0 && waited(view, other) >= Patience::Waiting &&
-           !is_in_chain_behind(view, other, row);
+           !view.waits.waits_for(other, row);
   });
 }
 
@@ -221,8 +198,8 @@ Backing go_on_backing(const TrafficView& view, std::size_t row, double dt, Backi
 /// all. Not before a red light: others wait there, too.
 Backing begin_backing(const TrafficView& view, const TickGeometry& geometry, std::size_t row) {
   const Scene& scene = view.scene;
-  if (!scene.context[row].at_red && is_wedged(scene, row) &&
-      scene.held[row].blocked > patience(view, row) && !is_made_way_for(view, geometry, row))
+  if (!scene.context[row].at_red && is_wedged(scene, row) && is_out_of_patience(view, row) &&
+      !is_made_way_for(view, geometry, row))
     return {view.parameters.backing_time, 0.0};
   if (makes_room(view, row)) return {view.parameters.backing_time, 0.0};
   if (stands_in_the_way(view, geometry, row))
@@ -233,11 +210,9 @@ Backing begin_backing(const TrafficView& view, const TickGeometry& geometry, std
 /// A row's next state from the frozen ones of everybody.
 Backing next_backing(const TrafficView& view, const TickGeometry& geometry, double dt,
                      std::size_t row) {
-  const Scene& scene = view.scene;
   Backing now{view.traffic.backing_left[row], std::max(0.0, view.traffic.gives_way_left[row] - dt)};
   if (finds_gap(view, row)) now = {};
-  if (now.gives_way > 0.0 && now.left <= 0.0 &&
-      scene.held[row].standing > view.parameters.giving_way_time &&
+  if (now.gives_way > 0.0 && now.left <= 0.0 && stood(view, row) >= Patience::Impatient &&
       !lets_somebody_go(view, geometry, row))
     now.gives_way = 0.0;
   if (now.left > 0.0) return go_on_backing(view, row, dt, now);

@@ -105,7 +105,8 @@ std::int64_t find_who_comes(const TrafficView& view, std::size_t row, const Piec
 }  // namespace
 
 LinkDecision decide_at_kerb(const TrafficView& view, const Traveller& walker, double pace) {
-  const auto& [model, road, scene, traffic, grid, approaches, perception, parameters, code] = view;
+  const auto& [model, road, scene, traffic, grid, approaches, perception, waits, parameters, code] =
+      view;
   const Path& path = *road.path(scene.path[walker.row]);
   for (const RoadCrossing& over : path.over_road) {
     if (walker.front > over.begin + view.parameters.line_tolerance) continue;

@@ -67,6 +67,7 @@ TEST(RoadTraffic, WhoBacksOutDoesNotDependOnTheOrderOfRows) {
                                sim.geometry.grid,
                                sim.traffic.approaches,
                                sim.traffic.perception,
+                               sim.traffic.waits,
                                sim.traffic.parameters,
                                sim.traffic.code};
         update_backing(view, sim.geometry, sim.dt, workers, next, state);
