@@ -263,10 +263,7 @@ std::string run_ticks(const RunPlan& plan, Simulation& sim, SumoWorld& world,
   const Clock::time_point start = Clock::now();
   for (std::int64_t tick_index = 0; tick_index < ticks; ++tick_index) {
     if (interrupted()) return "interrupted";
-    tick(sim, world);
-    const Clock::time_point recording = Clock::now();
-    observers.add();
-    sim.times.record += seconds_since(recording);
+    tick(sim, world, [&] { observers.add(); });
     if (progress.due()) {
       const double simulated = static_cast<double>(tick_index + 1) * plan.clock.step;
       progress.update(simulated, fmt::format("{:.0f} s simulated, {} agents, {:.1f} x real time",
