@@ -33,7 +33,7 @@ target_link_libraries(libosmium INTERFACE ZLIB::ZLIB BZip2::BZip2 EXPAT::EXPAT T
 set(SUMOGAMMA_LIBS_base fmt::fmt)
 set(SUMOGAMMA_LIBS_road pugixml::pugixml ZLIB::ZLIB)
 set(SUMOGAMMA_LIBS_osm libosmium PkgConfig::PROJ PkgConfig::POLYCLIPPING nlohmann_json::nlohmann_json pugixml::pugixml)
-set(SUMOGAMMA_LIBS_sumo libsumo pugixml::pugixml spdlog::spdlog EXPAT::EXPAT ZLIB::ZLIB)
+set(SUMOGAMMA_LIBS_sumo ${CMAKE_DL_LIBS} pugixml::pugixml spdlog::spdlog EXPAT::EXPAT ZLIB::ZLIB)
 set(SUMOGAMMA_LIBS_demand pugixml::pugixml)
 set(SUMOGAMMA_LIBS_prediction nlohmann_json::nlohmann_json)
 set(SUMOGAMMA_LIBS_io nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus ZLIB::ZLIB pugixml::pugixml)

@@ -38,3 +38,19 @@ function(sumogamma_program target folder)
   target_link_libraries(${target} PRIVATE sumogamma_options ${ARG_DEPENDS} ${SUMOGAMMA_LIBS_${folder}})
   target_compile_definitions(${target} PRIVATE SUMOGAMMA_VERSION="${PROJECT_VERSION}")
 endfunction()
+
+# sumogamma_loadable(TARGET MODULE SOURCE WITH FILE... LIBRARIES LIBRARY...): a file of src/MODULE leaves its library and
+# becomes TARGET.so beside the program, which the library opens by itself. It has copies of its own of the files of src/ that
+# it needs: those of the libraries aren't position-independent, and code that is costs all others inlining.
+function(sumogamma_loadable target module source)
+  cmake_parse_arguments(ARG "" "" "WITH;LIBRARIES" ${ARGN})
+  set(own ${PROJECT_SOURCE_DIR}/src/${module}/${source})
+  get_target_property(sources sumogamma_${module} SOURCES)
+  list(REMOVE_ITEM sources ${own})
+  set_target_properties(sumogamma_${module} PROPERTIES SOURCES "${sources}")
+  list(TRANSFORM ARG_WITH PREPEND ${PROJECT_SOURCE_DIR}/src/)
+  add_library(${target} MODULE ${own} ${ARG_WITH})
+  set_target_properties(${target} PROPERTIES PREFIX "")
+  target_link_libraries(${target} PRIVATE sumogamma_options ${ARG_LIBRARIES})
+  add_dependencies(sumogamma_${module} ${target})
+endfunction()

@@ -67,6 +67,9 @@ void add_sumo_options(CLI::App& command, RunOptions& options) {
       ->check(whole_number(1, 65535));
   command.add_flag("--convert", options.convert,
                    "run on a copy of the network without the vehicle classes of a newer SUMO");
+  command.add_flag("--no-cache", options.no_cache,
+                   "work out anew what follows from the network, and keep none of it in "
+                   "$XDG_CACHE_HOME/sumo-gamma for the next run");
   command.add_flag("--force", options.force, "replace what another run left in the folder");
   command.add_option("--sumo-options", options.sumo_options, "further options for SUMO, in quotes");
   command.add_flag("--gui", options.gui, "show the run in sumo-gui");

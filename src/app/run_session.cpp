@@ -7,7 +7,9 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
+#include <utility>
 
 #include "app/progress.h"
 #include "app/run_observers.h"
@@ -18,6 +20,7 @@
 #include "io/results.h"
 #include "model/kinematic_set.h"
 #include "osm/obstacles.h"
+#include "road/road.h"
 #include "road/sumo_net_reader.h"
 #include "simulation/simulation.h"
 #include "sumo/connect_check.h"
@@ -58,6 +61,16 @@ void read_all_obstacles(const RunPlan& plan, RoadNetwork& road) {
         plan.input.name, cleared.cut + cleared.left_out, all);
 }
 
+/// Where the user's programs keep what they can make again (XDG base directories); empty where
+/// there is no such place.
+std::filesystem::path cache_folder() {
+  const char* const given = std::getenv("XDG_CACHE_HOME");
+  if (given && *given == '/') return std::filesystem::path(given) / "sumo-gamma";
+  const char* const home = std::getenv("HOME");
+  if (home && *home == '/') return std::filesystem::path(home) / ".cache" / "sumo-gamma";
+  return {};
+}
+
 std::unique_ptr<Simulation> make_simulation(const RunPlan& plan, unsigned threads) {
   auto sim = std::make_unique<Simulation>();
   sim->dt = plan.clock.step;
@@ -68,11 +81,14 @@ std::unique_ptr<Simulation> make_simulation(const RunPlan& plan, unsigned thread
   sim->traffic.code = plan.config.code;
   sim->model.options.step = plan.clock.step;
   sim->model.kinematics = build_kinematic_tables(sim->model.types, *sim->workers);
-  sim->model.road = read_sumo_net(plan.input.network, *sim->workers);
+  RoadCache cache;
+  if (!plan.options.no_cache) cache.folder = cache_folder();
+  Road road = read_road(plan.input.network, cache, *sim->workers);
+  sim->model.road = std::move(road.network);
+  sim->model.conflicts = std::move(road.conflicts);
+  sim->model.swept_ways = std::move(road.swept_ways);
   read_all_obstacles(plan, sim->model.road);
   sim->model.obstacles = ObstacleIndex(sim->model.road.obstacles);
-  sim->model.conflicts = build_conflict_table(sim->model.road, *sim->workers);
-  sim->model.swept_ways = find_swept_ways(sim->model.road, sim->model.conflicts, *sim->workers);
   sim->model.options.keep_left = sim->model.road.left_hand;
   return sim;
 }
@@ -249,10 +265,7 @@ std::string run_ticks(const RunPlan& plan, Simulation& sim, SumoWorld& world,
   const Clock::time_point start = Clock::now();
   for (std::int64_t tick_index = 0; tick_index < ticks; ++tick_index) {
     if (interrupted()) return "interrupted";
-    tick(sim, world);
-    const Clock::time_point recording = Clock::now();
-    observers.add();
-    sim.times.record += seconds_since(recording);
+    tick(sim, world, [&] { observers.add(); });
     if (progress.due()) {
       const double simulated = static_cast<double>(tick_index + 1) * plan.clock.step;
       progress.update(simulated, fmt::format("{:.0f} s simulated, {} agents, {:.1f} x real time",

@@ -24,6 +24,7 @@ struct RunOptions {
   int clients = 1;                       ///< that a SUMO of ours waits for, us included
   int remote_port = 0;                   ///< on which it listens, 0: any
   bool convert = false;                  ///< leave out classes that this SUMO doesn't know
+  bool no_cache = false;                 ///< work out anew what follows from the network
   bool force = false;                    ///< replace what another run left in the output folder
   std::string sumo_options;
   bool gui = false, replay = false;

@@ -8,6 +8,7 @@ namespace sumogamma {
 Polyline::Polyline(const std::vector<Vec2>& points) {
   constexpr double kShortest = 1e-6;
   points_.reserve(points.size());
+  along_.reserve(points.size());
   for (const Vec2& point : points) {
     if (!points_.empty() && (point - points_.back()).norm() < kShortest) continue;
     along_.push_back(points_.empty() ? 0.0 : along_.back() + (point - points_.back()).norm());

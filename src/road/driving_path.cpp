@@ -136,6 +136,9 @@ class Builder {
     if (path_.stretches.empty()) path_.stretches.push_back({});
     path_.stretches.back().to = path_.arrival;
     compute_speed_profile(request_, path_);
+    // every agent keeps one
+    path_.stretches.shrink_to_fit();
+    path_.links.shrink_to_fit();
     return std::move(path_);
   }
 

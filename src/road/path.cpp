@@ -15,9 +15,12 @@ Cut Path::cut_between(double from, double to) const {
   Cut cut;
   const auto first = static_cast<std::size_t>(std::max(from, 0.0) / kProfileStep);
   const auto last = static_cast<std::size_t>(std::max(to, 0.0) / kProfileStep);
-  for (std::size_t i = first; i <= last && i < lane_middle.size(); ++i) {
-    cut.left = std::max(cut.left, -lane_middle[i]);
-    cut.right = std::max(cut.right, lane_middle[i]);
+  auto middle =
+      std::lower_bound(lane_middle.begin(), lane_middle.end(), first,
+                       [](const LaneMiddle& one, std::size_t piece) { return one.piece < piece; });
+  for (; middle != lane_middle.end() && middle->piece <= last; ++middle) {
+    cut.left = std::max(cut.left, -middle->offset);
+    cut.right = std::max(cut.right, middle->offset);
   }
   return cut;
 }

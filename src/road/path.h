@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/packed_values.h"
 #include "road/road_network.h"
 
 namespace sumogamma {
@@ -121,6 +123,12 @@ struct Cut {
   double left = 0, right = 0;
 };
 
+/// Where the middle of the lane lies beside a path's line: corners are rounded on their inner side.
+struct LaneMiddle {
+  std::uint32_t piece = 0;  ///< of Path::kProfileStep, from the path's begin
+  double offset = 0;        ///< positive to the left [m]
+};
+
 /// A way through the network that one agent means to follow: geometry with everything that rules
 /// need to know along it.
 struct Path {
@@ -129,16 +137,16 @@ struct Path {
   std::vector<PathLink> links;          ///< in order of stop_line
   std::vector<PathStop> stops;          ///< in order
   std::vector<RoadCrossing> over_road;  ///< in order; on foot
-  std::vector<double>
-      speed_profile;  ///< [m/s] every kProfileStep along: bends and limits with braking ahead
-  /// How far to the left of the line the middle of the lane lies, by pieces of kProfileStep:
-  /// corners are rounded on their inner side [m].
-  std::vector<double> lane_middle;
-  double arrival = 0;  ///< along, where the trip ends [m]
+  /// [m/s] every kProfileStep along: bends and limits with braking ahead. Packed, as it and the
+  /// lane's middles would be most of what an agent takes in memory.
+  PackedValues speed_profile;
+  std::vector<LaneMiddle> lane_middle;  ///< in order; those at least kLeastCut off the line
+  double arrival = 0;                   ///< along, where the trip ends [m]
   bool walking = false;
   std::shared_ptr<const Trip> trip;  ///< null on foot
 
   static constexpr double kProfileStep = 1.0;
+  static constexpr double kLeastCut = 0.1;  ///< smoothing leaves less everywhere [m]
 
   /// Stretch that holds `along` (clamped). Precondition: not empty.
   const PathStretch& stretch_at(double along) const;
@@ -155,7 +163,8 @@ struct Path {
   }
   /// Speed that bends and limits leave at `along`, interpolated [m/s].
   double profile_at(double along) const;
-  /// By how much less than its stretches say the line leaves to its sides between two places.
+  /// By how much less than its stretches say the line leaves to its sides between two places; 0
+  /// where that is less than kLeastCut.
   Cut cut_between(double from, double to) const;
 };
 

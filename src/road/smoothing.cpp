@@ -226,14 +226,20 @@ std::vector<double> middles_of(const std::vector<Vec2>& points, const std::vecto
   return middles;
 }
 
-/// Values at places, increasing from 0 [m], at equal steps instead: the farthest from 0 of each.
-std::vector<double> by_steps(const std::vector<double>& places, const std::vector<double>& values,
-                             double step) {
-  std::vector<double> farthest(static_cast<std::size_t>(places.back() / step) + 1, 0.0);
+/// Values at places, increasing from 0 [m], by pieces of the path instead: the farthest from 0 of
+/// each, where that is far enough.
+std::vector<LaneMiddle> by_pieces(const std::vector<double>& places,
+                                  const std::vector<double>& values) {
+  std::vector<LaneMiddle> farthest;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    double& here = farthest[static_cast<std::size_t>(places[i] / step)];
-    if (std::abs(values[i]) > std::abs(here)) here = values[i];
+    if (std::abs(values[i]) < Path::kLeastCut) continue;
+    const auto piece = static_cast<std::uint32_t>(places[i] / Path::kProfileStep);
+    if (farthest.empty() || farthest.back().piece != piece)
+      farthest.push_back({piece, values[i]});
+    else if (std::abs(values[i]) > std::abs(farthest.back().offset))
+      farthest.back().offset = values[i];
   }
+  farthest.shrink_to_fit();
   return farthest;
 }
 }  // namespace
@@ -265,7 +271,7 @@ void round_corners(const Cornering& cornering, Path& path) {
     rounded[i] = (sums[i + window + 1] - sums[i - window]) / static_cast<double>(2 * window + 1);
   }
   const std::vector<double> along = lead_along(rounded, step, path);
-  path.lane_middle = by_steps(along, middles_of(points, rounded), Path::kProfileStep);
+  path.lane_middle = by_pieces(along, middles_of(points, rounded));
 }
 
 }  // namespace sumogamma

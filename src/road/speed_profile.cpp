@@ -72,10 +72,11 @@ std::vector<double> speeds_in_bends(const Polyline& line, const BendView& view,
 
 /// A speed [m/s] between places `step` [m] apart, linear in its square, so that braking from one to
 /// the next is steady.
-double speed_between(const std::vector<double>& speeds, double step, double along) {
+template <typename Speeds>
+double speed_between(const Speeds& speeds, double step, double along) {
   const double place = std::max(along, 0.0) / step;
   const auto index = static_cast<std::size_t>(place);
-  if (index + 1 >= speeds.size()) return speeds.back();
+  if (index + 1 >= speeds.size()) return speeds[speeds.size() - 1];
   const double t = place - static_cast<double>(index);
   const double here = speeds[index], next = speeds[index + 1];
   return std::sqrt((1.0 - t) * here * here + t * next * next);
@@ -118,23 +119,23 @@ void compute_speed_profile(const PathRequest& request, Path& path) {
   const std::vector<double> in_bends =
       path.walking ? std::vector<double>{}
                    : speeds_in_bends(path.line, view, request.max_lateral_acceleration);
-  path.speed_profile.resize(samples);
+  std::vector<double> profile(samples);
   auto stretch = path.stretches.begin();
   for (std::size_t i = 0; i < samples; ++i) {
     const double along = std::min(static_cast<double>(i) * Path::kProfileStep, length);
     while (stretch + 1 != path.stretches.end() && (stretch + 1)->from <= along) ++stretch;
     double speed = std::min(stretch->speed_limit * request.speed_factor, request.max_speed);
     if (!path.walking) speed = std::min(speed, speed_between(in_bends, view.step, along));
-    path.speed_profile[i] = std::max(speed, 1.5);
+    profile[i] = std::max(speed, 1.5);
   }
-  if (path.walking) return;
-  for (std::size_t i = samples - 1; i-- > 0;) {
-    const double ahead = path.speed_profile[i + 1];
+  for (std::size_t i = samples - 1; !path.walking && i-- > 0;) {
+    const double ahead = profile[i + 1];
     const double brake =
         std::sqrt(ahead * ahead + 2.0 * request.comfortable_deceleration * Path::kProfileStep);
-    path.speed_profile[i] = std::min(path.speed_profile[i], brake);
+    profile[i] = std::min(profile[i], brake);
   }
-  ease_profile(path.speed_profile);
+  if (!path.walking) ease_profile(profile);
+  path.speed_profile = PackedValues(profile);
 }
 
 double Path::profile_at(double along) const {

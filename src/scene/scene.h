@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/hash.h"
-#include "geometry/vec2.h"
+#include "geometry/heading.h"
 #include "scene/agent_type.h"
 #include "scene/behavior.h"
 #include "scene/footprint.h"
@@ -56,7 +56,7 @@ struct Scene {
   std::vector<AgentTypeId> type;
   std::vector<Footprint> footprint;     ///< body axes about the centre [m]
   std::vector<Vec2> position;           ///< footprint centre [m]
-  std::vector<double> heading;          ///< counter-clockwise from +x [rad]
+  std::vector<Heading> heading;         ///< counter-clockwise from +x [rad]
   std::vector<Vec2> velocity;           ///< of the footprint centre [m/s]
   std::vector<double> speed;            ///< along the heading, of the rear axle; >= 0 [m/s]
   std::vector<double> steering;         ///< front wheel angle, positive left [rad]

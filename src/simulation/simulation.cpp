@@ -61,9 +61,27 @@ void apply(const BodyState& next, double dt, Scene& scene, std::size_t row) {
   place_body(next, scene, row);
 }
 
+/// SUMO computes in a process of its own, for which we would only wait.
+void advance_and_record(Simulation& sim, World& world, const std::function<void()>& record) {
+  PhaseClock clock;
+  if (sim.workers->count() == 1 || !record) {
+    world.advance(sim.scene);
+    clock.end(sim.times.advance);
+    if (record) record();
+  } else {
+    if (!sim.recording) sim.recording = std::make_unique<Workers>(2);
+    sim.recording->for_each_range(2, [&](std::size_t, std::size_t job, std::size_t) {
+      if (job == 1) return record();
+      world.advance(sim.scene);  // by the calling thread, as ever
+      clock.end(sim.times.advance);
+    });
+  }
+  clock.end(sim.times.record);
+}
+
 }  // namespace
 
-void tick(Simulation& sim, World& world) {
+void tick(Simulation& sim, World& world, const std::function<void()>& record) {
   PhaseClock clock;
   world.observe(sim.scene, sim.road);
   clock.end(sim.times.observe);
@@ -117,8 +135,7 @@ void tick(Simulation& sim, World& world) {
   clock.end(sim.times.track);
   sim.times.model_cpu += cpu_seconds() - cpu_before;
 
-  world.advance(scene);
-  clock.end(sim.times.advance);
+  advance_and_record(sim, world, record);
 }
 
 }  // namespace sumogamma

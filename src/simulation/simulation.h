@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -11,7 +12,8 @@
 
 namespace sumogamma {
 
-/// Wall time spent in the phases of the ticks so far [s].
+/// Wall time spent in the phases of the ticks so far [s]; of recording, what it took longer than
+/// the world's step where both ran at once.
 struct PhaseTimes {
   double observe = 0, context = 0, model = 0, track = 0, advance = 0, record = 0;
   double model_cpu = 0;          ///< CPU time of context, model and track, all threads [s]
@@ -25,6 +27,7 @@ struct Simulation {
   Scene scene;
   double dt = 0.05;  ///< [s]
   std::unique_ptr<Workers> workers = std::make_unique<Workers>(1);
+  std::unique_ptr<Workers> recording;  ///< two: the world's step and what is recorded meanwhile
   PhaseTimes times;
   Traffic traffic;
 
@@ -36,7 +39,9 @@ struct Simulation {
 
 /// Advances everybody by dt: observe, put the road's view of each agent together, choose velocities
 /// from the frozen scene (Eq. 7), track them with the bodies' controllers, and hand the result to
-/// the world.
-void tick(Simulation& simulation, World& world);
+/// the world. `record` is called once for the new state; with more than one worker it runs while
+/// the world makes its step, on another thread: it may read the simulation and what the world
+/// doesn't change in advance().
+void tick(Simulation& simulation, World& world, const std::function<void()>& record = {});
 
 }  // namespace sumogamma

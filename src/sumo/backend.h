@@ -212,7 +212,8 @@ struct SumoStart {
 
 /// Child process (or a user's SUMO) over a loopback socket with the batching client.
 std::unique_ptr<SumoBackend> start_traci_backend(const SumoStart& start);
-/// In process with libsumo. One at a time.
+/// In process with libsumo. One at a time. Opens the module that is linked with libsumo, so that no
+/// other command pays for libsumo's shared libraries; throws Error naming its file where it can't.
 std::unique_ptr<SumoBackend> start_libsumo_backend(const SumoStart& start);
 
 }  // namespace sumogamma

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "scene/sumo_defaults.h"
+#include "sumo/libsumo_module.h"
 #include "sumo/stepped_backend.h"
 #include "sumo/sumo_process.h"
 
@@ -589,8 +590,8 @@ void LibsumoBackend::override_detectors(std::span<const std::pair<std::string, d
 
 }  // namespace
 
-std::unique_ptr<SumoBackend> start_libsumo_backend(const SumoStart& start) {
-  return std::make_unique<LibsumoBackend>(start);
+extern "C" SumoBackend* sumogamma_start_libsumo(const SumoStart& start) {
+  return std::make_unique<LibsumoBackend>(start).release();
 }
 
 }  // namespace sumogamma

@@ -1,7 +1,9 @@
 // What a newcomer's path and places on it cost: a route of 10 km with a vertex every few metres.
 #include <benchmark/benchmark.h>
+#include <malloc.h>
 
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "base/random.h"
@@ -38,12 +40,16 @@ void smooth_a_path(benchmark::State& state) {
   const Path raw = raw_path(static_cast<double>(state.range(0)));
   PathRequest request;
   request.cornering = {3.8, 4.5, 1.8};
+  std::size_t bytes = 0;
   for (auto _ : state) {
+    const std::size_t before = mallinfo2().uordblks;
     Path path = raw;
     round_corners(request.cornering, path);
     compute_speed_profile(request, path);
     benchmark::DoNotOptimize(path);
+    bytes = mallinfo2().uordblks - before;
   }
+  state.counters["bytes"] = static_cast<double>(bytes);  // that its agent keeps
 }
 BENCHMARK(smooth_a_path)->Arg(1000)->Arg(10000)->Unit(benchmark::kMicrosecond);
 

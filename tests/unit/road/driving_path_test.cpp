@@ -56,7 +56,7 @@ void expect_sound(const Path& path) {
   for (std::size_t i = 0; i + 1 < path.links.size(); ++i)
     EXPECT_LE(path.links[i].end, path.links[i + 1].stop_line + 1e-9);
   for (const PathLink& link : path.links) EXPECT_LE(link.stop_line, link.end);
-  for (const double speed : path.speed_profile) EXPECT_GT(speed, 0.0);
+  for (const double speed : path.speed_profile.unpacked()) EXPECT_GT(speed, 0.0);
   EXPECT_LE(path.arrival, path.line.length() + 1e-9);
 }
 
@@ -537,7 +537,8 @@ TEST(SpeedProfile, ABicycleSlowsDownToTurn) {
     request.cornering = {turning_radius, 1.6, 0.65};
     round_corners(request.cornering, path);
     compute_speed_profile(request, path);
-    return *std::min_element(path.speed_profile.begin(), path.speed_profile.end());
+    const std::vector<double> profile = path.speed_profile.unpacked();
+    return *std::min_element(profile.begin(), profile.end());
   };
   EXPECT_LT(slowest(1.15), 2.3) << "1.5 m/s in a circle of 1.15 m";
   EXPECT_GT(slowest(4.4), 2.8);
@@ -546,7 +547,7 @@ TEST(SpeedProfile, ABicycleSlowsDownToTurn) {
 TEST(SpeedProfile, BrakesSteadilyBetweenItsPlaces) {
   Path path;
   path.line = Polyline({{0, 0}, {4, 0}});
-  path.speed_profile = {6.0, 5.0, 4.0};
+  path.speed_profile = PackedValues(std::vector{6.0, 5.0, 4.0});
   // v^2 is linear along the way where the deceleration is steady
   EXPECT_NEAR(path.profile_at(0.5 * Path::kProfileStep), std::sqrt(0.5 * (36.0 + 25.0)), 1e-12);
   EXPECT_NEAR(path.profile_at(Path::kProfileStep), 5.0, 1e-12);

@@ -37,7 +37,7 @@ class ContextTest : public ::testing::Test {
     stretch.speed_limit = 6;
     stretch.room_left = stretch.room_right = room;
     path.stretches = {stretch};
-    path.speed_profile.assign(26, speed);
+    path.speed_profile = PackedValues(std::vector<double>(26, speed));
     const AgentTypeId type = find_agent_type(here_.model.types, name);
     path.walking = type_of(here_.model.types, type).kinematics == Kinematics::Holonomic;
     return here_.add(type, std::make_shared<const Path>(std::move(path)), along, speed);
@@ -126,9 +126,11 @@ TEST_F(ContextTest, BrakesSteadilyThoughItGetsOnByJumps) {
   constexpr double kBraking = 2.5, kTop = 12.0, kStep = 0.05, kJerk = 3.0;
   const std::size_t own = add_on({{0, 0}, {25, 0}}, "car", "in_1", 2.0, 10.0, kTop);
   Path path = *here_.road.path(here_.scene.path[own]);
-  for (std::size_t i = 0; i < path.speed_profile.size(); ++i)
-    path.speed_profile[i] =
+  std::vector<double> profile(path.speed_profile.size());
+  for (std::size_t i = 0; i < profile.size(); ++i)
+    profile[i] =
         std::sqrt(kTop * kTop - 2.0 * kBraking * static_cast<double>(i) * Path::kProfileStep);
+  path.speed_profile = PackedValues(profile);
   here_.road.paths[static_cast<std::size_t>(here_.scene.path[own])] =
       std::make_shared<const Path>(path);
   const auto limit_at = [&](double along) {
