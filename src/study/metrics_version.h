@@ -6,6 +6,6 @@ namespace sumogamma {
 /// change of a definition behind a key of `agents`, `collisions`, `flow`, `rules`, `smoothness`,
 /// `prediction` or `coupling` in results.json raises it, with a line in docs/results.md; a new key
 /// doesn't, nor does whatever changes how agents drive.
-inline constexpr int kMetricsVersion = 1;
+inline constexpr int kMetricsVersion = 2;
 
 }  // namespace sumogamma

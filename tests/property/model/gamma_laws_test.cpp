@@ -79,7 +79,7 @@ Scene transformed(const Scene& scene, double turn, bool mirror) {
   for (std::size_t row = 0; row < scene.size(); ++row) {
     out.position[row] = move(scene.position[row]);
     out.velocity[row] = move(scene.velocity[row]);
-    out.heading[row] = wrap_angle(turn + (mirror ? -scene.heading[row] : scene.heading[row]));
+    out.heading[row] = wrap_angle(turn + (mirror ? -1.0 : 1.0) * scene.heading[row]);
     out.steering[row] = mirror ? -scene.steering[row] : scene.steering[row];
     out.behavior[row].intention.goal = move(scene.behavior[row].intention.goal);
   }

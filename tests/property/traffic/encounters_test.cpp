@@ -23,24 +23,36 @@ constexpr std::uint64_t kSeeds = 100;
 struct Pair {
   std::size_t first, second;
 };
-Pair draw_pair(RoadScene& here, std::uint64_t seed) {
-  std::uint64_t count = 0;
-  const auto below = [&](std::size_t n) {
-    const double draw = random_uniform(seed, count++, 0, Draw::Demand);
+
+/// Draws vehicles at their lines.
+class Drawn {
+ public:
+  Drawn(RoadScene& here, std::uint64_t seed) : here_(here), seed_(seed) {}
+  std::size_t below(std::size_t n) {
+    const double draw = random_uniform(seed_, count_++, 0, Draw::Demand);
     return std::min(n - 1, static_cast<std::size_t>(draw * static_cast<double>(n)));
-  };
-  const std::vector<std::string> arms{"W", "N", "E", "S"};
-  const std::vector<std::string> kinds{"car", "bus", "bicycle", "truck", "motorcycle"};
-  const std::size_t from = below(4), other = (from + 1 + below(3)) % 4;
-  const auto stand = [&](std::size_t arm) {
-    const std::string to = arms[(arm + 1 + below(3)) % 4];
-    const std::size_t row = here.add(kinds[below(5)], {arms[arm] + "C", "C" + to}, 100, 0);
-    const double past = here.past_line(row);
-    here.move(row, here.scene.path_along[row] - past - 0.6);
+  }
+  /// One of any kind on an arm, bound for another.
+  std::size_t stand(std::size_t arm) {
+    static const std::vector<std::string> kArms{"W", "N", "E", "S"};
+    static const std::vector<std::string> kKinds{"car", "bus", "bicycle", "truck", "motorcycle"};
+    const std::string to = kArms[(arm + 1 + below(3)) % 4];
+    const std::size_t row = here_.add(kKinds[below(5)], {kArms[arm] + "C", "C" + to}, 100, 0);
+    const double past = here_.past_line(row);
+    here_.move(row, here_.scene.path_along[row] - past - 0.6);
     return row;
-  };
-  const std::size_t first = stand(from);
-  return {first, stand(other)};
+  }
+
+ private:
+  RoadScene& here_;
+  std::uint64_t seed_, count_ = 0;
+};
+
+Pair draw_pair(RoadScene& here, std::uint64_t seed) {
+  Drawn drawn(here, seed);
+  const std::size_t from = drawn.below(4), other = (from + 1 + drawn.below(3)) % 4;
+  const std::size_t first = drawn.stand(from);
+  return {first, drawn.stand(other)};
 }
 
 /// By right of way, or for the room in which a long body turns.
@@ -110,6 +122,22 @@ TEST_P(Encounters, OfTwoAtTheirLinesOneGoesFirst) {
         << " from " << way(pair.second);
   }
   EXPECT_GT(met, 10);
+}
+
+// four who stand at their lines and wait for one another in a ring have somebody go before they are
+// Pressing, and don't form one again
+TEST_P(Encounters, NoRingOfWaitsLastsLongerThanPatience) {
+  const RoadNetwork network = read_plain_net(crossroads(GetParam()));
+  for (std::uint64_t seed = 0; seed < kSeeds / 4; ++seed) {
+    SCOPED_TRACE(seed);
+    RoadScene here(network);
+    Drawn drawn(here, seed);
+    for (std::size_t arm = 0; arm < 4; ++arm) drawn.stand(arm);
+    stand_for(here, here.parameters.pressing + 1.0);
+    const WaitGraph waits(here.scene);
+    for (std::size_t row = 0; row < here.scene.size(); ++row)
+      EXPECT_FALSE(waits.in_ring(row)) << "row " << row;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Junctions, Encounters,

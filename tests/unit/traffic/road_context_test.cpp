@@ -324,11 +324,12 @@ TEST_F(BendTest, WhoBrakesForACornerBeginsItAsLateAsItsSpeedThere) {
     points.push_back({kCorner + kTight, -kTight - 20.0});
     const std::size_t own = add_on(points, "van", "in_1", 3.0, 10.0, top);
     Path path = *here_.road.path(here_.scene.path[own]);
-    path.speed_profile.assign(60, kSlow);
+    std::vector<double> profile(60, kSlow);
     for (std::size_t i = 0; i < static_cast<std::size_t>(kCorner); ++i) {
       const double left = kCorner - static_cast<double>(i);
-      path.speed_profile[i] = std::min(top, std::sqrt(kSlow * kSlow + 2.0 * kBraking * left));
+      profile[i] = std::min(top, std::sqrt(kSlow * kSlow + 2.0 * kBraking * left));
     }
+    path.speed_profile = PackedValues(profile);
     here_.road.paths[static_cast<std::size_t>(here_.scene.path[own])] =
         std::make_shared<const Path>(path);
     for (double along = 10.0; along < kCorner; along += 0.1) {

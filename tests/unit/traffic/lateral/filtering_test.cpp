@@ -308,8 +308,7 @@ TEST(FilteringBeforeAJunction, IsOffTheKerbWhereACornerIsRounded) {
   const AgentTypeId type = find_agent_type(here.model.types, "motorcycle");
   const std::size_t rider = here.add(type, path, 0, 3);
   auto place = [&](double along, double side, double cut = 0.75) {
-    path->lane_middle.assign(200, 0.0);
-    path->lane_middle[150] = -cut * side;  // nearer to that side than the lane's middle
+    path->lane_middle = {{150, -cut * side}};  // nearer to that side than the lane's middle
     here.move(0, along + 5.0, -0.85 * side);
     here.move(rider, along);
     here.update();

@@ -114,8 +114,8 @@ TEST_F(LeaderTest, OfTwoAbreastWhoPressTogetherOneIsAhead) {
   here_.move(a, 50, 1.0);
   here_.move(b, 50.4, -1.0);
   // both lean towards each other
-  here_.scene.heading[a] -= 0.3;
-  here_.scene.heading[b] += 0.3;
+  here_.scene.heading[a] = here_.scene.heading[a] - 0.3;
+  here_.scene.heading[b] = here_.scene.heading[b] + 0.3;
   const bool a_follows = leader_of(a).id == here_.scene.id[b].value;
   const bool b_follows = leader_of(b).id == here_.scene.id[a].value;
   EXPECT_FALSE(a_follows && b_follows);
@@ -129,8 +129,8 @@ TEST_F(LeaderTest, OfTwoWhoseWaysCrossOneIsAhead) {
     const std::size_t b = here.add("van", {"in", "out"}, 50, 5);
     here.move(a, 50, 1.2);
     here.move(b, 50 + ahead, -1.2);
-    here.scene.heading[a] -= 0.45;
-    here.scene.heading[b] += 0.45;
+    here.scene.heading[a] = here.scene.heading[a] - 0.45;
+    here.scene.heading[b] = here.scene.heading[b] + 0.45;
     here.update();
     const auto follows = [&](std::size_t row, std::size_t other) {
       DrivingAhead list;

@@ -371,7 +371,7 @@ TEST_F(BackingTest, NobodyBacksOutAcrossTheWayOfWhoDrivesPast) {
   const std::size_t own = here_.add("bus", {"WC", "CE"}, 100, 0, 0, -1, "WC_1");
   // its path lies to its left: back along it the front swings to the right
   here_.move(own, 100, -1.0);
-  here_.scene.heading[own] += 0.15;
+  here_.scene.heading[own] = here_.scene.heading[own] + 0.15;
   const std::size_t past = here_.add("truck", {"WC", "CE"}, 80, 6, 0, -1, "WC_1");
   here_.scene.heading[past] = here_.scene.heading[own] + std::numbers::pi;
   // it comes towards the bus and passes beside its front with 0.3 m to spare
