@@ -118,6 +118,8 @@ constexpr TrafficParameter kParameters[] = {
      "side to side by who overtakes over the middle of the road (1.5 m is the law in most of "
      "Europe)"},
     {"farthest_aside", "m", &P::farthest_aside, 0.5, 5.0, "of its path at which somebody passes"},
+    {"filtering_clearance", "m", &P::filtering_clearance, 0.05, 1.0,
+     "kept to the side at the least by who filters between queues"},
     {"filtering_rate", "(m/s)/m", &P::filtering_rate, 1.0, 100.0,
      "speed difference that a metre of clearance admits between queues"},
     {"lock_share", "–", &P::lock_share, 0.1, 1.0, "of the tightest turn with which one turns out"},

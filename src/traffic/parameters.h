@@ -13,7 +13,7 @@ struct TrafficParameters {
   // how fast somebody is that stands, creeps, drives
   double moving_speed = 0.1;
   double standing_speed = 0.3;
-  double halting_speed = 0.5;
+  double halting_speed = 0.6;
   double crawling_speed = 1.0;
   double queue_speed = 3.0;
   double flow_speed = 8.0;
@@ -34,7 +34,7 @@ struct TrafficParameters {
   double impatient_gap_share = 0.4;
 
   // how far ahead in time
-  double reaction_time = 0.4;
+  double reaction_time = 0.3;
   double look_period = 0.4;
   double soon = 3.0;
   double outlook = 4.0;
@@ -79,11 +79,12 @@ struct TrafficParameters {
 
   // widths beside the way
   double touching = 0.05;
-  double tight_side = 0.15;
+  double tight_side = 0.18;
   double side_clearance = 0.3;
   double ample_side = 0.6;
   double overtaking_gap = 1.3;
   double farthest_aside = 2.3;
+  double filtering_clearance = 0.23;
   double filtering_rate = 25.0;
   double lock_share = 0.55;
 

@@ -363,7 +363,8 @@ double pass_somebody(const Passer& passer, const Places& places, double inner_si
       if (offset > places.most_left || offset < places.most_right ||
           std::abs(offset) > parameters.farthest_aside + passer.over)
         continue;
-      const double hoped = passer.hope(offset, narrow ? parameters.tight_side : 0.9 * gap_wanted);
+      const double hoped =
+          passer.hope(offset, narrow ? parameters.filtering_clearance : 0.9 * gap_wanted);
       if (hoped > std::max(best.speed, worth)) best = {offset, hoped};
     }
   }

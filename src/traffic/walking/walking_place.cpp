@@ -66,7 +66,7 @@ void keep_to_waiting_room(const TrafficParameters& parameters, const Path& path,
 Sides sides_of_way(const TrafficParameters& parameters, const Path& path,
                    const Surroundings& around) {
   const PathStretch& here = path.stretch_at(around.along);
-  const double half = around.half_width + parameters.touching;
+  const double half = around.half_width + 2.0 * parameters.touching;
   return {std::max(here.room_left - half, 0.0), std::max(here.room_right - half, 0.0)};
 }
 

@@ -16,6 +16,7 @@ Scene waiting(const std::vector<int>& foes) {
     AgentState agent;
     agent.id = {static_cast<std::uint32_t>(10 * row + 3)};
     append_agent(scene, agent);
+    scene.context[row].active = true;
     scene.context[row].foe = foes[row] < 0 ? -1 : 10 * foes[row] + 3;
   }
   return scene;

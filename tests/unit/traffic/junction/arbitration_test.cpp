@@ -198,6 +198,7 @@ TEST(HoldingUp, SoDoesWhoeverThatOneStandsBehind) {
   const std::size_t second = here.add("bicycle", {"WC", "CN"}, 20, 0, 0, -1, "WC_1");
   const std::size_t first = here.add("bicycle", {"WC", "CN"}, 23, 0, 0, -1, "WC_1");
   const auto waits_for = [&](std::size_t row, LimitReason reason, std::size_t other) {
+    here.scene.context[row].active = true;
     here.scene.context[row].reason = reason;
     here.scene.context[row].foe = static_cast<std::int64_t>(here.scene.id[other].value);
   };
@@ -1109,6 +1110,7 @@ TEST_F(PriorityTest, ARingOnAJunctionDissolvesSoonerThanOthersWhoWait) {
   auto is_held = [&](std::size_t third_waits_for, double waited) {
     const std::vector<std::size_t> chain = {own, foe, third, third_waits_for};
     for (std::size_t k = 0; k < 3; ++k) {
+      here_.scene.context[chain[k]].active = true;
       here_.scene.context[chain[k]].reason = LimitReason::Yield;
       here_.scene.context[chain[k]].foe = here_.scene.id[chain[k + 1]].value;
     }
