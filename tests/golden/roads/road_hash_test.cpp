@@ -76,14 +76,14 @@ TEST_P(GoldenScenarios, HaveTheRecordedBits) {
 
 // one or two rules of the road each
 INSTANTIATE_TEST_SUITE_P(Scenario, GoldenScenarios,
-                         testing::Values(Golden{"all_way_stop", "7a069fba9177acc0"},
-                                         Golden{"bicycle_overtaken", "8dcbb5bd7607c08a"},
-                                         Golden{"bus_stop", "5a2a19211d0f9f04"},
+                         testing::Values(Golden{"all_way_stop", "671c4e4e2c49eb21"},
+                                         Golden{"bicycle_overtaken", "5aed0e2f017b4408"},
+                                         Golden{"bus_stop", "4d5d6094cf09f9d3"},
                                          Golden{"lane_drop", "8c2382437d9c2350"},
-                                         Golden{"mid_block", "a676b1eedb88eb90"},
-                                         Golden{"mixed_queue", "4940196a16eb6eea"},
-                                         Golden{"roundabout", "d5a5a964976047a8"},
-                                         Golden{"zebra", "df34476e7a08e28d"}),
+                                         Golden{"mid_block", "433668bdee3432cd"},
+                                         Golden{"mixed_queue", "0bb1a509367b9201"},
+                                         Golden{"roundabout", "2c9c3c742582e57d"},
+                                         Golden{"zebra", "fdfb1557c8580497"}),
                          name_of);
 
 class GoldenMaps : public GoldenRoads {};
@@ -102,8 +102,8 @@ TEST_P(GoldenMaps, HaveTheRecordedBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Map, GoldenMaps,
-                         testing::Values(Golden{"fujisawa", "c6e99d54b1144306", "50ec09f8af82421c"},
-                                         Golden{"monaco", "9d3f9d7aa91a5da7", "d5e3ef5dc5ccdd0b"}),
+                         testing::Values(Golden{"fujisawa", "f2eccd58bc65d74d", "50ec09f8af82421c"},
+                                         Golden{"monaco", "60a682daca2f34b5", "d5e3ef5dc5ccdd0b"}),
                          name_of);
 
 }  // namespace
