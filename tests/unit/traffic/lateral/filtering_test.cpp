@@ -59,7 +59,7 @@ TEST(PassingOffset, NobodyLikesToRideBesideTheLanesOfAJunction) {
   Surroundings around;
   look_around(here.view(), own, 60.0, 8.0, around);
   const double place = passing_offset(here.view(), here.path(own), around, own);
-  EXPECT_NEAR(place, -(1.6 - around.half_width - 0.15), 1e-9);
+  EXPECT_NEAR(place, -(1.6 - around.half_width - here.parameters.tight_side), 1e-9);
 }
 
 // a bicycle whose path began with a change of lanes had begun it before it first looked
