@@ -6,15 +6,12 @@
 
 namespace sumogamma {
 
-double half_extent(const Footprint& footprint, const Vec2& forward, const Vec2& direction) {
-  const Vec2 local = to_body(direction, forward);
-  double extent = 0.0;
-  for (const Vec2& vertex : footprint.outline()) extent = std::max(extent, vertex.dot(local));
-  return extent;
-}
-
 double half_extent(const Scene& scene, std::size_t row, const Vec2& direction) {
-  return half_extent(scene.footprint[row], direction_of(scene.heading[row]), direction);
+  const Vec2 local = to_body(direction, direction_of(scene.heading[row]));
+  double extent = 0.0;
+  for (const Vec2& vertex : scene.footprint[row].outline())
+    extent = std::max(extent, vertex.dot(local));
+  return extent;
 }
 
 OrientedBox box_of(const Scene& scene, std::size_t row) {

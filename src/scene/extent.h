@@ -5,10 +5,7 @@
 
 namespace sumogamma {
 
-/// Half the extent of a footprint that points `forward` along a direction, both unit [m].
-double half_extent(const Footprint& footprint, const Vec2& forward, const Vec2& direction);
-
-/// Likewise of a row.
+/// Half the extent of a row's footprint along a unit direction [m].
 double half_extent(const Scene& scene, std::size_t row, const Vec2& direction);
 
 /// The box about a row's footprint, along its heading.

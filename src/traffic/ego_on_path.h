@@ -8,11 +8,10 @@
 
 namespace sumogamma {
 
-/// An agent on its own path. One without a path has a heading and a width.
+/// An agent on its own path. One without a path has a width.
 struct EgoOnPath {
   double along = 0, offset = 0;  ///< of its middle on the path, and beside it, positive left [m]
   Vec2 tangent = Vec2(1, 0);     ///< unit direction of the path there
-  Vec2 forward = Vec2(1, 0);     ///< unit heading
   double half_length = 0;        ///< along the path [m]
   double half_width = 0;         ///< across the heading [m]
   double speed = 0;  ///< on foot along the path, >= 0, on wheels along the heading [m/s]

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/extent.h"
 #include "traffic/patience.h"
 
 namespace sumogamma {
@@ -23,12 +24,12 @@ void add_user(const TrafficView& view, const Path& path, std::size_t other, doub
   const double beyond = place.along <= 0.0 ? std::min(direction.dot(from_line), 0.0) : 0.0;
   const double offset = beyond < 0.0 ? cross(direction, from_line) : place.offset;
   if (std::abs(offset) > farthest) return;
-  const double half_length = half_extent(view, other, direction);
+  const double half_length = half_extent(view.scene, other, direction);
   const double middle = place.along + beyond;
   around.users.push_back(
       {middle - half_length, middle + half_length, offset,
-       half_extent(view, other, left_of(direction)), scene.velocity[other].dot(direction),
-       direction.dot(view.perception.ego[other].forward) > 0.5,
+       half_extent(view.scene, other, left_of(direction)), scene.velocity[other].dot(direction),
+       direction.dot(direction_of(view.scene.heading[other])) > 0.5,
        type_of(view.model.types, scene.type[other]).kinematics == Kinematics::Holonomic,
        static_cast<std::uint32_t>(other)});
 }
@@ -86,7 +87,7 @@ void look_at_red_crossings(const TrafficView& view, const Path& path, std::size_
   for (const Vec2& way : context.to_red) {
     if (way.isZero()) continue;
     const Vec2 onto = way.normalized();
-    const Vec2 tip = view.scene.position[row] + way + half_extent(view, row, onto) * onto;
+    const Vec2 tip = view.scene.position[row] + way + half_extent(view.scene, row, onto) * onto;
     const PolylinePosition place = path.line.project(tip, around.along - view.parameters.near,
                                                      around.along + view.parameters.near);
     around.walls.push_back({place.along - 0.5 * view.parameters.sampling_step,

@@ -2,7 +2,6 @@
 
 #include "geometry/spatial_grid.h"
 #include "model/model.h"
-#include "scene/extent.h"
 #include "scene/road_state.h"
 #include "scene/scene.h"
 #include "scene/traffic_code.h"
@@ -29,10 +28,5 @@ struct TrafficView {
   const TrafficParameters& parameters;
   const TrafficCode& code;
 };
-
-/// Half the extent of a row's footprint along a unit direction [m].
-inline double half_extent(const TrafficView& view, std::size_t row, const Vec2& direction) {
-  return half_extent(view.scene.footprint[row], view.perception.ego[row].forward, direction);
-}
 
 }  // namespace sumogamma

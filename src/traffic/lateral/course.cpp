@@ -5,6 +5,7 @@
 
 #include "geometry/rotation.h"
 #include "model/tracking.h"
+#include "scene/extent.h"
 #include "traffic/lateral/passing.h"
 #include "traffic/patience.h"
 
@@ -19,14 +20,14 @@ double look_ahead(const Course& course) {
 }
 
 /// See RoadContext::bend. Not amid a lane change, which may be given up.
-Vec2 bend_of(const Course& course) {
+Vec2 bend_of(const Course& course, const Heading& heading) {
   const double end = course.along + std::max(kBendTime * course.speed, 0.5);
   const Polyline& line = course.path.line;
   if (end > line.length() || course.path.stretch_at(course.along).changing ||
       course.path.stretch_at(end).changing)
     return {1, 0};
   const Vec2 chord = line.point_at(end) - line.point_at(course.along);
-  return to_body(chord / (end - course.along), course.forward);
+  return to_body(chord / (end - course.along), direction_of(heading));
 }
 
 /// Mean direction of the path between two places.
@@ -148,7 +149,7 @@ double aim_on_wheels(const TrafficView& view, const Course& course, double offse
   const double there = inside_of(course, curvature, offset) +
                        lean_of(view.parameters, course, curvature, view.model.road.left_hand);
   context.tangent = direction_to_steer(course, curvature);
-  context.bend = bend_of(course);
+  context.bend = bend_of(course, view.scene.heading[course.row]);
   context.sub_goal = view.scene.position[course.row] + look_ahead(course) * context.tangent +
                      (there - course.offset) * left_of(context.tangent);
   return there;
@@ -159,7 +160,7 @@ void set_edges(const TrafficView& view, const Course& course, const Sides& room,
                RoadContext& context) {
   const LaneId soon = course.path.stretch_at(course.along + view.parameters.waiting_room).lane;
   if (view.model.road.lane(soon).kind == LaneKind::Internal) return;
-  const Vec2 heading = to_body(course.forward, context.tangent);
+  const Vec2 heading = to_body(direction_of(view.scene.heading[course.row]), context.tangent);
   const double to_turn = (1.0 - heading.x()) / tightest_bend(course.type);
   context.edge_left = room.left - course.offset - (heading.y() > 0.0 ? to_turn : 0.0);
   context.edge_right = room.right + course.offset - (heading.y() < 0.0 ? to_turn : 0.0);
@@ -195,7 +196,7 @@ void set_geometry(const TrafficView& view, const Course& course, RoadContext& co
   else
     offset = aim_on_wheels(view, course, offset, context);
   const PathStretch& here = course.path.stretch_at(course.along);
-  const double extent = half_extent(view, course.row, left_of(context.tangent));
+  const double extent = half_extent(view.scene, course.row, left_of(context.tangent));
   Sides room{here.room_left + over.left, here.room_right + over.right};
   if (!course.path.walking) {
     set_edges(view, course, room, context);

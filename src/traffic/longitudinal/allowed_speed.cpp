@@ -13,7 +13,8 @@ namespace {
 /// avoidance leave, however they take turns. Brakes and the start are not eased.
 double eased(const TrafficView& view, const Course& course, double acceleration, double dt) {
   if (course.speed < view.parameters.flow_speed) return acceleration;
-  const double now = view.scene.acceleration[course.row].dot(course.forward);
+  const double now =
+      view.scene.acceleration[course.row].dot(direction_of(view.scene.heading[course.row]));
   return std::min(acceleration, std::max(now, 0.0) + view.parameters.throttle_jerk * dt);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "scene/extent.h"
 #include "traffic/lateral/overtaking.h"
 #include "traffic/lateral/passing.h"
 #include "traffic/patience.h"
@@ -22,22 +23,20 @@ bool waits_at_kerb(const TrafficView& view, std::size_t row) {
 /// Do two bodies that head the same way, more or less, lie close together?
 bool near_each_other(const TrafficView& view, std::size_t row, std::size_t other) {
   const Scene& scene = view.scene;
-  const std::vector<EgoOnPath>& ego = view.perception.ego;
   const double reach =
       scene.footprint[row].radius + scene.footprint[other].radius + view.parameters.closed_up_gap;
   return (scene.position[other] - scene.position[row]).norm() < reach &&
-         ego[other].forward.dot(ego[row].forward) > 0.0;
+         direction_of(scene.heading[other]).dot(direction_of(scene.heading[row])) > 0.0;
 }
 
 /// How far the nose of `other` is ahead of the one of `row` [m], seen along the mean of their
 /// headings: just as far as the one of `row` is behind the other. Along their paths, which may
 /// cross, either might be ahead of the other, and both would wait.
-double nose_lead(const TrafficView& view, std::size_t row, std::size_t other) {
-  const std::vector<Vec2>& position = view.scene.position;
-  const std::vector<EgoOnPath>& ego = view.perception.ego;
-  const Vec2 mean = (ego[row].forward + ego[other].forward).normalized();
-  return (position[other] - position[row]).dot(mean) + half_extent(view, other, mean) -
-         half_extent(view, row, mean);
+double nose_lead(const Scene& scene, std::size_t row, std::size_t other) {
+  const Vec2 mean =
+      (direction_of(scene.heading[row]) + direction_of(scene.heading[other])).normalized();
+  return (scene.position[other] - scene.position[row]).dot(mean) + half_extent(scene, other, mean) -
+         half_extent(scene, row, mean);
 }
 
 /// Has somebody stood for long at its gate, waiting for a gap in the lane beside?
@@ -113,10 +112,11 @@ bool is_way_aside_taken(const TrafficView& view, std::size_t row) {
     if (taken) return;
     const Vec2 place = to_body(view.scene.position[other] - view.scene.position[row], ego.tangent);
     const double offset = ego.offset + place.y();
-    taken =
-        place.x() > 0.0 && place.x() < ego.half_length + half_extent(view, other, ego.tangent) &&
-        place.y() * (aim - ego.offset) > 0.0 &&
-        std::abs(offset - aim) < ego.half_width + half_extent(view, other, left_of(ego.tangent));
+    taken = place.x() > 0.0 &&
+            place.x() < ego.half_length + half_extent(view.scene, other, ego.tangent) &&
+            place.y() * (aim - ego.offset) > 0.0 &&
+            std::abs(offset - aim) <
+                ego.half_width + half_extent(view.scene, other, left_of(ego.tangent));
   });
   return taken;
 }
@@ -186,7 +186,7 @@ struct Seen {
 bool is_ahead(const Own& own, std::size_t other, double along) {
   const Scene& scene = own.view.scene;
   const bool close = near_each_other(own.view, own.row, other);
-  const double ahead_by = close ? nose_lead(own.view, own.row, other) : along - own.along;
+  const double ahead_by = close ? nose_lead(scene, own.row, other) : along - own.along;
   const bool both_narrow =
       own.narrow && is_narrow(type_of(own.view.model.types, scene.type[other]).width);
   const double abreast =
@@ -212,15 +212,15 @@ std::optional<Seen> see(const Own& own, std::size_t other, double reach) {
     return std::nullopt;
   if (!is_ahead(own, other, seen.place.along)) return std::nullopt;
   seen.direction = own.path.line.direction_at(seen.place.along);
-  seen.half_width = half_extent(own.view, other, left_of(seen.direction));
-  seen.rear = seen.place.along - half_extent(own.view, other, seen.direction);
+  seen.half_width = half_extent(own.view.scene, other, left_of(seen.direction));
+  seen.rear = seen.place.along - half_extent(own.view.scene, other, seen.direction);
   seen.gap = seen.rear - own.along - own.half_length;
   seen.speed = std::max(0.0, scene.velocity[other].dot(seen.direction));
   seen.sides = own.half_width + seen.half_width;
   seen.clearance = std::abs(seen.place.offset - own.aim) - seen.sides;
   seen.on_foot =
       type_of(own.view.model.types, scene.type[other]).kinematics == Kinematics::Holonomic;
-  seen.aligned = seen.direction.dot(own.view.perception.ego[other].forward) > 0.5;
+  seen.aligned = seen.direction.dot(direction_of(own.view.scene.heading[other])) > 0.5;
   // a narrow vehicle that means to pass is about to leave whoever is ahead of it now
   const bool clear_aside = seen.aligned && !seen.on_foot && seen.clearance > own.margin &&
                            (seen.place.offset - own.aim) * (seen.place.offset - own.offset) >= 0.0;
@@ -237,17 +237,19 @@ void pass(const Own& own, const Seen& seen, DrivingAhead& ahead) {
   const Scene& scene = own.view.scene;
   const std::int64_t id = scene.id[seen.other].value;
   if (seen.passes) {
-    const double reach_aside =
-        seen.gap < 0.0 ? half_extent(own.view, own.row, left_of(own.tangent)) : own.half_width;
+    const double reach_aside = seen.gap < 0.0
+                                   ? half_extent(own.view.scene, own.row, left_of(own.tangent))
+                                   : own.half_width;
     const double apart = own.offset - seen.place.offset;
-    const Passed passed{seen.gap,
-                        std::abs(apart) - seen.half_width - reach_aside,
-                        seen.clearance,
-                        std::copysign(1.0, apart) * cross(own.tangent, own.forward),
-                        seen.speed,
-                        own.taken,
-                        own.narrow ? filtering_manner(own.view.parameters)
-                                   : overtaking_manner(own.view.parameters)};
+    const Passed passed{
+        seen.gap,
+        std::abs(apart) - seen.half_width - reach_aside,
+        seen.clearance,
+        std::copysign(1.0, apart) * cross(own.tangent, direction_of(scene.heading[own.row])),
+        seen.speed,
+        own.taken,
+        own.narrow ? filtering_manner(own.view.parameters)
+                   : overtaking_manner(own.view.parameters)};
     cap_passing(passing_speed(own.view.parameters, passed, own.type), id, ahead);
     if (own.narrow && seen.gap > 0.0 && passed.aside() > 0.0)
       ahead.turning_way = std::min(ahead.turning_way, seen.gap);
@@ -357,15 +359,15 @@ void see_queue(const TrafficView& view, std::size_t row, double to, DrivingAhead
     const PolylinePosition place = path->line.project(scene.position[other], from, to);
     if (place.distance > view.parameters.near || place.along <= from || place.along >= to) return;
     const Vec2 direction = path->line.direction_at(place.along);
-    const double sides =
-        view.perception.ego[row].half_width + half_extent(view, other, left_of(direction)) + margin;
-    if (direction.dot(view.perception.ego[other].forward) <= 0.5 ||
+    const double sides = view.perception.ego[row].half_width +
+                         half_extent(view.scene, other, left_of(direction)) + margin;
+    if (direction.dot(direction_of(view.scene.heading[other])) <= 0.5 ||
         std::abs(place.offset - view.traffic.lateral_aim[row]) > sides)
       return;
     const auto begin = ahead.vehicles.begin();
     const auto end = begin + static_cast<std::ptrdiff_t>(ahead.count);
     if (std::any_of(begin, end, [&](const auto& seen) { return seen.row == other; })) return;
-    const double half = half_extent(view, other, direction);
+    const double half = half_extent(view.scene, other, direction);
     ahead.add({place.along - half, place.along + half,
                std::max(0.0, scene.velocity[other].dot(direction)), scene.id[other].value, other});
   });

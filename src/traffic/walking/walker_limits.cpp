@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/extent.h"
 #include "traffic/junction/arbitration.h"
 #include "traffic/patience.h"
 #include "traffic/perception.h"
@@ -20,20 +21,21 @@ void follow_on_foot(const TrafficView& view, const Course& course, RoadContext& 
   const Scene& scene = view.scene;
   const std::size_t row = course.row;
   const Vec2 left = left_of(context.tangent);
-  const double half_width = half_extent(view, row, left);
+  const double half_width = half_extent(view.scene, row, left);
   visit_near(view, row, view.parameters.near, [&](std::size_t other) {
     if (type_of(view.model.types, scene.type[other]).kinematics != Kinematics::Holonomic) return;
     const Vec2 offset = scene.position[other] - scene.position[row];
     const double ahead = offset.dot(context.tangent);
-    const double aside = half_width + half_extent(view, other, left) - view.parameters.touching;
+    const double aside =
+        half_width + half_extent(view.scene, other, left) - view.parameters.touching;
     if (ahead < view.parameters.touching || std::abs(offset.dot(left)) > aside) return;
-    if (view.perception.ego[other].forward.dot(context.tangent) < 0.5) return;
+    if (direction_of(view.scene.heading[other]).dot(context.tangent) < 0.5) return;
     // where their ways bend each may be ahead of the other: one of them goes
     const Waiting& theirs = view.approaches.waiting(other);
     if (theirs.reason == LimitReason::Leader && theirs.foe == scene.id[row].value &&
         scene.id[row] < scene.id[other])
       return;
-    const double gap = ahead - course.half_length - half_extent(view, other, context.tangent);
+    const double gap = ahead - course.half_length - half_extent(view.scene, other, context.tangent);
     const double allowed = std::max(gap, 0.0) / (course.type.headway * course.headway_factor);
     if (allowed >= context.allowed_speed || allowed >= context.speed_limit) return;
     context.allowed_speed = allowed;
@@ -91,7 +93,7 @@ void keep_off_red_crossings(const TrafficView& view, const Course& course, RoadC
              stretch.from < course.along + view.parameters.near_line;
     });
     if (crosses && !waits) return;
-    const double extent = half_extent(view, course.row, way / distance);
+    const double extent = half_extent(view.scene, course.row, way / distance);
     way *= std::max(distance - extent, kLeastWay) / distance;
     for (Vec2& kept : context.to_red) {
       if (way == kept || way.isZero()) return;
