@@ -6,6 +6,7 @@
 #include "app/command.h"
 #include "app/validators.h"
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/print.h"
 #include "io/config.h"
 #include "io/replay.h"
@@ -24,7 +25,7 @@ struct SceneOptions {
 };
 
 nlohmann::ordered_json to_json(const std::string& scene, const SceneReport& report) {
-  const std::string hash = fmt::format("{:016x}", report.state_hash);
+  const std::string hash = hash_text(report.state_hash);
   return {{"scene", scene},
           {"agents", report.agents},
           {"steps", report.steps},

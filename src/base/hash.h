@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <string_view>
 
 namespace sumogamma {
@@ -34,5 +35,12 @@ inline std::uint64_t hash_of_bytes(std::string_view bytes) {
   }
   return hash;
 }
+
+/// 16 hexadecimal digits.
+std::string hash_text(std::uint64_t hash);
+
+/// Differs where sines and the like have other last bits: another version of the C library, or a
+/// processor without fused multiply-add.
+std::uint64_t hash_of_math_library();
 
 }  // namespace sumogamma

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/hash.h"
 #include "base/print.h"
 #include "io/output_file.h"
 #include "study/metrics_version.h"
@@ -191,8 +192,6 @@ Json clock_json(const RunClock& clock) {
             {"step", clock.step_from},
             {"seed", clock.seed_from}}}};
 }
-
-std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 /// A heading or "name  value" line of the table.
 class Table {

@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -28,23 +25,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSuffix = ".road";
 
-std::uint64_t joined(std::uint64_t hash, std::uint64_t more) {
-  return (hash ^ more) * 0x9e3779b97f4a7c15ULL;
-}
-
-/// Differs where the C library's functions have other last bits: another version, or a processor
-/// without fused multiply-add.
-std::uint64_t hash_of_library() {
-  double (*const functions[])(double) = {std::sin, std::cos, std::tan, std::atan, std::exp};
-  std::uint64_t hash = kFnvBasis;
-  for (const auto function : functions)
-    for (int k = 1; k < 200; ++k) {
-      const volatile double argument = 0.035 * k;  // computed here, not by the compiler
-      hash = joined(hash, std::bit_cast<std::uint64_t>(function(argument)));
-    }
-  return hash;
-}
-
 /// Where the road of a network lies: whatever might change it changes its name.
 std::optional<fs::path> cached_file(const fs::path& network, const RoadCache& cache) {
   std::error_code error;
@@ -52,11 +32,10 @@ std::optional<fs::path> cached_file(const fs::path& network, const RoadCache& ca
     return std::nullopt;
   const MappedFile program("/proc/self/exe"), file(network);
   if (program.bytes().empty() || file.bytes().empty()) return std::nullopt;
-  const std::uint64_t key = joined(
-      joined(hash_of_bytes(file.bytes()), hash_of_bytes(program.bytes())), hash_of_library());
-  std::array<char, 17> name{};
-  std::snprintf(name.data(), name.size(), "%016llx", static_cast<unsigned long long>(key));
-  return cache.folder / (name.data() + std::string(kSuffix));
+  const std::array parts{hash_of_bytes(file.bytes()), hash_of_bytes(program.bytes()),
+                         hash_of_math_library()};
+  const std::string_view key(reinterpret_cast<const char*>(parts.data()), sizeof parts);
+  return cache.folder / (hash_text(hash_of_bytes(key)) + kSuffix);
 }
 
 /// The bytes behind their hash; nothing where it is another's, or they aren't whole.

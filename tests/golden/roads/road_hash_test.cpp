@@ -19,12 +19,6 @@ namespace {
 const char* const kSumoVersion = "Version 1.15.0";
 const char* const kDuration = "60";  // [s]
 
-std::string hexadecimal(std::uint64_t number) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(number));
-  return text;
-}
-
 /// What the program prints; fails the test where it doesn't end well.
 std::string program(const std::vector<std::string>& arguments) {
   ProcessRequest request;
@@ -96,7 +90,7 @@ TEST_P(GoldenMaps, HaveTheRecordedBits) {
   for (const char* file : {"scenario/net.net.xml", "scenario/demand.rou.xml"})
     for (const char byte : folder.read(file))
       network = fnv1a(network, static_cast<unsigned char>(byte));
-  EXPECT_EQ(hexadecimal(network), GetParam().network)
+  EXPECT_EQ(hash_text(network), GetParam().network)
       << "the import makes another network or demand, so the traffic is another one too";
   EXPECT_EQ(state_hash(folder.file("scenario"), folder), GetParam().state);
 }
