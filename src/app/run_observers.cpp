@@ -63,7 +63,7 @@ class Flow final : public RunObserver {
   explicit Flow(const WatchedRun& run)
       : RunObserver(run), monitor_(run.sim.dt, run.sim.model.road) {}
   void add(std::vector<RunEvent>& events) override {
-    monitor_.add(run_.sim.scene, run_.sim.model.types, run_.sim.road);
+    monitor_.add(run_.sim.scene, run_.sim.model.types, run_.sim.road, run_.sim.traffic.waits);
     for (; marked_ < monitor_.stuck().size(); ++marked_) {
       const StuckAgent& stuck = monitor_.stuck()[marked_];
       events.push_back({ReplayEventKind::Stuck, run_.sim.scene.time, stuck.position, stuck.id});

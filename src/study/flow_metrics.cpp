@@ -49,11 +49,11 @@ bool at_planned_halt(const Scene& scene, std::size_t row) {
 
 }  // namespace
 
-void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const RoadState& road) {
+void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const RoadState& road,
+                      const WaitGraph& waits) {
   by_type_.resize(types.size());
   red_lights_.update(road, scene);
   track_.match(scene.id);
-  waits_.rebuild(scene);
   stuck_now_ = 0;
   for (std::size_t row = 0; row < scene.size(); ++row) {
     State& state = track_[row];
@@ -70,7 +70,7 @@ void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
       if (moved <= 2.0 * type.max_speed * step_ + 1.0) distance_ += moved;
     }
     if (vehicle && speed < kWaiting) waiting_ += step_;
-    add_stay(scene, row, state);
+    add_stay(waits, scene, row, state);
     state.known = true;
     state.position = scene.position[row];
     const bool in_place = state.stands && (scene.position[row] - state.stopped).norm() < kInPlace;
@@ -80,7 +80,7 @@ void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
         state.stopped = scene.position[row];
         state.stopped_at = scene.time - step_;
       }
-      add_standing(scene, row, state);
+      add_standing(waits, scene, row, state);
     } else {
       if (state.record >= 0) stuck_[static_cast<std::size_t>(state.record)].moved_on = true;
       state.record = -1;
@@ -91,22 +91,24 @@ void FlowMonitor::add(const Scene& scene, const AgentTypeTable& types, const Roa
   }
 }
 
-void FlowMonitor::add_standing(const Scene& scene, std::size_t row, State& state) {
+void FlowMonitor::add_standing(const WaitGraph& waits, const Scene& scene, std::size_t row,
+                               State& state) {
   const bool excused = at_planned_halt(scene, row) || red_lights_.ahead(scene.lane[row].lane) ||
-                       waits_behind_signal(waits_, scene, row);
+                       waits_behind_signal(waits, scene, row);
   if (!excused) state.standing += step_;
   longest_ = std::max(longest_, state.standing);
   // half a step less: sums of steps don't meet a whole number of seconds exactly
   if (state.record < 0 && state.standing > kStuckTime - 0.5 * step_) {
     state.record = static_cast<std::int32_t>(stuck_.size());
-    stuck_.push_back(stuck_agent(waits_, scene, row, state.stopped_at));
+    stuck_.push_back(stuck_agent(waits, scene, row, state.stopped_at));
     if (!state.ever_stuck) ++stuck_agents_;
     state.ever_stuck = true;
   }
   if (state.record >= 0) stuck_[static_cast<std::size_t>(state.record)].standing = state.standing;
 }
 
-void FlowMonitor::add_stay(const Scene& scene, std::size_t row, State& state) {
+void FlowMonitor::add_stay(const WaitGraph& waits, const Scene& scene, std::size_t row,
+                           State& state) {
   const Vec2& position = scene.position[row];
   if (!state.known || (position - state.stays_at).squaredNorm() > kHeldWithin * kHeldWithin) {
     if (state.held_record >= 0) held_[static_cast<std::size_t>(state.held_record)].moved_on = true;
@@ -120,7 +122,7 @@ void FlowMonitor::add_stay(const Scene& scene, std::size_t row, State& state) {
   longest_held_ = std::max(longest_held_, state.stays);
   if (state.held_record < 0 && state.stays > kHeldTime - 0.5 * step_) {
     state.held_record = static_cast<std::int32_t>(held_.size());
-    held_.push_back(stuck_agent(waits_, scene, row, state.stays_since));
+    held_.push_back(stuck_agent(waits, scene, row, state.stays_since));
     if (!state.ever_held) ++held_agents_;
     state.ever_held = true;
   }

@@ -68,7 +68,8 @@ class FlowMonitor {
   /// `network` must outlive the monitor.
   FlowMonitor(double step, const RoadNetwork& network) : step_(step), red_lights_(network) {}
 
-  void add(const Scene& scene, const AgentTypeTable& types, const RoadState& road);
+  void add(const Scene& scene, const AgentTypeTable& types, const RoadState& road,
+           const WaitGraph& waits);
 
   FlowResult result(const AgentTypeTable& types) const;
   /// In order of becoming stuck.
@@ -79,7 +80,6 @@ class FlowMonitor {
   std::size_t stuck_now() const { return stuck_now_; }
 
  private:
-  WaitGraph waits_;
   struct State {
     bool known = false, stands = false;
     bool ever_stuck = false;
@@ -91,8 +91,8 @@ class FlowMonitor {
     Vec2 stays_at = Vec2::Zero();
     double stays_since = 0, stays = 0;
   };
-  void add_standing(const Scene& scene, std::size_t row, State& state);
-  void add_stay(const Scene& scene, std::size_t row, State& state);
+  void add_standing(const WaitGraph& waits, const Scene& scene, std::size_t row, State& state);
+  void add_stay(const WaitGraph& waits, const Scene& scene, std::size_t row, State& state);
 
   double step_;
   RedLights red_lights_;

@@ -61,7 +61,7 @@ void rules_flow_smoothness(benchmark::State& state) {
   SmoothnessMonitor smoothness(0.05);
   for (auto _ : state) {
     rules.add(scene, types, road, workers);
-    flow.add(scene, types, road);
+    flow.add(scene, types, road, WaitGraph(scene));
     smoothness.add(scene, types);
   }
   per_agent(state, count);

@@ -29,7 +29,7 @@ class Flow : public ::testing::Test {
       scene_.time += kStep;
       for (std::size_t row = 0; row < scene_.size(); ++row)
         scene_.position[row] += kStep * scene_.velocity[row];
-      monitor_.add(scene_, types_, road_);
+      monitor_.add(scene_, types_, road_, WaitGraph(scene_));
     }
   }
 
