@@ -7,6 +7,16 @@
 
 namespace sumogamma {
 
+std::vector<double> free_travel_times(const RoadNetwork& network) {
+  std::vector<double> times(network.edges.size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (network.edges[i].lanes.empty()) continue;
+    const Lane& lane = network.lane(network.edges[i].lanes.back());
+    times[i] = lane.centerline.length() / std::max(lane.speed_limit, 1.0);
+  }
+  return times;
+}
+
 std::vector<EdgeId> fastest_route(const RoadNetwork& network, LaneId from, EdgeId destination,
                                   VehicleClassMask vehicle_class,
                                   std::span<const double> travel_time) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scene/extent.h"
 #include "traffic/patience.h"
@@ -43,6 +44,16 @@ void perceive(const TrafficView& view, std::size_t row, double reach, Perception
   near.clear();
   visit_storey(view, row, view.scene.position[row], reach,
                [&](std::size_t other) { near.push_back(static_cast<std::uint32_t>(other)); });
+}
+
+bool is_its_turn(const TrafficView& view, std::size_t row, double dt) {
+  const auto period = std::max<std::int64_t>(1, std::llround(view.parameters.look_period / dt));
+  return (view.scene.tick + view.scene.id[row].value) % period == 0;
+}
+
+void go_on_by(const TrafficTick& tick, Path path, double along, std::size_t row) {
+  change_path(std::move(path), along, row, tick.road, tick.scene, tick.traffic);
+  tick.perception.ego[row] = ego_on_path(tick.road, tick.scene, row);
 }
 
 void look_around(const TrafficView& view, std::size_t row, double reach, double aside,

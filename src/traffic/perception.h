@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scene/storey.h"
-#include "traffic/traffic_view.h"
+#include "traffic/traffic_tick.h"
 
 namespace sumogamma {
 
@@ -53,6 +53,14 @@ void visit_near(const TrafficView& view, std::size_t row, double radius, Visit&&
 
 /// Fills the row's own part of `perception`, with who is near within `reach` [m].
 void perceive(const TrafficView& view, std::size_t row, double reach, Perception& perception);
+
+/// Is it a row's turn to look at lanes and routes? Once a look_period, whoever has another id at
+/// another tick. dt [s].
+bool is_its_turn(const TrafficView& view, std::size_t row, double dt);
+
+/// A row goes on by another path on which it is `along` [m], amid a tick (see change_path): those
+/// who look at it from here on see it there.
+void go_on_by(const TrafficTick& tick, Path path, double along, std::size_t row);
 
 /// Fills `around` for a row with a path: everybody whose centre lies within `reach` ahead, or
 /// `reach` behind [m], and within `aside` of the path on the same storey.

@@ -172,10 +172,8 @@ void wait_for_gap(const TrafficView& view, const Path& path, const Surroundings&
 /// Does a row look about at this tick? Who has just come looks before it does what its path begins
 /// with.
 bool looks_now(const TrafficView& view, std::size_t row, double dt) {
-  const Scene& scene = view.scene;
-  const auto period = std::max<std::int64_t>(1, std::llround(view.parameters.look_period / dt));
-  return scene.control[row] == Control::Gamma &&
-         ((scene.tick + scene.id[row].value) % period == 0 || !scene.context[row].active);
+  return view.scene.control[row] == Control::Gamma &&
+         (is_its_turn(view, row, dt) || !view.scene.context[row].active);
 }
 
 /// Moves the place aimed at within the lane, at walking pace, towards where it should be; swiftly
@@ -213,9 +211,12 @@ void look_about(const TrafficView& view, const Path& path, std::size_t row, Lane
 }
 
 /// The row's path with its lane change begun, put off or given up; none where it goes on as it is.
-std::optional<Path> path_as_intended(const TrafficParameters& parameters,
-                                     const RoadNetwork& network, const Path& path,
-                                     const LaneIntent& intent, double speed, double& along) {
+std::optional<Path> path_as_intended(const TrafficTick& tick, const LaneIntent& intent,
+                                     std::size_t row, double& along) {
+  const RoadNetwork& network = tick.model.road;
+  const TrafficParameters& parameters = tick.parameters;
+  const Path& path = *tick.road.path(tick.scene.path[row]);
+  const double speed = tick.scene.speed[row];
   if (intent.abort) return back_to_lane(network, path, along, parameters.nearby);
   if (intent.postpone)
     return stay_in_lane(network, path, along, std::max(speed, 3.0), parameters.nearby);
@@ -235,8 +236,7 @@ void do_as_intended(const TrafficTick& tick, const LaneIntent& intent, std::size
     return;
   double along = tick.scene.path_along[row];
   const Path& path = *tick.road.path(tick.scene.path[row]);
-  auto changed =
-      path_as_intended(tick.parameters, network, path, intent, tick.scene.speed[row], along);
+  auto changed = path_as_intended(tick, intent, row, along);
   // no room left to change in: who gets on by its own lane nearly as well doesn't wait for a gap
   if (!changed && intent.postpone) {
     changed =
@@ -246,8 +246,7 @@ void do_as_intended(const TrafficTick& tick, const LaneIntent& intent, std::size
   if (!changed) return;
   // who comes there now already reckons with it
   if (intent.wanted != kNoLane) traffic.merge_to[row] = intent.wanted;
-  change_path(std::move(*changed), along, row, tick.road, tick.scene, traffic);
-  tick.perception.ego[row] = ego_on_path(tick.road, tick.scene, row);
+  go_on_by(tick, std::move(*changed), along, row);
 }
 
 }  // namespace

@@ -1,13 +1,13 @@
 #include "traffic/recovery/detour.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "road/route_search.h"
 #include "scene/extent.h"
 #include "traffic/junction/keep_clear.h"
 #include "traffic/lateral/lane_choice.h"
 #include "traffic/patience.h"
+#include "traffic/perception.h"
 
 namespace sumogamma {
 
@@ -33,13 +33,7 @@ const PathLink* shut_link(const TrafficView& view, const Path& path, std::size_t
 std::vector<double> travel_times(const TrafficView& view) {
   const RoadNetwork& network = view.model.road;
   const Scene& scene = view.scene;
-  std::vector<double> times(network.edges.size());
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const Edge& edge = network.edges[i];
-    if (edge.lanes.empty()) continue;
-    const Lane& lane = network.lane(edge.lanes.back());
-    times[i] = lane.centerline.length() / std::max(lane.speed_limit, 1.0);
-  }
+  std::vector<double> times = free_travel_times(network);
   for (std::size_t row = 0; row < scene.size(); ++row) {
     if (scene.lane[row].lane == kNoLane || stood(view, row) < Patience::Waiting) continue;
     const Lane& lane = network.lane(scene.lane[row].lane);
@@ -51,16 +45,16 @@ std::vector<double> travel_times(const TrafficView& view) {
 }
 
 /// Is there room at the begin of a path's next road for its agent?
-bool has_room(const TrafficParameters& parameters, const Model& model, const Path& path,
-              double along, const Scene& scene, std::size_t row) {
+bool has_room(const TrafficView& view, const Path& path, double along, std::size_t row) {
+  const Scene& scene = view.scene;
   const auto link = path.link_after(along);
   if (link == path.links.end()) return true;
-  const LaneId target = model.road.connection(link->connection).to;
+  const LaneId target = view.model.road.connection(link->connection).to;
   const double own = 2.0 * half_extent(scene, row, direction_of(scene.heading[row]));
   for (std::size_t other = 0; other < scene.size(); ++other) {
     if (scene.lane[other].lane != target || scene.speed[other] > 2.0) continue;
     const double half = half_extent(scene, other, direction_of(scene.heading[other]));
-    if (scene.lane[other].along - half < own + parameters.near_line) return false;
+    if (scene.lane[other].along - half < own + view.parameters.near_line) return false;
   }
   return true;
 }
@@ -75,15 +69,12 @@ std::uint64_t take_detours(const TrafficTick& tick) {
   const TrafficView view = tick.view();
   std::uint64_t taken = 0;
   std::vector<double> times;
-  const auto period =
-      std::max<std::int64_t>(1, std::llround(tick.parameters.look_period / model.options.step));
   auto go_on = [&](Path way, double along, std::size_t row) {
-    change_path(std::move(way), along, row, road, scene, traffic);
-    tick.perception.ego[row] = ego_on_path(road, scene, row);
+    go_on_by(tick, std::move(way), along, row);
     forget_lane_change(traffic, row);
   };
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if ((scene.tick + scene.id[row].value) % period != 0) continue;
+    if (!is_its_turn(view, row, tick.dt)) continue;
     const Path* path = road.path(scene.path[row]);
     if (path == nullptr || scene.control[row] != Control::Gamma) continue;
     const PathLink* shut = shut_link(view, *path, row);
@@ -109,7 +100,7 @@ std::uint64_t take_detours(const TrafficTick& tick) {
     if (route.size() < 2 || route[1] == full) continue;
     auto taken_path =
         take_route(model.road, *path, along, std::move(route), tick.parameters.nearby);
-    if (!taken_path || !has_room(tick.parameters, model, *taken_path, along, scene, row)) continue;
+    if (!taken_path || !has_room(view, *taken_path, along, row)) continue;
     go_on(std::move(*taken_path), along, row);
     forget_keeping_clear(traffic, row);
     ++taken;

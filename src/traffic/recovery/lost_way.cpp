@@ -16,8 +16,9 @@ namespace {
 
 /// The nearest place on the row's own path, up to some way ahead, that it stands on, headed as the
 /// path leads.
-std::optional<double> place_ahead(const TrafficParameters& parameters, const Path& path,
-                                  const Scene& scene, std::size_t row) {
+std::optional<double> place_ahead(const TrafficView& view, const Path& path, std::size_t row) {
+  const TrafficParameters& parameters = view.parameters;
+  const Scene& scene = view.scene;
   const Vec2 forward = direction_of(scene.heading[row]);
   const double from = scene.path_along[row],
                to = std::min(from + parameters.queue_outlook, path.arrival);
@@ -39,9 +40,11 @@ struct Candidate {
 };
 
 /// Lanes near the row that lead as it heads, nearest first.
-std::vector<Candidate> lanes_near(const TrafficParameters& parameters, const RoadNetwork& network,
-                                  VehicleClassMask vehicle_class, const Scene& scene,
+std::vector<Candidate> lanes_near(const TrafficView& view, VehicleClassMask vehicle_class,
                                   std::size_t row) {
+  const RoadNetwork& network = view.model.road;
+  const TrafficParameters& parameters = view.parameters;
+  const Scene& scene = view.scene;
   const Vec2 forward = direction_of(scene.heading[row]);
   std::vector<Candidate> found;
   for (std::size_t i = 0; i < network.lanes.size(); ++i) {
@@ -60,25 +63,13 @@ std::vector<Candidate> lanes_near(const TrafficParameters& parameters, const Roa
   return found;
 }
 
-/// Time that each edge takes on an empty road [s], by EdgeId.
-std::vector<double> free_times(const RoadNetwork& network) {
-  std::vector<double> times(network.edges.size());
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (network.edges[i].lanes.empty()) continue;
-    const Lane& lane = network.lane(network.edges[i].lanes.back());
-    times[i] = lane.centerline.length() / std::max(lane.speed_limit, 1.0);
-  }
-  return times;
-}
-
 /// A new path to the row's destination from a lane near it; `along` is its place on that.
-std::optional<Path> way_from_here(const TrafficParameters& parameters, const RoadNetwork& network,
-                                  const Path& path, const Scene& scene, std::size_t row,
+std::optional<Path> way_from_here(const TrafficView& view, const Path& path, std::size_t row,
                                   double& along) {
+  const RoadNetwork& network = view.model.road;
   const Trip& trip = *path.trip;
-  const std::vector<double> times = free_times(network);
-  for (const Candidate& candidate :
-       lanes_near(parameters, network, trip.request.vehicle_class, scene, row)) {
+  const std::vector<double> times = free_travel_times(network);
+  for (const Candidate& candidate : lanes_near(view, trip.request.vehicle_class, row)) {
     const EdgeId edge = network.lane(candidate.lane).edge;
     const std::vector<EdgeId> route =
         edge == trip.route.back() ? std::vector<EdgeId>{edge}
@@ -88,7 +79,7 @@ std::optional<Path> way_from_here(const TrafficParameters& parameters, const Roa
     PathRequest request = trip.request;
     request.route = route;
     request.start_lane = candidate.lane;
-    request.start_along = std::max(candidate.along - parameters.nearby, 0.0);
+    request.start_along = std::max(candidate.along - view.parameters.nearby, 0.0);
     std::string why;
     auto found = build_driving_path(network, request, why);
     if (!found || found->arrival < candidate.along - request.start_along) continue;
@@ -108,6 +99,7 @@ void note_progress(const TrafficParameters& parameters, double before, double dt
 }
 
 void find_ways_back(const TrafficTick& tick) {
+  const TrafficView view = tick.view();
   const RoadNetwork& network = tick.model.road;
   RoadState& road = tick.road;
   Scene& scene = tick.scene;
@@ -117,7 +109,7 @@ void find_ways_back(const TrafficTick& tick) {
     traffic.strayed[row] = 0.0;
     const Path* path = road.path(scene.path[row]);
     if (path == nullptr || !path->trip || scene.control[row] != Control::Gamma) continue;
-    if (const auto place = place_ahead(tick.parameters, *path, scene, row)) {
+    if (const auto place = place_ahead(view, *path, row)) {
       scene.path_along[row] = *place;
       continue;
     }
@@ -128,7 +120,7 @@ void find_ways_back(const TrafficTick& tick) {
                     [&](const PathStop& stop) { return stop.along > along_now; }))
       continue;
     double along = 0.0;
-    auto found = way_from_here(tick.parameters, network, *path, scene, row, along);
+    auto found = way_from_here(view, *path, row, along);
     if (!found) continue;
     change_path(std::move(*found), along, row, road, scene, traffic);
     forget_lane_change(traffic, row);
