@@ -391,8 +391,11 @@ void check_patience(const ScenarioConfig& config) {
   constexpr std::array kNames{"waiting", "impatient", "pressing", "stuck", "desperate", "hopeless"};
   for (std::size_t k = 1; k < levels.size(); ++k) {
     if (levels[k] > levels[k - 1]) continue;
-    const auto given = config.given.find(fmt::format("traffic.{}", kNames[k]));
-    throw Error(given == config.given.end() ? "traffic" : given->second,
+    // the defaults are in order: one of the two was given
+    auto given = config.given.find(fmt::format("traffic.{}", kNames[k]));
+    if (given == config.given.end())
+      given = config.given.find(fmt::format("traffic.{}", kNames[k - 1]));
+    throw Error(given->second,
                 fmt::format("traffic.{} = {} has to be more than traffic.{} = {}: these levels of "
                             "patience follow one another",
                             kNames[k], levels[k], kNames[k - 1], levels[k - 1]));
