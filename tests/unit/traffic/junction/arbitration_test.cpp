@@ -5,6 +5,7 @@
 #include "model/context.h"
 #include "model/gamma_velocity.h"
 #include "road/path_pieces.h"
+#include "support/lights.h"
 #include "support/road_scene.h"
 #include "support/small_net.h"
 #include "traffic/longitudinal/merging.h"
@@ -16,6 +17,8 @@ using testing::crossroads;
 using testing::PlainNet;
 using testing::read_plain_net;
 using testing::RoadScene;
+using testing::show;
+using testing::show_across_green;
 
 // --- signals: small_net, where link 0 of signal C drives from `in` to `out`
 
@@ -75,18 +78,6 @@ TEST_F(SignalTest, WhoCrawlsBeforeTheLineLateAtAmberStands) {
   EXPECT_TRUE(is_held(2.6, 0.1));
   EXPECT_TRUE(is_held(2.0, 0.18));
   EXPECT_FALSE(is_held(0.1, 0.1)) << "it will be over the line in time";
-}
-
-/// Lets all links of a lane show a letter.
-void show(RoadScene& here, const char* from, char letter) {
-  const RoadNetwork& road = here.model.road;
-  for (const ConnectionId id : road.lane(road.lane_by_name.at(from)).outgoing) {
-    const Connection& link = road.connection(id);
-    if (link.signal == kNoSignal) continue;
-    std::string& letters = here.road.signal_states[index_of(link.signal)];
-    letters.resize(std::max(letters.size(), static_cast<std::size_t>(link.signal_link) + 1), 'r');
-    letters[static_cast<std::size_t>(link.signal_link)] = letter;
-  }
 }
 
 // A bicycle that had a green arrow rode past the queue before it in the lane beside, which was red,
@@ -1443,15 +1434,7 @@ TEST_F(PriorityTest, AStopSignIsHaltedAt) {
 class RedLightRunning : public ::testing::Test {
  protected:
   RedLightRunning() {
-    for (const Connection& connection : here_.model.road.connections) {
-      if (connection.signal == kNoSignal) continue;
-      std::string& shown = here_.road.signal_states[index_of(connection.signal)];
-      const auto link = static_cast<std::size_t>(connection.signal_link);
-      if (shown.size() <= link) shown.resize(link + 1, 'r');
-      const std::string& edge =
-          here_.model.road.edge(here_.model.road.lane(connection.from).edge).name;
-      shown[link] = edge == "SC" || edge == "NC" ? 'r' : 'G';
-    }
+    show_across_green(here_, 'r');
     own_ = here_.add("motorcycle", {"SC", "CN"}, 0, 0);
     here_.scene.manners[own_].key = 1;
     here_.move(own_, here_.path(own_).links.front().halt - 1.1 - 0.7);

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <string>
-
+#include "support/lights.h"
 #include "support/plain_net.h"
 #include "support/road_scene.h"
 #include "traffic/rule_breaking.h"
@@ -21,17 +20,7 @@ class TurnOnRed : public ::testing::Test {
     static const RoadNetwork network = read_plain_net(crossroads("traffic_light"));
     return network;
   }
-  void show(char shown) {
-    for (const Connection& connection : here_.model.road.connections) {
-      if (connection.signal == kNoSignal) continue;
-      std::string& state = here_.road.signal_states[index_of(connection.signal)];
-      const auto link = static_cast<std::size_t>(connection.signal_link);
-      if (state.size() <= link) state.resize(link + 1, 'r');
-      const std::string& edge =
-          here_.model.road.edge(here_.model.road.lane(connection.from).edge).name;
-      state[link] = edge == "SC" || edge == "NC" ? shown : 'G';
-    }
-  }
+  void show(char letter) { testing::show_across_green(here_, letter); }
   /// At its line, where it has stood for a second.
   std::size_t waits(const char* to) {
     const std::size_t row = here_.add("car", {"SC", to}, 0, 0);
