@@ -185,8 +185,9 @@ bool has_crossing_traffic(const Model& model, ConnectionId link) {
 
 ZipperLeader find_zipper_leader(const TrafficView& view, const Traveller& traveller,
                                 const PathLink& link) {
-  const auto& [model, road, scene, traffic, grid, approaches, perception, waits, parameters, code] =
-      view;
+  const Model& model = view.model;
+  const Scene& scene = view.scene;
+  const ApproachTable& approaches = view.approaches;
   ZipperLeader leader;
   for (const ConflictZone& zone : model.conflicts[index_of(link.connection)]) {
     if (!runs_together(model, link.connection, zone.foe)) continue;

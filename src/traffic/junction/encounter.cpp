@@ -128,7 +128,7 @@ bool is_past_line(const Encounter& e) {
   const WaitingPlace place = waiting_place(e.parameters, e.link, e.zone.begin);
   if (e.at_red || !place.inside)
     return e.subject.front > e.link.stop_line + e.parameters.line_tolerance;
-  return e.subject.front > place.along + e.parameters.line_tolerance + e.parameters.line_tolerance;
+  return e.subject.front > place.along + 2.0 * e.parameters.line_tolerance;
 }
 
 bool foe_may_halt(const Encounter& e) {

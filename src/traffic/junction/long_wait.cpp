@@ -50,7 +50,7 @@ bool subject_is_owed(const Encounter& e) {
   return is_owed_its_way(e, e.subject.row, e.link.connection, -e.to_line());
 }
 
-/// Need the foe brake at ease to halt before the area?
+/// Need the foe brake no harder than out of courtesy to halt before the area?
 bool asks_little(const Encounter& e) {
   return deceleration_to_stop(e.foe.speed, e.zone.foe_begin - e.foe.front) <
          e.parameters.courtesy_braking;

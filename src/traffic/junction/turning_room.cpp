@@ -54,8 +54,9 @@ bool has_long_wanted(const TrafficView& view, const Approach& foe, bool there) {
 /// See leave_turning_room; of somebody whose trip `ends` at the line, who is gone from there on.
 LinkDecision leave_room(const TrafficView& view, const Traveller& traveller, const PathLink& link,
                         bool ends) {
-  const auto& [model, road, scene, traffic, grid, approaches, perception, waits, parameters, code] =
-      view;
+  const Model& model = view.model;
+  const Scene& scene = view.scene;
+  const ApproachTable& approaches = view.approaches;
   LinkDecision decision;
   const AgentType& type = type_of(model.types, scene.type[traveller.row]);
   const double front = traveller.front - link.stop_line;
@@ -124,8 +125,9 @@ double drawn_line(const TrafficView& view, const Traveller& traveller, const Pat
 
 double halt_for_long_bodies(const TrafficView& view, const Traveller& traveller,
                             const PathLink& link) {
-  const auto& [model, road, scene, traffic, grid, approaches, perception, waits, parameters, code] =
-      view;
+  const Model& model = view.model;
+  const Scene& scene = view.scene;
+  const ApproachTable& approaches = view.approaches;
   double halt = link.halt;
   for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
     const double place = link.stop_line + way.begin;

@@ -146,9 +146,9 @@ bool is_road_clear(const TrafficParameters& parameters, const Path& path,
   const double sight = straight_ahead(parameters, path, around.along, parameters.sight);
   const bool begins = opposite.incoming.empty() && around.along + sight > here.to - 1.0;
   const double closing_speed = plan.mean_speed + opposite.speed_limit;
-  const double unseen = closing_speed * (plan.time + (begins  ? parameters.time_gap
-                                                      : begun ? parameters.time_gap
-                                                              : parameters.overtaking_time_gap));
+  const double unseen =
+      closing_speed *
+      (plan.time + (begins || begun ? parameters.time_gap : parameters.overtaking_time_gap));
   return begun || sight >= unseen;
 }
 

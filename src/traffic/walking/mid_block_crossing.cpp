@@ -105,8 +105,10 @@ std::int64_t find_who_comes(const TrafficView& view, std::size_t row, const Piec
 }  // namespace
 
 LinkDecision decide_at_kerb(const TrafficView& view, const Traveller& walker, double pace) {
-  const auto& [model, road, scene, traffic, grid, approaches, perception, waits, parameters, code] =
-      view;
+  const Model& model = view.model;
+  const RoadState& road = view.road;
+  const Scene& scene = view.scene;
+  const TrafficState& traffic = view.traffic;
   const Path& path = *road.path(scene.path[walker.row]);
   for (const RoadCrossing& over : path.over_road) {
     if (walker.front > over.begin + view.parameters.line_tolerance) continue;
