@@ -246,7 +246,7 @@ void add_conflicts(const RoadNetwork& network, const Junction& junction, Conflic
       const auto of_narrow =
           joins_ring ? stretch : shared(shapes[i].half_narrow_width + shapes[k].half_narrow_width);
       table[index_of(junction.links[i])].push_back(
-          {*stretch, foe, yields, !ruled,
+          {*stretch, foe, yields, gives_way(junction, k, i), !ruled,
            network.lane(network.connection(foe).to).kind == LaneKind::Crossing, of_narrow});
     }
   }

@@ -23,7 +23,8 @@ struct SharedStretch {
 /// drives on them.
 struct ConflictZone : SharedStretch {
   ConnectionId foe = kNoConnection;
-  bool yields = false;  ///< this link must let the foe pass
+  bool yields = false;      ///< this link must let the foe pass
+  bool foe_yields = false;  ///< the foe must let this one pass
   bool unruled =
       false;  ///< the matrix knows no conflict, but bodies would meet: first come, first served
   bool foe_is_crossing = false;

@@ -54,7 +54,7 @@ template <typename Archive, Is<ConflictZone> Value>
 void visit_members(Archive& archive, Value& value) {
   struct Counterpart : SharedStretch {
     ConnectionId foe;
-    bool yields, unruled, foe_is_crossing;
+    bool yields, foe_yields, unruled, foe_is_crossing;
     std::optional<SharedStretch> of_narrow;
   };
   static_assert(sizeof(ConflictZone) == sizeof(Counterpart), "list the new member, too");
@@ -62,7 +62,8 @@ void visit_members(Archive& archive, Value& value) {
       archive,
       static_cast<std::conditional_t<std::is_const_v<Value>, const SharedStretch, SharedStretch>&>(
           value));
-  archive(value.foe, value.yields, value.unruled, value.foe_is_crossing, value.of_narrow);
+  archive(value.foe, value.yields, value.foe_yields, value.unruled, value.foe_is_crossing,
+          value.of_narrow);
 }
 
 template <typename Archive, Is<SweptWay> Value>

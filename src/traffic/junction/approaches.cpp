@@ -91,7 +91,8 @@ void ApproachTable::rebuild(const TrafficView& view) {
           halt_counts_for(model.road, *path, *link, 2.0 * half_length) == halted_for;
       approaches_.push_back({link->connection, static_cast<std::uint32_t>(row),
                              along + half_length - link->stop_line, 2.0 * half_length, speed,
-                             speed < view.parameters.halting_speed, wide, has_halted});
+                             speed < view.parameters.halting_speed, wide, has_halted,
+                             static_cast<std::uint32_t>(link - path->links.begin())});
     }
   }
   std::sort(approaches_.begin(), approaches_.end(), [](const Approach& a, const Approach& b) {

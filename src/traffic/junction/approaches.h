@@ -20,6 +20,7 @@ struct Approach {
   bool stands = false;
   bool wide = false;        ///< see is_wide
   bool has_halted = false;  ///< before this link, or one whose halt counts for it
+  std::uint32_t link = 0;   ///< index of the link on the agent's path
 };
 
 /// What held an agent at the last tick.

@@ -51,42 +51,33 @@ bool has_to_halt_first(const TrafficView& view, const Traveller& traveller, cons
 
 /// Does somebody ride so far beside the middle of its lane that on the junction it might wait where
 /// a foe's long body sweeps? Whether that one turns isn't asked.
-bool is_aside_for(const Encounter& e) {
-  return e.foe.length > kLongBody &&
-         std::abs(e.traffic.passing_offset[e.subject.row]) >= e.parameters.ample_side;
+bool is_aside_for(const Encounter& e, const Party& one, const Party& foe) {
+  return foe.at.length > kLongBody &&
+         std::abs(e.traffic.passing_offset[one.row()]) >= e.parameters.ample_side;
 }
 
-/// Where the subject halts for its foe [m along its path]: at its line, inside the junction where
-/// there is a place for that, or before the area where its body is past the line already. None
-/// where it is too late for that.
-std::optional<double> line_before(const Encounter& e, double stop_at) {
-  const Traveller& subject = e.subject;
-  const bool on_foot = is_on_foot(e, subject.row);
-  const WaitingPlace place = waiting_place(e.parameters, e.link, e.zone.begin);
+/// Where the first party halts for the other [m along its path]: at its line, inside the junction
+/// where there is a place for that, or before the area where its body is past the line already.
+/// None where it is too late for that.
+std::optional<double> line_before(const Encounter& e, const Traveller& traveller, double stop_at) {
+  const Party& one = e.a;
+  const double stop_line = one.on_path.stop_line;
+  const WaitingPlace place = waiting_place(e.parameters, one.on_path, one.area.begin);
   const bool has_place =
-      place.inside && !e.at_red && (e.own_link.signal != kNoSignal || !is_aside_for(e));
-  const double line = has_place && subject.front < place.along + 0.3 ? place.along
-                      : e.to_line() > -0.2
+      place.inside && !one.at_red && (one.link.signal != kNoSignal || !is_aside_for(e, one, e.b));
+  const double line = has_place && traveller.front < place.along + 0.3 ? place.along
+                      : stop_line - traveller.front > -0.2
                           ? stop_at
-                          : e.link.stop_line + e.zone.begin - e.parameters.stop_margin;
+                          : stop_line + one.area.begin - e.parameters.stop_margin;
   // on foot one halts at the kerb still
-  const double last = on_foot ? std::max(line, e.link.stop_line) : line;
-  const double hardest = 0.8 * e.own_type.max_deceleration;
-  if (deceleration_to_stop(subject.speed, last - subject.front) <= hardest || subject.speed <= 1.0)
+  const double last = one.on_foot ? std::max(line, stop_line) : line;
+  const double hardest = 0.8 * one.type.max_deceleration;
+  if (deceleration_to_stop(traveller.speed, last - traveller.front) <= hardest ||
+      traveller.speed <= 1.0)
     return line;
   // too late to halt there, but not for driving on towards who is in the way already
-  if (on_foot || !has_entered(e.parameters, e.foe.front, e.zone.foe_begin)) return std::nullopt;
-  return subject.front + subject.speed * subject.speed / (2.0 * hardest);
-}
-
-/// Does the encounter need no judge: is the subject in the area, or at its edge with a way past a
-/// foe that stands? Then it goes on, avoidance does the rest.
-bool goes_on(const Encounter& e) {
-  if (has_entered(e.parameters, -e.to_line(), e.zone.begin)) return true;
-  const bool at_edge = e.to_line() + e.zone.begin < e.parameters.line_tolerance;
-  return at_edge && e.foe.stands &&
-         (is_on_foot(e, e.subject.row) ||
-          stands_beside(e, e.subject, e.link, e.zone.begin, e.zone.end, e.foe));
+  if (one.on_foot || !e.b.inside) return std::nullopt;
+  return traveller.front + traveller.speed * traveller.speed / (2.0 * hardest);
 }
 
 /// Looks at all who come to one conflict zone, foremost first, and tightens the decision for those
@@ -97,15 +88,14 @@ void decide_zone(const TrafficView& view, const Traveller& traveller, const Path
     if (foe.row == traveller.row) continue;
     const auto zone = zone_for(of_table, duty.wide || foe.wide);
     if (!zone) continue;
-    const Encounter e = meet(view, traveller, link, duty.signal == SignalDuty::GoAtRed, *zone, foe);
-    if (goes_on(e)) continue;
+    const Encounter e = meet(view, traveller, link, *zone, foe);
     const Verdict verdict = judge(e);
     // who comes behind a vehicle that lets us go can't get past it
-    if (verdict == Verdict::Held && !is_narrow(e.foe_type.width)) return;
+    if (verdict == Verdict::Held && !is_narrow(e.b.type.width)) return;
     if (verdict != Verdict::Blocks) continue;
-    const auto line = line_before(e, duty.stop_at);
+    const auto line = line_before(e, traveller, duty.stop_at);
     if (!line || (decision.must_stop && *line >= decision.stop_at)) continue;
-    decision = {true, *line, e.zone.foe_is_crossing ? LimitReason::Crossing : LimitReason::Yield,
+    decision = {true, *line, zone->foe_is_crossing ? LimitReason::Crossing : LimitReason::Yield,
                 static_cast<std::int64_t>(view.scene.id[foe.row].value)};
   }
 }
@@ -122,18 +112,9 @@ LinkDecision decide_link(const TrafficView& view, const Traveller& traveller,
   if (has_to_halt_first(view, traveller, link, at_red))
     decision = {true, duty.stop_at, at_red ? LimitReason::Signal : LimitReason::Yield, -1};
 
-  const bool free_green =
-      view.road.signal(model.road.connection(link.connection)) == Light::GreenFirst;
-  for (ConflictZone zone : model.conflicts[index_of(link.connection)]) {
-    if (runs_together(model, link.connection, zone.foe)) continue;
-    if (free_green) zone.yields = false;
-    // at red everybody else comes first
-    if (at_red) {
-      zone.yields = true;
-      zone.unruled = false;
-    }
-    decide_zone(view, traveller, link, duty, zone, decision);
-  }
+  for (const ConflictZone& zone : model.conflicts[index_of(link.connection)])
+    if (!runs_together(model, link.connection, zone.foe))
+      decide_zone(view, traveller, link, duty, zone, decision);
   if (decision.must_stop && decision.stop_at > link.stop_line &&
       waited(view, traveller.row) < Patience::Stuck)
     keep_zones_free(view, traveller, link, decision);

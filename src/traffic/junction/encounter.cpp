@@ -1,66 +1,68 @@
 #include "traffic/junction/encounter.h"
 
-#include <algorithm>
-
-#include "traffic/junction/waiting_place.h"
 #include "traffic/longitudinal/car_following.h"
-#include "traffic/patience.h"
 #include "traffic/rule_breaking.h"
 
 namespace sumogamma {
 
 namespace {
 
-/// A driver who will not stop for the subject, who still waits at an unsignalled crossing and sees
-/// it.
-bool is_ignored_by(const Encounter& e) {
-  return is_on_foot(e, e.subject.row) && e.subject.front < e.link.stop_line && !e.foe.stands &&
-         e.road.signal(e.own_link) == Light::None &&
-         !lets_people_go(e.model, e.scene, e.foe.row, e.link.connection);
+/// Who stands at red, or comes to it, and goes over it all the same (see signals).
+bool goes_over_red(const TrafficView& view, const Party& one, Light light) {
+  const bool may_wait =
+      one.at.front < 1.0 || one.on_foot || view.traffic.halted_for[one.row()] == one.at.connection;
+  return is_red(light) && may_wait && goes_at_red(view, one.row(), one.at.connection);
 }
 
-/// Will the foe, as things are, come to rest in the area?
-bool rests_in_area(const Encounter& e) {
-  const double rest = e.approaches.rest_of(e.foe);
-  return rest > e.zone.foe_begin + 0.3 && rest - e.foe.length < e.zone.foe_end;
+Party party_of(const TrafficView& view, const Approach& at, const PathLink& link, const Piece& area,
+               bool yields) {
+  Party one{
+      at,
+      link,
+      view.model.road.connection(at.connection),
+      type_of(view.model.types, view.scene.type[at.row]),
+      view.approaches.waiting(at.row),
+      as_travelled(*view.road.path(view.scene.path[at.row]), link.stop_line, area.begin, area.end),
+      is_on_foot(view, at.row)};
+  const Light light = view.road.signal(one.link);
+  one.at_red = goes_over_red(view, one, light);
+  // at red everybody else comes first
+  one.yields = one.at_red || (yields && light != Light::GreenFirst);
+  one.inside = has_entered(view.parameters, at.front, one.area.begin);
+  one.clears = clears_junction(view, at.row, at.connection, at.front);
+  const double rest = view.approaches.rest_of(at);
+  one.rests = rest > one.area.begin + 0.3 && rest - at.length < one.area.end;
+  return one;
+}
+
+/// Is `driver` one who doesn't let people go first at an unsignalled crossing, and is seen to, by
+/// somebody who hasn't stepped onto it?
+bool disregards(const Encounter& e, const Party& driver, const Party& walker) {
+  return walker.on_foot && !driver.on_foot && !walker.inside && walker.at.front < 0.0 &&
+         !driver.at.stands && e.model.road.lane(walker.link.to).kind == LaneKind::Crossing &&
+         e.road.signal(walker.link) == Light::None &&
+         !lets_people_go(e.model, e.scene, driver.row(), walker.at.connection);
 }
 
 }  // namespace
 
-Encounter meet(const TrafficView& view, const Traveller& subject, const PathLink& link, bool at_red,
+Encounter meet(const TrafficView& view, const Traveller& traveller, const PathLink& link,
                const ConflictZone& zone, const Approach& foe) {
-  Encounter e{view,
-              subject,
-              link,
-              at_red,
-              zone,
-              foe,
-              view.model.road.connection(link.connection),
-              view.model.road.connection(zone.foe),
-              type_of(view.model.types, view.scene.type[subject.row]),
-              type_of(view.model.types, view.scene.type[foe.row]),
-              view.approaches.waiting(foe.row)};
-  const Path& path = *view.road.path(view.scene.path[subject.row]);
-  const Piece ours = as_travelled(path, link.stop_line, zone.begin, zone.end);
-  const Path& foe_path = *view.road.path(view.scene.path[foe.row]);
-  const double foe_link_begin = view.scene.path_along[foe.row] + 0.5 * foe.length - foe.front;
-  const Piece theirs = as_travelled(foe_path, foe_link_begin, zone.foe_begin, zone.foe_end);
-  e.zone.begin = ours.begin;
-  e.zone.end = ours.end;
-  e.zone.foe_begin = theirs.begin;
-  e.zone.foe_end = theirs.end;
-  e.foe_inside = has_entered(view.parameters, foe.front, theirs.begin);
-  e.foe_clears = clears_junction(view, foe.row, zone.foe, foe.front);
-  if (is_ignored_by(e)) e.zone.yields = true;
+  const Path& path = *view.road.path(view.scene.path[foe.row]);
+  Encounter e{
+      view, party_of(view, approach_of(traveller, link), link, {zone.begin, zone.end}, zone.yields),
+      party_of(view, foe, path.links[foe.link], {zone.foe_begin, zone.foe_end}, zone.foe_yields)};
+  e.unruled = zone.unruled && !e.a.at_red && !e.b.at_red;
+  if (disregards(e, e.a, e.b) || disregards(e, e.b, e.a)) {
+    e.a.yields = e.a.on_foot;
+    e.b.yields = e.b.on_foot;
+  }
   return e;
 }
 
 void foresee(Encounter& e) {
-  e.theirs = occupation(e, e.foe, e.zone.foe_begin, e.zone.foe_end);
-  // nobody on foot counts on a vehicle that stands to have passed by the time that it gets there
-  if (rests_in_area(e) || (e.foe.stands && is_on_foot(e, e.subject.row)))
-    e.theirs.end = Occupation::kNever;
-  e.ours = occupation(e, approach_of(e.subject, e.link), e.zone.begin, e.zone.end);
+  for (Party* one : {&e.a, &e.b})
+    one->stay = occupation(e, one->at, one->area.begin, one->area.end);
 }
 
 bool is_on_foot(const TrafficView& view, std::size_t row) {
@@ -80,69 +82,46 @@ bool has_waited_longer(const TrafficView& view, std::size_t row, std::size_t oth
   return own > their || (own == their && view.scene.id[row] < view.scene.id[other]);
 }
 
-bool waits_for_subject(const Encounter& e) {
-  return e.foe.stands && e.foe_waits.foe == e.scene.id[e.subject.row].value;
+bool is_past_line(const Encounter& e, const Party& one) {
+  // who goes at red waits before the junction, not on it; who rolls out beyond its place there
+  // has come to rest at it all the same, as long as it isn't in the area
+  const WaitingPlace place = waiting_place(e.parameters, one.on_path, one.area.begin);
+  if (one.at_red || !place.inside) return one.at.front > e.parameters.line_tolerance;
+  return one.at.front > place.along - one.on_path.stop_line + 2.0 * e.parameters.line_tolerance;
 }
 
-bool has_set_out_from(const Encounter& e, double place) {
-  const RoadContext& before = e.scene.context[e.subject.row];
+bool may_halt(const Party& one) { return stops_at_ease(one.at.speed, one.to_area(), one.type); }
+
+bool is_on_junction(const Encounter& e, const Party& one) {
+  const Path& path = *e.road.path(e.scene.path[one.row()]);
+  const double front = one.on_path.stop_line + one.at.front;
+  const auto first = path.link_from(front - one.at.length);
+  return first != path.links.end() && first->stop_line + 0.3 < front;
+}
+
+bool has_halted(const Encounter& e, const Party& one) {
+  const ConnectionId halted_for = e.traffic.halted_for[one.row()];
+  return halted_for != kNoConnection &&
+         halted_for == halt_counts_for(e.model.road, *e.road.path(e.scene.path[one.row()]),
+                                       one.on_path, one.at.length);
+}
+
+bool has_set_out_from(const Encounter& e, const Party& one, double place) {
+  const RoadContext& before = e.scene.context[one.row()];
   return before.active &&
          (before.reason == LimitReason::None || before.reason == LimitReason::Leader) &&
-         e.subject.front > place + e.parameters.line_tolerance;
+         one.on_path.stop_line + one.at.front > place + e.parameters.line_tolerance;
 }
 
-bool lets_subject_go(const Encounter& e) {
-  const bool both_on_junction = e.foe.front > 0.0 && is_on_junction(e);
-  if (!e.foe.stands || (both_on_junction && e.foe.speed > e.parameters.moving_speed)) return false;
-  switch (e.foe_waits.reason) {
-    case LimitReason::Signal:
-    case LimitReason::Stop:
-    case LimitReason::BlockedJunction:
-    case LimitReason::GivesWay:
-    case LimitReason::TurningRoom:
-    case LimitReason::LetsIn:
-    case LimitReason::Merge:
-    case LimitReason::Leader:  // it stands in a queue, be it behind us
-      return true;
-    case LimitReason::Yield:
-    case LimitReason::Crossing:
-      break;
-    default:
-      return false;
-  }
-  const std::size_t row = e.subject.row;
-  const bool for_subject = e.foe_waits.foe == e.scene.id[row].value;
-  const bool on_foot = is_on_foot(e, row);
-  if (for_subject && on_foot != is_on_foot(e, e.foe.row)) return on_foot;
-  // it has waited long for a third one and isn't about to go
-  const bool has_set_out = on_foot && has_set_out_from(e, e.link.halt);
-  if (!for_subject && waited(e, e.foe.row) >= Patience::Impatient &&
-      (waited(e, row) >= Patience::Waiting || has_set_out))
-    return true;
-  return has_waited_longer(e, row, e.foe.row);
+bool waits_for(const Encounter& e, const Party& one, const Party& other) {
+  return one.at.stands && one.waits.foe == static_cast<std::int64_t>(e.scene.id[other.row()].value);
 }
 
-bool is_past_line(const Encounter& e) {
-  // who goes at red waits before the junction, not on it; who rolls out beyond its place there
-  // has come to rest at it all the same, as long as it isn't in the zone
-  const WaitingPlace place = waiting_place(e.parameters, e.link, e.zone.begin);
-  if (e.at_red || !place.inside)
-    return e.subject.front > e.link.stop_line + e.parameters.line_tolerance;
-  return e.subject.front > place.along + 2.0 * e.parameters.line_tolerance;
-}
-
-bool foe_may_halt(const Encounter& e) {
-  return stops_at_ease(e.foe.speed, e.zone.foe_begin - e.foe.front, e.foe_type);
-}
-
-bool is_on_junction(const Encounter& e) {
-  const Path& path = *e.road.path(e.scene.path[e.subject.row]);
-  const auto first = path.link_from(e.subject.front - e.subject.length);
-  return first != path.links.end() && first->stop_line + 0.3 < e.subject.front;
-}
-
-double impatience(const Encounter& e) {
-  return impatience_after(e.parameters, e.traffic.waiting_time[e.subject.row]);
+bool gets_past(const Encounter& e, const Party& one, const Party& standing) {
+  if (one.on_foot) return true;
+  const Traveller traveller{one.row(), one.on_path.stop_line + one.at.front, one.at.length,
+                            one.at.speed};
+  return stands_beside(e, traveller, one.on_path, one.area.begin, one.area.end, standing.at);
 }
 
 bool holds_up(const TrafficView& view, std::size_t row, double past_line) {

@@ -2,30 +2,39 @@
 
 #include "traffic/junction/arbitration.h"
 #include "traffic/junction/occupation.h"
+#include "traffic/junction/waiting_place.h"
 
 namespace sumogamma {
 
-/// Two who come to one conflict area, seen by one of them, the subject; the other is its foe. What
-/// several laws ask of the pair stands here, each under its own name.
-struct Encounter : TrafficView {
-  const Traveller& subject;
-  const PathLink& link;  ///< the subject's
-  bool at_red = false;   ///< the subject goes over its link at red, where the way is free
-  ConflictZone zone;     ///< both pieces as they are travelled; `yields`: the subject does
-  const Approach& foe;
-  const Connection& own_link;
-  const Connection& foe_link;
-  const AgentType& own_type;
-  const AgentType& foe_type;
-  const Waiting& foe_waits;     ///< what held the foe a tick ago
-  bool foe_inside = false;      ///< its front has entered the area
-  bool foe_clears = false;      ///< it clears the junction after its light changed
-  Occupation ours{}, theirs{};  ///< of the area, filled where it comes to that
-  double to_line() const { return link.stop_line - subject.front; }  ///< [m], < 0 past it
+/// One of the two who come to a conflict area. Lengths are [m past its link's begin].
+struct Party {
+  Approach at;              ///< its front, speed and length on the way over its link
+  const PathLink& on_path;  ///< the link as its path has it
+  const Connection& link;
+  const AgentType& type;
+  const Waiting& waits;  ///< what held it a tick ago
+  Piece area;            ///< as it travels it
+  bool on_foot = false;
+  bool at_red = false;  ///< it goes over its link at red, where the way is free
+  bool yields = false;  ///< the law has it give way to the other
+  bool inside = false;  ///< its front has entered the area
+  bool clears = false;  ///< it clears the junction after its light changed
+  bool rests = false;   ///< as things are, it will come to rest in the area
+  Occupation stay{};    ///< in the area, filled by `foresee`
+
+  std::size_t row() const { return at.row; }
+  double to_area() const { return area.begin - at.front; }
 };
 
-/// The pair's encounter in a zone of the link's table. `zone` holds for bodies of their widths.
-Encounter meet(const TrafficView& view, const Traveller& subject, const PathLink& link, bool at_red,
+/// Two who come to one conflict area, the same whoever of them asks.
+struct Encounter : TrafficView {
+  Party a, b;
+  bool unruled = false;  ///< no rule says who goes first
+};
+
+/// The encounter of a traveller, the first party, with who approaches by the link of a zone of its
+/// own link's table. `zone` holds for bodies of their widths.
+Encounter meet(const TrafficView& view, const Traveller& traveller, const PathLink& link,
                const ConflictZone& zone, const Approach& foe);
 
 /// When either is in the area.
@@ -44,29 +53,27 @@ bool has_entered(const TrafficParameters& parameters, double past, double begin)
 /// Has a row waited for longer than another? The smaller id where they began together.
 bool has_waited_longer(const TrafficView& view, std::size_t row, std::size_t other);
 
-/// Does the foe stand and wait for the subject itself?
-bool waits_for_subject(const Encounter& e);
+/// Is one past its line, or past its place to wait on the junction?
+bool is_past_line(const Encounter& e, const Party& one);
 
-/// Was the subject free to go a tick ago, and is it past `place` [m along its path], where it would
-/// wait? Who has looked and set out needn't look again.
-bool has_set_out_from(const Encounter& e, double place);
+/// Can one still halt at ease before the area?
+bool may_halt(const Party& one);
 
-/// Does a foe that stands and waits let the subject go first? It waits for a signal or in a queue,
-/// for this very agent, or it came later. Of two that wait for each other exactly one goes: who is
-/// on foot, else who has waited longer.
-bool lets_subject_go(const Encounter& e);
+/// Is some of its body on a junction, this one or one before?
+bool is_on_junction(const Encounter& e, const Party& one);
 
-/// Is the subject past its line, or past its place to wait on the junction?
-bool is_past_line(const Encounter& e);
+/// Has it halted before its link, or where a halt counts for that?
+bool has_halted(const Encounter& e, const Party& one);
 
-/// Can the foe still halt at ease before the area?
-bool foe_may_halt(const Encounter& e);
+/// Was one free to go a tick ago, and is it past `place` [m along its path], where it would wait?
+/// Who has looked and set out needn't look again.
+bool has_set_out_from(const Encounter& e, const Party& one, double place);
 
-/// Is some of the subject's body on a junction, this one or one before?
-bool is_on_junction(const Encounter& e);
+/// Does one stand and wait for the other?
+bool waits_for(const Encounter& e, const Party& one, const Party& other);
 
-/// From 0 to 1 while the subject waits (Daganzo's and SUMO's impatience).
-double impatience(const Encounter& e);
+/// Does a body that stands leave free what another sweeps of the area?
+bool gets_past(const Encounter& e, const Party& one, const Party& standing);
 
 /// Is somebody on wheels on the junction, past its line, in the way of one with the right of way?
 /// The sooner it is gone the less of the green is lost.

@@ -8,6 +8,7 @@
 #include "model/stopping_guard.h"
 #include "scene/extent.h"
 #include "support/road_scene.h"
+#include "traffic/junction/laws.h"
 #include "traffic/patience.h"
 
 namespace sumogamma {
@@ -122,6 +123,67 @@ TEST_P(Encounters, OfTwoAtTheirLinesOneGoesFirst) {
         << " from " << way(pair.second);
   }
   EXPECT_GT(met, 10);
+}
+
+/// What another means for a row where their first links conflict; none where they don't.
+std::optional<Verdict> verdict_of(const RoadScene& here, std::size_t row, std::size_t other) {
+  const TrafficView view = here.view();
+  const PathLink &link = here.path(row).links.front(), &their = here.path(other).links.front();
+  const EgoOnPath& ego = view.perception.ego[row];
+  const Traveller traveller{row, ego.along + ego.half_length, 2.0 * ego.half_length, ego.speed};
+  const bool wide = is_wide(here.scene, row) || is_wide(here.scene, other);
+  for (const ConflictZone& of_table : here.model.conflicts[index_of(link.connection)]) {
+    const auto zone = zone_for(of_table, wide);
+    if (of_table.foe != their.connection || !zone) continue;
+    for (const Approach& foe : view.approaches.of(their.connection))
+      if (foe.row == other) return judge(meet(view, traveller, link, *zone, foe));
+  }
+  return {};
+}
+
+// wherever two are, however fast and for how long they have waited for whom: never both are told to
+// wait for the other, and one is where both drive and would be in the area at a time
+TEST_P(Encounters, WhoeverIsAskedOneAnswerGoesWithTheOther) {
+  const RoadNetwork network = read_plain_net(crossroads(GetParam()));
+  int met = 0;
+  for (std::uint64_t seed = 0; seed < 10 * kSeeds; ++seed) {
+    SCOPED_TRACE(seed);
+    RoadScene here(network);
+    const Pair pair = draw_pair(here, seed);
+    Drawn drawn(here, seed + 10 * kSeeds);
+    const auto draw = [&](double low, double high) {
+      return low + (high - low) * static_cast<double>(drawn.below(1000)) / 1000.0;
+    };
+    for (const std::size_t row : {pair.first, pair.second}) {
+      here.set_speed(row, std::max(draw(-4.0, 14.0), 0.0));
+      here.move(row, here.scene.path_along[row] - draw(-8.0, 40.0));
+      here.traffic.waiting_time[row] = std::max(draw(-60.0, 60.0), 0.0);
+    }
+    here.update();
+    for (const std::size_t row : {pair.first, pair.second}) {
+      static const std::vector<LimitReason> kReasons{LimitReason::None, LimitReason::Yield,
+                                                     LimitReason::Leader, LimitReason::LetsIn,
+                                                     LimitReason::BlockedJunction};
+      const std::size_t other = row == pair.first ? pair.second : pair.first;
+      here.scene.context[row].reason = kReasons[drawn.below(kReasons.size())];
+      here.scene.context[row].foe = static_cast<std::int64_t>(other);
+      here.scene.held[row].standing = here.traffic.waiting_time[row];
+    }
+    here.update();
+    const auto first = verdict_of(here, pair.first, pair.second);
+    const auto second = verdict_of(here, pair.second, pair.first);
+    if (!first || !second) continue;
+    EXPECT_FALSE(first == Verdict::Blocks && second == Verdict::Blocks) << "both wait";
+    const auto comes = [&](std::size_t row) {
+      const LimitReason why = here.approaches.waiting(row).reason;
+      const bool halts = why == LimitReason::LetsIn || why == LimitReason::BlockedJunction;
+      return here.scene.speed[row] > 1.0 && here.past_line(row) < 0.0 && !halts;
+    };
+    if (!comes(pair.first) || !comes(pair.second) || !would_meet(here, pair)) continue;
+    ++met;
+    EXPECT_TRUE(first == Verdict::Blocks || second == Verdict::Blocks) << "both go";
+  }
+  EXPECT_GT(met, 20);
 }
 
 // four who stand at their lines and wait for one another in a ring have somebody go before they are
