@@ -55,8 +55,7 @@ AgentTypeTable default_agent_types() {
        .attention_front = 12.0,
        .attention_rear = 3.0,
        .headway = 1.0,
-       .min_gap = 0.5,
-       .cyclist = true});
+       .min_gap = 0.5});
   add({.name = "motorcycle",
        .sumo_class = "motorcycle",
        .length = 2.2,
@@ -176,8 +175,7 @@ AgentTypeTable default_agent_types() {
        .attention_front = 12.0,
        .attention_rear = 3.0,
        .headway = 1.1,
-       .min_gap = 0.8,
-       .cyclist = true});
+       .min_gap = 0.8});
   add({.name = "gyro_scooter",
        .sumo_class = "moped",
        .length = 0.5,
@@ -197,8 +195,7 @@ AgentTypeTable default_agent_types() {
        .attention_front = 8.0,
        .attention_rear = 2.0,
        .headway = 0.9,
-       .min_gap = 0.4,
-       .cyclist = true});
+       .min_gap = 0.4});
   // front loaders are 2.5 to 2.6 m long (Riese + Mueller Load: Bike, 28 June 2016; Urban Arrow
   // Family: 8.5 ft); width, wheelbase and lock are assumed, the rest is a bicycle's, slower with a
   // load
@@ -221,8 +218,7 @@ AgentTypeTable default_agent_types() {
        .attention_front = 12.0,
        .attention_rear = 3.0,
        .headway = 1.0,
-       .min_gap = 0.5,
-       .cyclist = true});
+       .min_gap = 0.5});
   // on rails and on water: SUMO moves them, the others have to know their size and how they brake
   // (rail vehicles: SUMO's vClass defaults; service brakes)
   const AgentType rail{.name = "tram",

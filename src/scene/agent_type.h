@@ -45,7 +45,6 @@ struct AgentType {
   double min_gap = 0;                              ///< standstill gap to a leader [m]
   double critical_gap = 1.0;     ///< left before whoever has the right of way in a place where ways
                                  ///< cross [s]: HCM's critical headway less the time of crossing
-  bool cyclist = false;          ///< rides at the kerb, and by the rules for bicycles
   bool guided = false;           ///< on rails or on water: SUMO alone moves it
   Compliance compliance{};       ///< how far it keeps the rules, and how its agents differ
   std::int32_t variant_of = -1;  ///< row that it counts as and whose name it has; -1: itself

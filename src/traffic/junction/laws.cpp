@@ -4,7 +4,6 @@
 #include <span>
 
 #include "model/stopping_guard.h"
-#include "scene/extent.h"
 #include "traffic/junction/long_wait.h"
 #include "traffic/longitudinal/car_following.h"
 #include "traffic/longitudinal/merging.h"
@@ -95,15 +94,12 @@ bool apart_in_time(const Encounter& e, const Party& x, const Party& y) {
 
 /// Who has backed out of a deadlock lets everybody past, wherever it stands, and so does who leaves
 /// room for a long body or lets one in. Whom bodies hold isn't coming, and past the line it is no
-/// use to wait for it; nor who creeps out of where it was stuck.
+/// use to wait for it.
 bool lets_past(const Encounter& e, const Party& x, const Party& y) {
   const LimitReason why = y.waits.reason;
   const bool for_others =
       why == LimitReason::GivesWay || why == LimitReason::TurningRoom || why == LimitReason::LetsIn;
-  if (y.at.stands && (for_others || (y.waits.blocked && (!y.inside || is_on_junction(e, x)))))
-    return true;
-  return !y.inside && y.link.signal == kNoSignal && is_wedged(e.scene, y.row()) &&
-         y.at.speed < e.parameters.crawling_speed && waited(e, y.row()) >= Patience::Pressing;
+  return y.at.stands && (for_others || (y.waits.blocked && (!y.inside || is_on_junction(e, x))));
 }
 
 /// All-way stop: who has halted goes in the order in which they came.
@@ -115,18 +111,6 @@ bool all_way_stop(const Encounter& e, const Party& x, const Party& y) {
   const double own = x.waits.halted_at, their = y.waits.halted_at;
   return !has_halted(e, y) || own < their ||
          (own == their && e.scene.id[x.row()] < e.scene.id[y.row()]);
-}
-
-/// Both have to give way to others here, with no signal between them: who has begun to cross
-/// finishes, whoever of the two would go first at the line. Nobody is caught on the junction.
-bool has_begun_to_cross(const Encounter& e, const Party& x, const Party& y) {
-  const auto minor = [&](const Connection& c) {
-    return (c.priority == LinkPriority::Minor || c.priority == LinkPriority::Stop ||
-            c.priority == LinkPriority::Equal) &&
-           e.road.signal(c) == Light::None && e.model.road.lane(c.to).kind != LaneKind::Crossing;
-  };
-  return minor(x.link) && minor(y.link) && x.at.front > 0.3 && x.at.speed > 0.5 &&
-         y.at.front < 0.0 && stops_at_ease(y.at.speed, -y.at.front, y.type);
 }
 
 /// Who is left on the junction from an earlier phase leaves it before others come.
@@ -174,31 +158,10 @@ bool waits_for_x(const Encounter& e, const Party& x, const Party& y) {
   return waits_for(e, y, x) && ((!x.yields && !y.inside) || lets_go(e, x, y));
 }
 
-/// Is x, on wheels, driving by somebody who has waited for long for a third one?
-bool drives_by(const Encounter& e, const Party& x, const Party& y) {
-  return !x.on_foot && has_set_out_from(e, x, x.on_path.stop_line) &&
-         y.waits.reason == LimitReason::Yield && !waits_for(e, y, x) &&
-         waited(e, y.row()) >= Patience::Impatient;
-}
-
-/// Have both stood on the junction for long, or for some seconds in a ring of those who wait for
-/// one another? Conflict zones are wider than bodies: whoever isn't waited for by rule alone tries.
-bool is_deadlock(const Encounter& e, const Party& x, const Party& y) {
-  const Patience both = std::min(waited(e, x.row()), waited(e, y.row()));
-  if (!is_on_junction(e, x) || both < Patience::Waiting) return false;
-  if (both < Patience::Pressing && !e.waits.in_ring(x.row())) return false;
-  const LimitReason reason = y.waits.reason;
-  const bool yields = reason == LimitReason::Yield || reason == LimitReason::Crossing;
-  // who isn't held by a rule and moves has begun to try
-  return yields ? has_waited_longer(e, x.row(), y.row()) : y.at.speed < e.parameters.moving_speed;
-}
-
 /// A foe stands in the area, and there is a way past it: on foot one walks round what stands on the
 /// crossing, on wheels past what stands beside the way.
 bool passes_by(const Encounter& e, const Party& x, const Party& y) {
-  if (!y.inside) return false;
-  return is_deadlock(e, x, y) ||
-         (y.at.stands && (lets_go(e, x, y) || drives_by(e, x, y)) && gets_past(e, x, y));
+  return y.inside && y.at.stands && lets_go(e, x, y) && gets_past(e, x, y);
 }
 
 bool leaves_in_time(const Encounter&, const Party& x, const Party& y) {
@@ -206,25 +169,6 @@ bool leaves_in_time(const Encounter&, const Party& x, const Party& y) {
 }
 
 bool is_inside(const Encounter&, const Party& x, const Party&) { return x.inside; }
-
-/// Does a foe creep up to somebody who stands before the area? Who has waited for some time crosses
-/// such a queue before it, too, not only where it happens to stand.
-bool ends_in_queue(const Encounter& e, const Party& x, const Party& y) {
-  if (y.link.to == x.link.to || y.link.signal != kNoSignal ||
-      waited(e, x.row()) < Patience::Stuck || y.waits.reason != LimitReason::Leader)
-    return false;
-  const std::size_t leader = e.waits.foe(y.row());
-  if (leader == e.scene.size() || e.scene.speed[leader] > e.parameters.standing_speed) return false;
-  const Vec2 forward = direction_of(e.scene.heading[y.row()]);
-  const double gap = (e.scene.position[leader] - e.scene.position[y.row()]).norm() -
-                     0.5 * y.at.length - half_extent(e.scene, leader, forward);
-  return y.at.front + gap - y.type.min_gap < y.area.begin;
-}
-
-/// A foe that stands in a queue, or waits for others, lets x go.
-bool waits_itself(const Encounter& e, const Party& x, const Party& y) {
-  return (lets_go(e, x, y) && !starves(e, x, y)) || ends_in_queue(e, x, y);
-}
 
 bool comes_earlier(const Encounter& e, const Party& x, const Party& y) {
   return x.stay.begin < y.stay.begin ||
@@ -257,22 +201,15 @@ bool has_priority(const Encounter&, const Party& x, const Party& y) {
 
 constexpr Law kAtSight[] = {
     {goes_on, Effect::YPasses}, {waits_at_red, Effect::YPasses}, {halts_anyway, Effect::YStands}};
-constexpr Law kInTime[] = {{has_passed, Effect::YPasses},
-                           {apart_in_time, Effect::YPasses},
-                           {lets_past, Effect::YStands},
-                           {all_way_stop, Effect::XGoesFirst},
-                           {has_begun_to_cross, Effect::XGoesFirst},
-                           {clears_first, Effect::XGoesFirst},
-                           {is_owed_its_way, Effect::XGoesFirst},
-                           {waits_for_x, Effect::YStands},
-                           {passes_by, Effect::YStands},
-                           {leaves_in_time, Effect::YPasses},
-                           {is_inside, Effect::XGoesFirst},
-                           {waits_itself, Effect::YStands},
-                           {cannot_stop, Effect::XGoesFirst},
-                           {comes_first, Effect::XGoesFirst},
-                           {has_priority, Effect::XGoesFirst},
-                           {comes_earlier, Effect::XGoesFirst}};
+constexpr Law kInTime[] = {
+    {has_passed, Effect::YPasses},      {apart_in_time, Effect::YPasses},
+    {lets_past, Effect::YStands},       {all_way_stop, Effect::XGoesFirst},
+    {clears_first, Effect::XGoesFirst}, {is_owed_its_way, Effect::XGoesFirst},
+    {waits_for_x, Effect::YStands},     {passes_by, Effect::YStands},
+    {leaves_in_time, Effect::YPasses},  {is_inside, Effect::XGoesFirst},
+    {lets_go, Effect::YStands},         {cannot_stop, Effect::XGoesFirst},
+    {comes_first, Effect::XGoesFirst},  {has_priority, Effect::XGoesFirst},
+    {comes_earlier, Effect::XGoesFirst}};
 
 /// What the first of some laws that decides says to the first party.
 std::optional<Verdict> ask(std::span<const Law> laws, const Encounter& e) {
