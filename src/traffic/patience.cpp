@@ -40,6 +40,10 @@ bool has_come_to_a_halt(const TrafficView& view, std::size_t row) {
   return view.scene.held[row].standing >= view.parameters.reaction_time;
 }
 
+bool has_moved_within(const TrafficView& view, std::size_t row, double duration) {
+  return view.scene.held[row].standing < duration;
+}
+
 bool is_out_of_patience(const TrafficView& view, std::size_t row) {
   const double least = view.parameters.pressing, most = view.parameters.stuck;
   const auto stretch = static_cast<std::uint64_t>(view.scene.time / most);

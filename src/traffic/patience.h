@@ -34,6 +34,8 @@ Patience halted(const TrafficView& view, std::size_t row);
 
 /// Has a row stood for a moment, so that it has come to a halt?
 bool has_come_to_a_halt(const TrafficView& view, std::size_t row);
+/// Has a row moved in the last so many seconds?
+bool has_moved_within(const TrafficView& view, std::size_t row, double duration);
 /// Has a row been blocked for longer than it bears? Drawn between Pressing and Stuck, anew for each
 /// stretch of time, so that of several who are wedged one is the first.
 bool is_out_of_patience(const TrafficView& view, std::size_t row);

@@ -1,7 +1,7 @@
 """Checks the rules of the road (src/traffic): every column of what they remember has one writer, every tunable stands in one place, and
 clocks are compared in one place, the grid of agents has one reader.
 
-usage: traffic.py PROJECT_FOLDER [--list]
+usage: traffic.py PROJECT_FOLDER
 
 A column is a member of `struct TrafficState` in src/traffic/traffic_state.h that is a std::vector. Who writes it: the pair of .h and
 .cpp that assigns to it or to an entry, changes its size, or binds it to a reference or pointer that isn't const. traffic_state.h and
@@ -25,8 +25,6 @@ HEADER = "src/traffic/traffic_state.h"
 PARAMETERS = r"src/traffic/parameters\.(h|cpp)"
 PATIENCE = "src/traffic/patience.cpp"
 CLOCK = r"(?:\.|->)(?:waiting_time|standing|blocked|keeps_clear|halted_at|stood_at)\b"
-# by file, how often a clock is still compared elsewhere: numbers that only get smaller
-STILL_COMPARED = {"src/traffic/recovery/reversing.cpp": 2}
 PERCEPTION = "src/traffic/perception"
 FAR = {"src/traffic/longitudinal/leader.cpp": 1}  # calls of visit_storey by file
 GRID = re.compile(r"\bvisit_(?:within|runs)\s*\(")
@@ -137,29 +135,17 @@ def compared_clocks(root, paths):
                 yield path, begin + line_of(text, place)
 
 
-def check_clocks(root, paths, shown):
-    found = defaultdict(list)
-    for path, number in compared_clocks(root, paths):
-        found[path].append(f"{path}:{number}: a clock is compared with seconds, which is for {PATIENCE}")
-    complaints = []
-    for path, texts in sorted(found.items()):
-        if shown:
-            print("\n".join(texts))
-        if len(texts) > STILL_COMPARED.get(path, 0):
-            complaints += texts
-    for path, most in STILL_COMPARED.items():
-        if path in paths and len(found[path]) < most:
-            print(f"STILL_COMPARED says {most} of {path}, now there are {len(found[path])}: lower it")
-    return complaints
+def check_clocks(root, paths):
+    return [f"{path}:{number}: a clock is compared with seconds, which is for {PATIENCE}" for path, number in compared_clocks(root, paths)]
 
 
-def main(root, shown):
+def main(root):
     paths = [p for p in project_files(root) if p.startswith("src/traffic/") and p.endswith((".h", ".cpp"))]
     complaints, checked = check_columns(root, paths)
     complaints += [f"{path}:{number}: {name} belongs into src/traffic/parameters.h" for path, number, name in tunables(root, paths)]
-    complaints += check_clocks(root, paths, shown)
+    complaints += check_clocks(root, paths)
     complaints += queries(root, paths)
     finish("traffic", complaints, checked + len(paths))
 
 
-main(sys.argv[1], "--list" in sys.argv)
+main(sys.argv[1])

@@ -182,14 +182,13 @@ Backing go_on_backing(const TrafficView& view, std::size_t row, double dt, Backi
   const Scene& scene = view.scene;
   const TrafficParameters& parameters = view.parameters;
   const bool moved_on = scene.speed[row] > parameters.slow_walk;
-  const double standing = scene.held[row].standing;
+  const double since = parameters.backing_time - now.left - parameters.reaction_time;
   const bool no_further = scene.context[row].reason == LimitReason::Merge &&
-                          backward_speed(scene, row) < 1e-2 &&
-                          standing < parameters.backing_time - now.left - parameters.reaction_time;
+                          backward_speed(scene, row) < 1e-2 && has_moved_within(view, row, since);
   const double left = moved_on || no_further ? 0.0 : now.left - dt;
   if (left > 0.0) return {left, now.gives_way};
   // who made room for somebody follows it again
-  const bool rolled = standing < parameters.backing_time;
+  const bool rolled = has_moved_within(view, row, parameters.backing_time);
   const bool for_itself = scene.context[row].reason != LimitReason::Leader;
   return {0.0, rolled && for_itself && !moved_on ? courtesy(view, row) : 0.0};
 }
