@@ -25,7 +25,7 @@ Polyline link_geometry(const RoadNetwork& network, ConnectionId id) {
       }
     lane = next;
   }
-  return Polyline(std::move(points));
+  return Polyline(points);
 }
 
 bool is_driven(const RoadNetwork& network, ConnectionId id) {
@@ -73,7 +73,7 @@ Path rounded_way(const RoadNetwork& network, std::span<const ConnectionId> ids, 
     const Polyline& to = network.lane(connection.to).centerline;
     append(to, 0.0, id == ids.back() ? std::min(after, to.length()) : to.length(), connection.to);
   }
-  path.line = Polyline(std::move(points));
+  path.line = Polyline(points);
   round_corners(cornering, path);
   move_stop_lines(network, path);
   return path;
@@ -113,7 +113,7 @@ Polyline driven_way(const RoadNetwork& network, ConnectionId id, double before) 
   if (path.links.empty()) return {};
   std::vector<Vec2> driven;
   append_span(path.line, path.links.front().stop_line - before, path.links.front().end, driven);
-  return Polyline(std::move(driven));
+  return Polyline(driven);
 }
 
 LinkShape shape_of(const RoadNetwork& network, ConnectionId id) {

@@ -129,7 +129,7 @@ class Builder {
   }
 
   Path finish() {
-    path_.line = Polyline(std::move(points_));
+    path_.line = Polyline(points_);
     round_corners(request_.cornering, path_);
     move_stop_lines(network_, path_);
     path_.arrival = path_.line.length();

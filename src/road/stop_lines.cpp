@@ -30,7 +30,7 @@ Way way_through(const RoadNetwork& network, ConnectionId id) {
   const Lane& to = network.lane(network.connection(id).to);
   std::vector<Vec2> after;
   append_span(to.centerline, 0.0, std::min(kAfter, to.centerline.length()), after);
-  Way way{link_geometry(network, id), Polyline(std::move(after)), to.width};
+  Way way{link_geometry(network, id), Polyline(after), to.width};
   const Vec2 margin = Vec2::Constant(kRoom + 1e-6);
   for (const Polyline* line : {&way.link, &way.after})
     for (const Vec2& point : line->points()) {

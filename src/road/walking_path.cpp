@@ -122,7 +122,7 @@ bool cut_fold(Path& path) {
       else if (along > tip - cut)
         along = tip - cut + bridge * (along - tip + cut) / (2.0 * cut);
     });
-    path.line = Polyline(std::move(shorter));
+    path.line = Polyline(shorter);
     return true;
   }
   return false;
@@ -188,7 +188,7 @@ class Walk {
   }
 
   Path finish(const PathRequest& request) {
-    path_.line = Polyline(std::move(points_));
+    path_.line = Polyline(points_);
     while (cut_fold(path_)) {
     }
     path_.arrival = path_.line.length();
