@@ -181,18 +181,23 @@ bool cannot_stop(const Encounter&, const Party& x, const Party& y) {
          deceleration_to_stop(x.at.speed, x.to_area()) > 0.7 * x.type.max_deceleration;
 }
 
-/// No rule for this pair, or whoever has to wait is past its line already and on its way: who gets
+/// Who has to wait, but stands past its line already, goes where it is the first to get there and
+/// makes nobody brake hard. The other isn't told to wait until it sees x come out: rings fill up
+/// where those in them halt for who might come in.
+bool slips_in(const Encounter& e, const Party& x, const Party& y) {
+  return x.yields && is_past_line(e, x) && comes_earlier(e, x, y) && may_halt(y);
+}
+
+/// No rule for this pair, or whoever has to wait is past its line already and comes out: who gets
 /// there first goes first, the other sees that and brakes at ease now. Nobody who has to wait makes
 /// a foe brake hard.
 bool comes_first(const Encounter& e, const Party& x, const Party& y) {
   const auto too_late = [&](const Party& one) { return one.yields && is_past_line(e, one); };
   if (!e.unruled && !too_late(x) && !too_late(y)) return false;
-  const bool for_y = waits_for(e, x, y);
-  const bool comes =
-      x.at.speed > e.parameters.moving_speed || for_y || x.waits.reason == LimitReason::None;
-  const bool on_its_way =
-      comes && (e.unruled || for_y || e.approaches.rest_of(x.at) > x.area.begin);
-  return on_its_way && comes_earlier(e, x, y) && !(x.yields && !may_halt(y));
+  const bool comes_out = x.at.speed > e.parameters.moving_speed &&
+                         e.approaches.rest_of(x.at) > x.area.begin &&
+                         x.stay.begin < e.parameters.outlook;
+  return (e.unruled || comes_out) && comes_earlier(e, x, y) && !(x.yields && !may_halt(y));
 }
 
 bool has_priority(const Encounter&, const Party& x, const Party& y) {
@@ -208,8 +213,8 @@ constexpr Law kInTime[] = {
     {waits_for_x, Effect::YStands},     {passes_by, Effect::YStands},
     {leaves_in_time, Effect::YPasses},  {is_inside, Effect::XGoesFirst},
     {lets_go, Effect::YStands},         {cannot_stop, Effect::XGoesFirst},
-    {comes_first, Effect::XGoesFirst},  {has_priority, Effect::XGoesFirst},
-    {comes_earlier, Effect::XGoesFirst}};
+    {slips_in, Effect::YPasses},        {comes_first, Effect::XGoesFirst},
+    {has_priority, Effect::XGoesFirst}, {comes_earlier, Effect::XGoesFirst}};
 
 /// What the first of some laws that decides says to the first party.
 std::optional<Verdict> ask(std::span<const Law> laws, const Encounter& e) {
