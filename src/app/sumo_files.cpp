@@ -113,7 +113,9 @@ VehiclePlace SumoFiles::place_of(std::size_t row, const KnownAgent& known) {
   return place;
 }
 
-bool SumoFiles::shows_persons() const { return asks_for(run_.plan, "fcd-output"); }
+bool SumoFiles::shows_persons() const {
+  return asks_for(run_.plan, "fcd-output") || asks_for(run_.plan, "person-summary-output");
+}
 
 void SumoFiles::see(std::size_t row, bool with_persons) {
   const Scene& scene = run_.sim.scene;

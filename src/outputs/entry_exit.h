@@ -29,7 +29,7 @@ class EntryExit final : public StepOutput {
     double way = 0, way_in_interval = 0;     ///< speeds summed up over time [m]
     double loss_before = 0, loss_noted = 0;  ///< its time loss when it came; at the interval's
                                              ///< begin [s]
-    double halts_since = -1;  ///< negative: it moves [s]
+    double halts_since = -1;                 ///< negative: it moves [s]
     std::int64_t halts = 0, halts_in_interval = 0;
   };
   struct Left {

@@ -163,7 +163,10 @@ void RunOutputs::sum_up(const SeenStep& step) {
   SummaryFigures now;
   double speed = 0.0, relative = 0.0, number = 0.0;
   std::vector<bool> counted(vehicles_.size(), false);
+  now.driven = step.waiting_vehicles > 0;
   for (const SeenAgent& agent : step.agents) {
+    walked_ |= agent.is_person && agent.driven;
+    now.driven |= !agent.is_person && agent.driven;
     if (agent.is_person || counted[agent.place.vehicle]) continue;
     counted[agent.place.vehicle] = true;
     if (agent.place.speed < kHalting) ++now.halting;
@@ -176,6 +179,7 @@ void RunOutputs::sum_up(const SeenStep& step) {
     now.speed = speed / number;
     now.relative_speed = relative / number;
   }
+  now.walked = walked_;
   now.waiting = step.waiting_vehicles;
   now.riding = step.riding;
   now.waited = waited_;

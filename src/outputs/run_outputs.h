@@ -92,6 +92,7 @@ class RunOutputs {
   std::map<std::filesystem::path, std::shared_ptr<SumoFile>> files_;
   std::vector<std::unique_ptr<StepOutput>> outputs_;
   std::optional<FcdPlaces> fcd_;
+  bool walked_ = false;  ///< GAMMA has moved people
   bool finished_ = false;
 };
 

@@ -179,7 +179,7 @@ void write_summary(const fs::path& from, const fs::path& to, const Summary& summ
                    int precision) {
   copy_lines(from, to, [&](XmlLine& line) {
     const SummaryFigures* now = figures_at(summary, line);
-    if (now == nullptr) return LineFate::Keep;
+    if (now == nullptr || !now->driven) return LineFate::Keep;
     const auto add = [&](std::string_view name, std::int64_t more) {
       line.set(name, std::to_string(std::lround(line.number(name)) + more));
     };
@@ -206,7 +206,7 @@ void write_summary(const fs::path& from, const fs::path& to, const Summary& summ
 void write_person_summary(const fs::path& from, const fs::path& to, const Summary& summary) {
   copy_lines(from, to, [&](XmlLine& line) {
     const SummaryFigures* now = figures_at(summary, line);
-    if (now == nullptr) return LineFate::Keep;
+    if (now == nullptr || !now->walked) return LineFate::Keep;
     // SUMO counts a walk anew whenever a person is moved, and takes it off who rides
     const long both = std::lround(line.number("walking") + line.number("riding"));
     const long riding = std::min(static_cast<long>(now->riding), std::max(both, 0L));

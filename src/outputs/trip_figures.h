@@ -31,6 +31,8 @@ using Trips = std::map<std::string, TripFigures, std::less<>>;
 
 /// The traffic at the end of a step.
 struct SummaryFigures {
+  bool driven = false;         ///< GAMMA drives a vehicle: else SUMO's own figures are right
+  bool walked = false;         ///< GAMMA has moved people, which SUMO's counts don't survive
   std::int64_t waiting = 0;    ///< vehicles that SUMO has inserted and that wait for room
   std::int64_t halting = 0;    ///< vehicles on the road below 0.1 m/s
   double speed = -1;           ///< mean of those on the road that don't stop [m/s]
