@@ -58,8 +58,7 @@ class TripinfoWriter {
     set_number(line, "routeLength", trip.odometer.distance);
     set_time(line, "waitingTime", trip.odometer.waiting_time);
     line.set("waitingCount", std::to_string(trip.odometer.waiting_count));
-    // who parks away from all lanes is in no place of ours
-    set_time(line, "stopTime", std::max(line.number("stopTime"), trip.odometer.stop_time));
+    // stopTime is right: SUMO serves the stops
     set_time(line, "timeLoss", trip.odometer.time_loss);
     return LineFate::Rewrite;
   }
