@@ -22,13 +22,15 @@ EntryExit::EntryExit(const RoadNetwork& network, const AskedOutput& output,
 }
 
 void EntryExit::add(const OutputStep& step) {
-  for (const LanePassage& passage : step.passages()) {
-    if (!types_.counts(step.vehicle(passage))) continue;
-    enter(passage, step);
-    leave(passage, step);
-    if (passage.exit == LaneExit::Arrived || passage.exit == LaneExit::Taken)
-      within_.erase(passage.vehicle);
-  }
+  for (const Place& entry : entries_)
+    for (const LanePassage& passage : step.passages_on(entry.lane))
+      if (types_.counts(step.vehicle(passage))) enter(entry, passage, step);
+  for (const Place& exit : exits_)
+    for (const LanePassage& passage : step.passages_on(exit.lane)) leave(exit, passage, step);
+  if (!within_.empty())
+    for (const LanePassage& passage : step.passages())
+      if (passage.exit == LaneExit::Arrived || passage.exit == LaneExit::Taken)
+        within_.erase(passage.vehicle);
   go_on(step);
   if (intervals_.is_over(step.end, false)) write(step.end);
 }
@@ -37,39 +39,34 @@ void EntryExit::finish(double time) {
   if (intervals_.is_over(time, true)) write(time);
 }
 
-void EntryExit::enter(const LanePassage& passage, const OutputStep& step) {
-  for (const Place& entry : entries_) {
-    if (passage.lane != entry.lane || passage.from > entry.along || passage.to <= entry.along ||
-        within_.contains(passage.vehicle))
-      continue;
-    Within one;
-    // SUMO tells these times a step earlier than those of its other detectors
-    const double before = passage.passing_time(entry.along);
-    one.entered = passage.begin - step_ + before;
-    one.way = one.way_in_interval = passage.speed * (passage.duration - before);
-    one.halts_since = passage.speed < halting_speed_ ? one.entered : -1.0;
-    one.loss_before = one.loss_noted = step.motion.odometer(passage.vehicle).time_loss;
-    within_.emplace(passage.vehicle, one);
-  }
+void EntryExit::enter(const Place& entry, const LanePassage& passage, const OutputStep& step) {
+  if (passage.from > entry.along || passage.to <= entry.along || within_.contains(passage.vehicle))
+    return;
+  Within one;
+  // SUMO tells these times a step earlier than those of its other detectors
+  const double before = passage.passing_time(entry.along);
+  one.entered = passage.begin - step_ + before;
+  one.way = one.way_in_interval = passage.speed * (passage.duration - before);
+  one.halts_since = passage.speed < halting_speed_ ? one.entered : -1.0;
+  one.loss_before = one.loss_noted = step.motion.odometer(passage.vehicle).time_loss;
+  within_.emplace(passage.vehicle, one);
 }
 
-void EntryExit::leave(const LanePassage& passage, const OutputStep& step) {
+void EntryExit::leave(const Place& exit, const LanePassage& passage, const OutputStep& step) {
   const double length = step.vehicle(passage).length;
-  for (const Place& exit : exits_) {
-    const auto within = within_.find(passage.vehicle);
-    if (passage.lane != exit.lane || within == within_.end() || passage.duration <= 0.0) continue;
-    Within& one = within->second;
-    const double begin = passage.begin - step_;
-    if (passage.from < exit.along && passage.to >= exit.along)
-      one.front_left = begin + passage.passing_time(exit.along);
-    if (passage.from - length >= exit.along || passage.to - length < exit.along) continue;
-    const double before = passage.passing_time(exit.along, length);
-    const double time = begin + before - one.entered;
-    const double way = one.way + passage.speed * before;
-    left_.push_back({one.front_left - one.entered, time, time > 0.0 ? way / time : 0.0,
-                     step.motion.odometer(passage.vehicle).time_loss - one.loss_before, one.halts});
-    within_.erase(within);
-  }
+  const auto within = within_.find(passage.vehicle);
+  if (within == within_.end() || passage.duration <= 0.0) return;
+  Within& one = within->second;
+  const double begin = passage.begin - step_;
+  if (passage.from < exit.along && passage.to >= exit.along)
+    one.front_left = begin + passage.passing_time(exit.along);
+  if (passage.from - length >= exit.along || passage.to - length < exit.along) return;
+  const double before = passage.passing_time(exit.along, length);
+  const double time = begin + before - one.entered;
+  const double way = one.way + passage.speed * before;
+  left_.push_back({one.front_left - one.entered, time, time > 0.0 ? way / time : 0.0,
+                   step.motion.odometer(passage.vehicle).time_loss - one.loss_before, one.halts});
+  within_.erase(within);
 }
 
 /// What the vehicles within did in this step.

@@ -37,8 +37,8 @@ class EntryExit final : public StepOutput {
     std::int64_t halts;
   };
 
-  void enter(const LanePassage& passage, const OutputStep& step);
-  void leave(const LanePassage& passage, const OutputStep& step);
+  void enter(const Place& entry, const LanePassage& passage, const OutputStep& step);
+  void leave(const Place& exit, const LanePassage& passage, const OutputStep& step);
   void go_on(const OutputStep& step);
   void write(double time);
   void write_left();

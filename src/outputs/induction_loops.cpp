@@ -30,9 +30,8 @@ InductionLoop::InductionLoop(const RoadNetwork& network, const AskedOutput& outp
       intervals_(time_of(output, {"period", "freq"}, 0.0), run_begin, run_begin) {}
 
 void InductionLoop::add(const OutputStep& step) {
-  for (const LanePassage& passage : step.passages())
-    if (passage.lane == lane_ && types_.counts(step.vehicle(passage)))
-      pass(passage, step.vehicle(passage));
+  for (const LanePassage& passage : step.passages_on(lane_))
+    if (types_.counts(step.vehicle(passage))) pass(passage, step.vehicle(passage));
   if (intervals_.is_over(step.end, false)) write(step.end);
 }
 
@@ -96,9 +95,8 @@ InstantLoop::InstantLoop(const RoadNetwork& network, const AskedOutput& output,
       types_(attribute_or(output.attributes, "vTypes")) {}
 
 void InstantLoop::add(const OutputStep& step) {
-  for (const LanePassage& passage : step.passages())
-    if (passage.lane == lane_ && types_.counts(step.vehicle(passage)))
-      pass(passage, step.vehicle(passage));
+  for (const LanePassage& passage : step.passages_on(lane_))
+    if (types_.counts(step.vehicle(passage))) pass(passage, step.vehicle(passage));
 }
 
 void InstantLoop::pass(const LanePassage& passage, const OutputVehicle& vehicle) {

@@ -92,20 +92,17 @@ void LaneArea::add(const OutputStep& step) {
   seen_.clear();
   std::map<std::uint32_t, std::pair<const LanePassage*, double>> foremost;
   std::set<std::uint32_t> gone;
-  for (const LanePassage& passage : step.passages()) {
-    const auto piece = std::find_if(pieces_.begin(), pieces_.end(),
-                                    [&](const Piece& one) { return one.lane == passage.lane; });
-    if (piece == pieces_.end() || !types_.counts(step.vehicle(passage))) continue;
-    if (passage.exit != LaneExit::None && passage.exit != LaneExit::Junction)
-      gone.insert(passage.vehicle);
-    else if (passage.entry == LaneEntry::LaneChange)
-      gone.erase(passage.vehicle);
-    if (passage.duration <= 0.0) continue;
-    auto& [best, offset] = foremost[passage.vehicle];
-    if (best != nullptr && offset > piece->offset) continue;
-    best = &passage;
-    offset = piece->offset;
-  }
+  for (const Piece& piece : pieces_)
+    for (const LanePassage& passage : step.passages_on(piece.lane)) {
+      if (!types_.counts(step.vehicle(passage))) continue;
+      if (passage.exit != LaneExit::None && passage.exit != LaneExit::Junction)
+        gone.insert(passage.vehicle);
+      if (passage.duration <= 0.0) continue;
+      auto& [best, offset] = foremost[passage.vehicle];
+      if (best != nullptr && offset > piece.offset) continue;
+      best = &passage;
+      offset = piece.offset;
+    }
   for (const auto& [vehicle, place] : foremost)
     see(*place.first, place.second, step.vehicles[vehicle]);
   // who changed lanes, arrived, or turned off before the end

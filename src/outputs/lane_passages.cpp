@@ -31,6 +31,20 @@ void LanePassages::begin_step(double begin) {
   passages_.clear();
 }
 
+void LanePassages::end_step() {
+  std::stable_sort(passages_.begin(), passages_.end(),
+                   [](const LanePassage& a, const LanePassage& b) { return a.lane < b.lane; });
+}
+
+std::span<const LanePassage> LanePassages::passages_on(LaneId lane) const {
+  struct ByLane {
+    bool operator()(const LanePassage& a, LaneId b) const { return a.lane < b; }
+    bool operator()(LaneId a, const LanePassage& b) const { return a < b.lane; }
+  };
+  const auto [begin, end] = std::equal_range(passages_.begin(), passages_.end(), lane, ByLane{});
+  return {begin, end};
+}
+
 LanePassage LanePassages::passage(const OutputVehicle& vehicle, const VehiclePlace& place) const {
   LanePassage one;
   one.vehicle = place.vehicle;

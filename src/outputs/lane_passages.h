@@ -87,7 +87,13 @@ class LanePassages {
   /// on at its last speed for a step, or it was taken off, for good or for a while.
   void end(const OutputVehicle& vehicle, std::uint32_t index, bool arrived);
 
+  /// No further vehicle comes in this step: puts the passages in order of lanes.
+  void end_step();
+
+  /// Of the step, by lane; those of one lane in the order in which they were made.
   std::span<const LanePassage> passages() const { return passages_; }
+  /// Those of one lane. Precondition: the step was ended.
+  std::span<const LanePassage> passages_on(LaneId lane) const;
   /// Has it ever been on the road? The others ask for such alone.
   bool has_departed(std::uint32_t vehicle) const {
     return vehicle < states_.size() && states_[vehicle].departed;

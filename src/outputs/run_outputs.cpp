@@ -110,6 +110,7 @@ LaneId RunOutputs::last_lane(std::string_view name) const {
 void RunOutputs::add(SeenStep& step) {
   motion_.begin_step(step.begin);
   move_vehicles(step);
+  motion_.end_step();
   note_trips(step);
   sum_up(step);
   keep_places(step);

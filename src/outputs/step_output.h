@@ -17,6 +17,7 @@ struct OutputStep {
   const LanePassages& motion;
 
   std::span<const LanePassage> passages() const { return motion.passages(); }
+  std::span<const LanePassage> passages_on(LaneId lane) const { return motion.passages_on(lane); }
   const OutputVehicle& vehicle(const LanePassage& passage) const {
     return vehicles[passage.vehicle];
   }
