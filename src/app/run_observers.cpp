@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/sumo_files.h"
 #include "base/hash.h"
 #include "io/output_file.h"
 #include "io/results.h"
@@ -264,13 +265,15 @@ template <typename Observer>
 std::unique_ptr<RunObserver> make(const WatchedRun& run) {
   if constexpr (requires { Observer::is_wanted(run.plan.options); })
     if (!Observer::is_wanted(run.plan.options)) return nullptr;
+  if constexpr (requires { Observer::is_wanted(run.plan); })
+    if (!Observer::is_wanted(run.plan)) return nullptr;
   return std::make_unique<Observer>(run);
 }
 
 /// All there are. The replay comes behind those whose events it marks.
-constexpr Make kObservers[] = {make<Agents>,     make<Coupling>,     make<Collisions>,
-                               make<Rules>,      make<Flow>,         make<Smoothness>,
-                               make<Prediction>, make<Trajectories>, make<Replay>};
+constexpr Make kObservers[] = {make<Agents>, make<Coupling>,   make<Collisions>, make<Rules>,
+                               make<Flow>,   make<Smoothness>, make<Prediction>, make<Trajectories>,
+                               make<Replay>, make<SumoFiles>};
 
 }  // namespace
 

@@ -22,6 +22,7 @@ struct RunPlan {
   ScenarioConfig config;
   ControlChoice control;
   ScenarioInventory inventory;
+  OutputNames output_names;  ///< of SUMO's files; no marker where SUMO writes them by itself
   RunClock clock;
   bool ends_after_duration = false;  ///< `clock.end` counts from the begin, wherever that is
   std::size_t vehicles = 0;          ///< at once, at the most; 0: as many as the demand has

@@ -14,6 +14,7 @@
 #include "app/progress.h"
 #include "app/run_observers.h"
 #include "app/run_plan.h"
+#include "app/sumo_files.h"
 #include "base/error.h"
 #include "base/print.h"
 #include "io/output_folder.h"
@@ -284,6 +285,7 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   const OutputFolder folder(options.output, options.force);
   ConvertedNetwork converted;
   converted.make(plan);
+  HiddenOutputs hidden(plan);
   if (!common.quiet) print(stderr, "run: reading {}\n", plan.input.network.string());
   for (const NotFollowed& item : plan.inventory.not_followed) spdlog::warn("{}", describe(item));
   const std::unique_ptr<Simulation> sim = make_simulation(plan, common.threads);
@@ -291,11 +293,13 @@ int run_session(const RunOptions& options, const CommonOptions& common) {
   const std::unique_ptr<SumoBackend> backend =
       start_backend(plan, sim->model.road, results.backend);
   converted.keep();
+  if (!options.connect.empty()) require_no_outputs(*backend, plan);
   settle_begin(backend->time(), plan);
   if (!common.quiet) print(stderr, "run: {}\n", describe(plan));
 
   SumoWorld world(sim->model, *backend, world_options_of(plan));
   RunObservers observers(plan, *sim, world);
+  hidden.keep();
 
   const Clock::time_point start = Clock::now();
   const double cpu_start = cpu_of(RUSAGE_SELF);

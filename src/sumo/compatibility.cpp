@@ -9,7 +9,18 @@ using enum Treatment;
 constexpr std::string_view kNoLane = "who GAMMA drives is on no lane of SUMO's and is not counted";
 constexpr std::string_view kCarFollowing = "GAMMA has a model of its own";
 constexpr std::string_view kRules = "GAMMA has rules of its own";
-constexpr std::string_view kElectric = "SUMO keeps the battery's state by speeds";
+constexpr std::string_view kUncounted =
+    "SUMO counts on its lanes, and who GAMMA drives is on none of them";
+constexpr std::string_view kPlaces =
+    "SUMO leaves out who is on no lane; trajectories.fcd.xml.gz has everybody";
+constexpr std::string_view kEmissions =
+    "SUMO computes no emissions of who is on no lane; trajectories.fcd.xml.gz has the speeds for "
+    "them (SUMO's emissionsDrivingCycle)";
+constexpr std::string_view kElectric = "SUMO keeps no battery's state of who is on no lane";
+constexpr std::string_view kConflicts =
+    "SUMO finds no conflicts of who is on no lane; collisions.csv has those that came to contact";
+constexpr std::string_view kPeople = "vehicles alone are counted";
+constexpr std::string_view kByRoute = "vehicles are counted wherever they go on to";
 
 constexpr CompatibilityRow kTable[] = {
     // demand
@@ -99,19 +110,19 @@ constexpr CompatibilityRow kTable[] = {
     {Element, "vaporizer", NotFollowed, "who GAMMA drives is on no lane of SUMO's"},
     {Element, "timedEvent", FollowedBySumo, "saves of signal states"},
     // what is measured
-    {Element, "e1Detector", NotFollowed, kNoLane},
-    {Element, "inductionLoop", NotFollowed, kNoLane},
-    {Element, "instantInductionLoop", NotFollowed, kNoLane},
-    {Element, "e2Detector", NotFollowed, kNoLane},
-    {Element, "laneAreaDetector", NotFollowed, kNoLane},
-    {Element, "e3Detector", NotFollowed, kNoLane},
-    {Element, "entryExitDetector", NotFollowed, kNoLane},
+    {Element, "e1Detector", Written, ""},
+    {Element, "inductionLoop", Written, ""},
+    {Element, "instantInductionLoop", Written, ""},
+    {Element, "e2Detector", Written, ""},
+    {Element, "laneAreaDetector", Written, ""},
+    {Element, "e3Detector", Written, ""},
+    {Element, "entryExitDetector", Written, ""},
     {Element, "detEntry", FollowedBySumo, "part of an e3Detector"},
     {Element, "detExit", FollowedBySumo, "part of an e3Detector"},
-    {Element, "edgeData", NotFollowed, kNoLane},
-    {Element, "laneData", NotFollowed, kNoLane},
-    {Element, "routeProbe", NotFollowed, kNoLane},
-    {Element, "vTypeProbe", FollowedBySumo, ""},
+    {Element, "edgeData", Written, ""},
+    {Element, "laneData", Written, ""},
+    {Element, "routeProbe", Refused, kUncounted},
+    {Element, "vTypeProbe", Refused, kPlaces},
     {Element, "overheadWire", NotFollowed, kNoLane},
     {Element, "overheadWireClamp", FollowedBySumo, "part of an overheadWire"},
     {Element, "overheadWireSegment", NotFollowed, kNoLane},
@@ -213,6 +224,19 @@ constexpr CompatibilityRow kTable[] = {
     {Attribute, "walk.departLane", NotFollowed, "people choose their place"},
     {Attribute, "walk.speed", NotFollowed, "walks at the pace of its vType"},
     {Attribute, "walk.duration", NotFollowed, "walks at the pace of its vType"},
+    {Attribute, "e1Detector.detectPersons", Refused, kPeople},
+    {Attribute, "e1Detector.nextEdges", Refused, kByRoute},
+    {Attribute, "instantInductionLoop.nextEdges", Refused, kByRoute},
+    {Attribute, "e2Detector.detectPersons", Refused, kPeople},
+    {Attribute, "e2Detector.nextEdges", Refused, kByRoute},
+    {Attribute, "e3Detector.detectPersons", Refused, kPeople},
+    {Attribute, "e3Detector.nextEdges", Refused, kByRoute},
+    {Attribute, "edgeData.type", Refused, "no emissions or noise of who is on no lane of SUMO's"},
+    {Attribute, "edgeData.trackVehicles", Refused, "every vehicle counts in its interval"},
+    {Attribute, "edgeData.detectPersons", Refused, kPeople},
+    {Attribute, "edgeData.aggregate", Refused, "add the edges of the file up"},
+    {Attribute, "edgeData.edgesFile", Refused, "name the edges in the attribute edges"},
+    {Attribute, "calibrator.output", Refused, kUncounted},
     {Attribute, "ride.lines=taxi", FollowedBySumo, ""},
     {Attribute, "personTrip.modes=taxi", FollowedBySumo, ""},
 
@@ -224,6 +248,10 @@ constexpr CompatibilityRow kTable[] = {
     {Parameter, "has.glosa.device", NotFollowed, "acts on SUMO's driver model"},
     {Parameter, "has.friction.device", NotFollowed, "acts on SUMO's driver model"},
     {Parameter, "has.rerouting.device", Followed, ""},
+    {Parameter, "has.ssm.device", Refused, kConflicts},
+    {Parameter, "has.emissions.device", Refused, kEmissions},
+    {Parameter, "has.battery.device", Refused, kElectric},
+    {Parameter, "has.elechybrid.device", Refused, kElectric},
 
     // configuration
     {Option, "net-file", Followed, ""},
@@ -248,35 +276,44 @@ constexpr CompatibilityRow kTable[] = {
     {Option, "meso-*", FollowedBySumo, "without mesosim nothing"},
 
     // outputs of SUMO's
-    {Option, "netstate-dump", NotFollowed, kNoLane},
-    {Option, "full-output", NotFollowed, kNoLane},
-    {Option, "queue-output", NotFollowed, kNoLane},
-    {Option, "link-output", NotFollowed, kNoLane},
-    {Option, "lanechange-output", NotFollowed, kNoLane},
-    {Option, "collision-output", NotFollowed, "collisions.csv has those of everybody"},
-    {Option, "edgedata-output", NotFollowed, kNoLane},
-    {Option, "lanedata-output", NotFollowed, kNoLane},
+    {Option, "netstate-dump", Refused, kPlaces},
+    {Option, "full-output", Refused, kPlaces},
+    {Option, "queue-output", Refused, kPlaces},
+    {Option, "link-output", Refused, kUncounted},
+    {Option, "lanechange-output", Refused, kUncounted},
+    {Option, "collision-output", Refused, "collisions.csv has those of everybody"},
+    {Option, "edgedata-output", Written, ""},
+    {Option, "lanedata-output", Written, ""},
     {Option, "railsignal-block-output", FollowedBySumo, ""},
-    {Option, "chargingstations-output", NotFollowed, kNoLane},
-    {Option, "overheadwiresegments-output", NotFollowed, kNoLane},
+    {Option, "chargingstations-output", Refused, kUncounted},
+    {Option, "overheadwiresegments-output", Refused, kUncounted},
     {Option, "netstate-dump.*", FollowedBySumo, ""},
-    {Option, "emission-output*", FollowedBySumo, ""},
-    {Option, "battery-output*", FollowedBySumo, kElectric},
-    {Option, "elechybrid-output*", FollowedBySumo, kElectric},
-    {Option, "substations-output*", FollowedBySumo, ""},
-    {Option, "fcd-output*", FollowedBySumo, "poses are exact"},
+    {Option, "emission-output", Refused, kEmissions},
+    {Option, "battery-output", Refused, kElectric},
+    {Option, "elechybrid-output", Refused, kElectric},
+    {Option, "substations-output", Refused, kElectric},
+    {Option, "fcd-output*", Written, ""},
     {Option, "queue-output.period", FollowedBySumo, ""},
-    {Option, "vtk-output", FollowedBySumo, ""},
-    {Option, "amitran-output", FollowedBySumo, ""},
-    {Option, "summary-output*", FollowedBySumo, ""},
-    {Option, "person-summary-output", FollowedBySumo, ""},
-    {Option, "tripinfo-output*", FollowedBySumo, "trips.csv has those of everybody"},
-    {Option, "vehroute-output*", FollowedBySumo, ""},
+    {Option, "vtk-output", Refused, kPlaces},
+    {Option, "amitran-output", Refused, kPlaces},
+    {Option, "summary-output*", Written, ""},
+    {Option, "person-summary-output", Written, ""},
+    {Option, "tripinfo-output*", Written, ""},
+    {Option, "vehroute-output.exit-times", Refused, kUncounted},
+    {Option, "vehroute-output.route-length", Refused, kUncounted},
+    {Option, "fcd-output.distance", Refused, kUncounted},
+    {Option, "fcd-output.max-leader-distance", Refused, kUncounted},
+    {Option, "fcd-output.filter-edges.input-file", Refused, kUncounted},
+    {Option, "emission-output.*", FollowedBySumo, ""},
+    {Option, "battery-output.*", FollowedBySumo, ""},
+    {Option, "elechybrid-output.*", FollowedBySumo, ""},
+    {Option, "substations-output.*", FollowedBySumo, ""},
+    {Option, "vehroute-output*", FollowedBySumo, "departures as SUMO inserted them"},
     {Option, "personroute-output", FollowedBySumo, ""},
-    {Option, "bt-output", FollowedBySumo, ""},
+    {Option, "bt-output", Refused, kUncounted},
     {Option, "lanechange-output.*", FollowedBySumo, ""},
     {Option, "stop-output*", FollowedBySumo, ""},
-    {Option, "statistic-output", FollowedBySumo, ""},
+    {Option, "statistic-output", Written, ""},
     {Option, "save-state.*", FollowedBySumo, "what GAMMA knows of its agents is not in it"},
     {Option, "write-license", FollowedBySumo, ""},
     {Option, "output-prefix", FollowedBySumo, ""},
@@ -344,6 +381,8 @@ constexpr CompatibilityRow kTable[] = {
     {Option, "message-log", FollowedBySumo, ""},
     {Option, "error-log", FollowedBySumo, ""},
     {Option, "duration-log.*", FollowedBySumo, ""},
+    {Option, "duration-log.statistics", NotFollowed,
+     "SUMO sums trips up on its lanes; results.json and statistic-output have everybody"},
     {Option, "no-step-log", FollowedBySumo, ""},
     {Option, "step-log.period", FollowedBySumo, ""},
     // devices
@@ -351,6 +390,14 @@ constexpr CompatibilityRow kTable[] = {
     {Option, "phemlight-*", FollowedBySumo, ""},
     {Option, "device.*", FollowedBySumo, ""},
     {Option, "person-device.*", FollowedBySumo, ""},
+    {Option, "device.ssm.probability", Refused, kConflicts},
+    {Option, "device.ssm.explicit", Refused, kConflicts},
+    {Option, "device.emissions.probability", Refused, kEmissions},
+    {Option, "device.emissions.explicit", Refused, kEmissions},
+    {Option, "device.battery.probability", Refused, kElectric},
+    {Option, "device.battery.explicit", Refused, kElectric},
+    {Option, "device.elechybrid.probability", Refused, kElectric},
+    {Option, "device.elechybrid.explicit", Refused, kElectric},
     {Option, "device.toc.*", NotFollowed, "acts on SUMO's driver model"},
     {Option, "device.driverstate.*", NotFollowed, "acts on SUMO's driver model"},
     {Option, "device.bluelight.*", NotFollowed, "nobody makes way for a blue light"},
@@ -398,6 +445,8 @@ std::string_view name_of(Treatment treatment) {
       return "followed";
     case FollowedBySumo:
       return "followed by SUMO";
+    case Written:
+      return "written by sumo-gamma";
     case NotFollowed:
       return "not followed";
     case Refused:

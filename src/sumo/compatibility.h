@@ -9,6 +9,7 @@ namespace sumogamma {
 enum class Treatment {
   Followed,        ///< for who GAMMA drives, too
   FollowedBySumo,  ///< SUMO does it, and it doesn't matter who drives
+  Written,         ///< an output: sumo-gamma writes it, of everybody
   NotFollowed,     ///< by who GAMMA drives: said at the start of a run
   Refused,         ///< the run doesn't start
 };
@@ -37,7 +38,7 @@ std::span<const CompatibilityRow> compatibility_table();
 /// is none.
 const CompatibilityRow* find_compatibility(ScenarioPart part, std::string_view name);
 
-/// "followed", "followed by SUMO", "not followed", "refused".
+/// "followed", "followed by SUMO", "written by sumo-gamma", "not followed", "refused".
 std::string_view name_of(Treatment treatment);
 
 }  // namespace sumogamma

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -46,6 +47,7 @@ void SumoWorld::take_newcomer(SumoAgentDetails details, bool moves_already) {
   PendingAgent pending;
   pending.details = std::move(details);
   pending.type = *type;
+  pending.since = time_;
   choose_pace(model_.road, pending.details);
   const std::uint32_t rules = rules_for(pending.details, *type);
   bool driven = is_always_ours(rules);
@@ -86,6 +88,10 @@ AgentId SumoWorld::register_agent(const SumoAgentDetails& details, bool external
   known.is_person = details.is_person;
   known.external = external;
   known.length = details.is_person ? 0.0 : details.length;
+  known.min_gap = details.type.min_gap;
+  known.max_speed = details.max_speed;
+  known.speed_factor = details.speed_factor;
+  known.bicycle = details.vehicle_class == "bicycle";
   known.stops = details.stops;
   known.stages_left = details.stages_left;
   known.type_id = details.type_id;
@@ -145,6 +151,7 @@ void SumoWorld::insert_pending(Scene& scene, RoadState& road) {
 void SumoWorld::enter(const PendingAgent& pending, Entrant entrant, Scene& scene, RoadState& road) {
   const SumoAgentDetails& details = pending.details;
   const AgentId id = register_agent(details, false, pending.type);
+  if (pending.since >= 0.0) known_[id.value].waited = std::max(0.0, time_ - pending.since);
   if (!details.is_person) backend_.take_over(details.id, entrant.state.speed);
   road.paths.resize(known_.size());
   road.paths[id.value] = std::move(entrant.path);

@@ -32,6 +32,13 @@ void SumoWorld::place_external(const SumoAgent& seen, Scene& scene, std::size_t 
   scene.height[row] = elevation_at(lane, along);
 }
 
+/// As outputs of SUMO's have it.
+void SumoWorld::note_sumo_place(const SumoAgent& seen, KnownAgent& known) const {
+  const auto lane = model_.road.lane_by_name.find(seen.lane);
+  known.sumo_lane = lane == model_.road.lane_by_name.end() ? kNoLane : lane->second;
+  known.sumo_along = seen.lane_position;
+}
+
 void SumoWorld::update_external(Scene& scene, RoadState& road) {
   std::vector<bool> removed;
   if (!external_arriving_.empty() || changes_hands()) ghosts_.rebuild(scene.position);
@@ -92,12 +99,14 @@ void SumoWorld::appear(const SumoAgent& seen, PendingAgent& pending, Scene& scen
     road.paths[id.value] = pending.entry.path;
   }
   append_agent(scene, agent);
+  note_sumo_place(seen, known);
   place_external(seen, scene, scene.size() - 1);
   external_ids_.insert_or_assign(traveller, id);
 }
 
 void SumoWorld::follow(const SumoAgent& seen, AgentId id, std::size_t row, Scene& scene,
                        RoadState& road, std::vector<bool>& removed) {
+  note_sumo_place(seen, known_[id.value]);
   const KnownAgent& known = known_[id.value];
   if (!known.external) {
     follow_service(seen, id, row, scene, road, removed);

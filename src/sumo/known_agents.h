@@ -41,6 +41,7 @@ struct PendingAgent {
   bool resumes = false;      ///< SUMO has it for a while: ours as soon as it moves on
   bool off_lane = false;     ///< SUMO has been told that it waits
   bool was_delayed = false;  ///< its insertion by SUMO was put off once
+  double since = -1;         ///< when SUMO had inserted it [s]; negative: it was there before
   /// Parked: where SUMO shows its front, and its angle [deg]; others wait off the map.
   Vec2 waits_at = Vec2::Constant(std::nan(""));
   double waiting_angle = 0;
@@ -104,10 +105,17 @@ struct KnownAgent {
   bool resumes = false;      ///< as PendingAgent::resumes
   bool keeps_place = false;  ///< it waits where it walked to, not where SUMO shows it
   double length = 0;         ///< 0 for persons, whose reference point is their centre [m]
-  std::string lane_name;     ///< SUMO-driven: on which SUMO had it last
-  LaneId lane = kNoLane;     ///< the same
-  double looked_at = 0;      ///< when its path was last held against that lane [s]
-  int stages_left = 0;       ///< persons that SUMO moves
+  double min_gap = 0;        ///< of its vType; negative: not told [m]
+  double max_speed = 0;      ///< vehicles [m/s]
+  double speed_factor = 1;
+  bool bicycle = false;
+  double waited = 0;           ///< off the map for room, after SUMO had inserted it [s]
+  LaneId sumo_lane = kNoLane;  ///< SUMO-driven: on which SUMO has it now
+  double sumo_along = 0;       ///< and where on it its front, as SUMO counts [m]
+  std::string lane_name;       ///< SUMO-driven: on which SUMO had it last
+  LaneId lane = kNoLane;       ///< the same
+  double looked_at = 0;        ///< when its path was last held against that lane [s]
+  int stages_left = 0;         ///< persons that SUMO moves
   StopService service = StopService::None;
   double asked_at = 0;                           ///< when its service began [s]
   std::vector<SumoAgentDetails::Stop> stops;     ///< of its plan, as PathStop::plan counts

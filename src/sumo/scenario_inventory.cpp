@@ -10,6 +10,7 @@
 #include <memory>
 #include <string_view>
 
+#include "base/error.h"
 #include "sumo/compatibility.h"
 
 namespace sumogamma {
@@ -31,7 +32,31 @@ bool asks_for_nothing(std::string_view name, std::string_view value) {
     return value == "max" || value == "desired" || value == "speedLimit";
   if (name == "vehicle.insertionChecks") return value == "all";
   if (name == "pedestrian.model") return value == "striping";
+  if (name == "edgeData.type") return value == "performance" || value == "traffic";
+  if (name.ends_with(".probability") && value.starts_with("-1")) return true;
+  if (name.ends_with("-output") || name == "netstate-dump") return is_null_output(value);
   return std::find(kNothing.begin(), kNothing.end(), value) != kNothing.end();
+}
+
+/// Elements of two names.
+std::string_view usual_name(std::string_view element) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kNames = {
+      {{"trip", "vehicle"},
+       {"flow", "vehicle"},
+       {"inductionLoop", "e1Detector"},
+       {"laneAreaDetector", "e2Detector"},
+       {"entryExitDetector", "e3Detector"},
+       {"laneData", "edgeData"}}};
+  for (const auto& [name, usual] : kNames)
+    if (name == element) return usual;
+  return element;
+}
+
+/// Devices of SUMO's that write into its tripinfo-output, and nowhere else.
+bool writes_into_tripinfo(std::string_view name) {
+  for (const char* device : {"emissions", "battery", "elechybrid"})
+    if (name.find(std::string(".") + device + ".") != std::string_view::npos) return true;
+  return false;
 }
 
 class Inventory {
@@ -44,6 +69,8 @@ class Inventory {
 
   void read(const fs::path& file);
   void read_options(const ScenarioInput& input);
+  /// Throws the first refusal.
+  void require_right_outputs(const ScenarioInput& input) const;
   ScenarioInventory result;
 
  private:
@@ -60,7 +87,14 @@ class Inventory {
   void gather_id(std::string_view element, const std::string& id);
   void note(const std::string& file, const std::string& what, const std::string& id,
             std::string_view why);
+  void look_at_output(const Reading& reading, std::string_view element, const CompatibilityRow* row,
+                      const char** attributes);
+  void look_at_param(const Reading& reading, const char** attributes);
+  void add_folder(const fs::path& file);
+  void refuse(const std::string& file, const std::string& what, std::string_view why,
+              std::string_view instead);
 
+  std::vector<Error> refused_, refused_with_tripinfo_;
   bool plain_, with_ids_;
   std::map<std::string_view, std::vector<const CompatibilityRow*>> attributes_;
   std::map<std::pair<std::string, std::string>, std::size_t> places_;  ///< file and kind
@@ -104,10 +138,12 @@ void Inventory::gather_id(std::string_view element, const std::string& id) {
 
 void Inventory::look_at_attributes(const Reading& reading, std::string_view element,
                                    const char** attributes) {
-  const auto rows = attributes_.find(element == "trip" || element == "flow" ? "vehicle" : element);
+  const auto rows = attributes_.find(usual_name(element));
   if (rows == attributes_.end()) return;
+  const bool is_output = attribute(attributes, "file").data() != nullptr;
+  if (is_output && is_null_output(attribute(attributes, "file"))) return;
   for (const CompatibilityRow* row : rows->second) {
-    if (row->treatment != Treatment::NotFollowed) continue;
+    if (row->treatment != Treatment::NotFollowed && row->treatment != Treatment::Refused) continue;
     const std::string_view rest = row->name.substr(row->name.find('.') + 1);
     const std::size_t equals = rest.find('=');
     const std::string name(rest.substr(0, equals));
@@ -116,9 +152,60 @@ void Inventory::look_at_attributes(const Reading& reading, std::string_view elem
     if (equals != std::string_view::npos &&
         value.find(rest.substr(equals + 1)) == std::string_view::npos)
       continue;
-    note(reading.name, std::string(element) + " " + std::string(rest),
-         std::string(attribute(attributes, "id")), row->note);
+    const std::string id(attribute(attributes, "id"));
+    if (row->treatment == Treatment::Refused)
+      refuse(reading.name, std::string(element) + " " + id + ", attribute " + name, row->note,
+             "leave it out");
+    else
+      note(reading.name, std::string(element) + " " + std::string(rest), id, row->note);
   }
+}
+
+void Inventory::refuse(const std::string& file, const std::string& what, std::string_view why,
+                       std::string_view instead) {
+  Error error(file, what + " would be wrong for who GAMMA drives: " + std::string(why) + "; " +
+                        std::string(instead) + ", or give --control none");
+  (writes_into_tripinfo(what) ? refused_with_tripinfo_ : refused_).push_back(std::move(error));
+}
+
+void Inventory::add_folder(const fs::path& file) {
+  const fs::path folder = file.parent_path();
+  std::vector<fs::path>& folders = result.output_folders;
+  if (std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
+}
+
+/// An element with a file of its own.
+void Inventory::look_at_output(const Reading& reading, std::string_view element,
+                               const CompatibilityRow* row, const char** attributes) {
+  for (const char* name : {"file", "dest", "output"}) {
+    const std::string_view value = attribute(attributes, name);
+    if (!is_null_output(value) && !is_stream_output(value))
+      add_folder(output_file(value, reading.file));
+  }
+  const std::string_view file = attribute(attributes, "file");
+  if (row == nullptr || is_null_output(file)) return;
+  const std::string what = std::string(element) + " " + std::string(attribute(attributes, "id"));
+  if (row->treatment == Treatment::Refused) refuse(reading.name, what, row->note, "leave it out");
+  if (row->treatment != Treatment::Written) return;
+  if (is_stream_output(file))
+    refuse(reading.name, what, "into " + std::string(file) + " SUMO alone can write",
+           "name a file");
+  AskedOutput output{
+      std::string(usual_name(element)), {}, {}, output_file(file, reading.file), reading.name};
+  if (element == "laneData") output.what = element;
+  for (const char** one = attributes; *one != nullptr; one += 2)
+    output.attributes.emplace(one[0], one[1]);
+  result.outputs.push_back(std::move(output));
+}
+
+void Inventory::look_at_param(const Reading& reading, const char** attributes) {
+  const std::string_view key = attribute(attributes, "key");
+  const CompatibilityRow* row = find_compatibility(ScenarioPart::Parameter, key);
+  if (row == nullptr || asks_for_nothing(key, attribute(attributes, "value"))) return;
+  if (row->treatment == Treatment::NotFollowed)
+    note(reading.name, "param " + std::string(key), "", row->note);
+  if (row->treatment == Treatment::Refused)
+    refuse(reading.name, "param " + std::string(key), row->note, "leave it out");
 }
 
 void Inventory::begin(Reading& reading, std::string_view element, const char** attributes) {
@@ -136,18 +223,20 @@ void Inventory::begin(Reading& reading, std::string_view element, const char** a
   if (element == "variableSpeedSign")
     append_names(attribute(attributes, "lanes"), result.sign_lanes);
   if (element == "param") {
-    const std::string_view key = attribute(attributes, "key");
-    const CompatibilityRow* row = find_compatibility(ScenarioPart::Parameter, key);
-    if (row != nullptr && row->treatment == Treatment::NotFollowed &&
-        !asks_for_nothing(key, attribute(attributes, "value")))
-      note(reading.name, "param " + std::string(key), "", row->note);
+    look_at_param(reading, attributes);
     return;
+  }
+  if ((element == "detEntry" || element == "detExit") && !result.outputs.empty()) {
+    XmlAttributes part;
+    for (const char** one = attributes; *one != nullptr; one += 2) part.emplace(one[0], one[1]);
+    result.outputs.back().parts.emplace_back(element, std::move(part));
   }
   const CompatibilityRow* row = find_compatibility(ScenarioPart::Element, element);
   if (row == nullptr)
     note(reading.name, std::string(element), id, kUnknown);
   else if (row->treatment == Treatment::NotFollowed)
     note(reading.name, std::string(element), id, row->note);
+  look_at_output(reading, element, row, attributes);
   look_at_attributes(reading, element, attributes);
 }
 
@@ -175,12 +264,43 @@ void Inventory::read(const fs::path& file) {
 void Inventory::read_options(const ScenarioInput& input) {
   for (const auto& [name, option] : input.options) {
     const CompatibilityRow* row = find_compatibility(ScenarioPart::Option, name);
-    if (row == nullptr || row->treatment != Treatment::NotFollowed) continue;
+    if (row == nullptr) continue;
+    const std::string where =
+        option.on_command_line ? "--sumo-options" : input.config.filename().string();
     const bool of_the_run = name == "random" || name == "remote-port" || name == "num-clients";
     if ((plain_ && !of_the_run) || asks_for_nothing(name, option.value)) continue;
-    note(option.on_command_line ? "--sumo-options" : input.config.filename().string(),
-         "option " + name, "", row->note);
+    const bool is_file = name.ends_with("-output") || name == "netstate-dump" || name == "log" ||
+                         name == "message-log" || name == "error-log" || name.ends_with(".file") ||
+                         name == "save-state.prefix" || name == "save-state.files" ||
+                         name.ends_with(".output");
+    if (is_file && !is_stream_output(option.value))
+      for (const fs::path& file : files_of(input.options, name)) add_folder(file);
+    if (row->treatment == Treatment::NotFollowed) note(where, "option " + name, "", row->note);
+    // mesosim was refused already
+    if (row->treatment == Treatment::Refused && name != "mesosim")
+      refuse(where, "option " + name, row->note,
+             name.ends_with("-output")
+                 ? "leave it out, or give --sumo-options \"--" + name + " NUL\""
+                 : std::string("leave it out"));
+    if (row->treatment != Treatment::Written || !name.ends_with("-output")) continue;
+    if (is_stream_output(option.value))
+      refuse(where, "option " + name, "into " + option.value + " SUMO alone can write",
+             "name a file");
+    const std::vector<fs::path> files = files_of(input.options, name);
+    if (!files.empty()) result.outputs.push_back({name, {}, {}, files.front(), where});
   }
+}
+
+void Inventory::require_right_outputs(const ScenarioInput& input) const {
+  if (!refused_.empty()) throw refused_.front();
+  const auto tripinfo = input.options.find("tripinfo-output");
+  const bool has_tripinfo =
+      tripinfo != input.options.end() && !is_null_output(tripinfo->second.value);
+  if (has_tripinfo && !refused_with_tripinfo_.empty()) throw refused_with_tripinfo_.front();
+  if (is_on(input.options, "human-readable-time") && !result.outputs.empty())
+    throw Error(result.outputs.front().source,
+                "human-readable-time: outputs that sumo-gamma writes (" +
+                    result.outputs.front().what + ") have times in seconds; leave it out");
 }
 
 }  // namespace
@@ -190,6 +310,7 @@ ScenarioInventory take_inventory(const ScenarioInput& input, bool plain, bool wi
   inventory.read_options(input);
   for (const auto* files : {&input.routes, &input.additional})
     for (const fs::path& file : *files) inventory.read(file);
+  inventory.require_right_outputs(input);
   if (input.options.contains("load-state")) inventory.result.complete = false;
   return std::move(inventory.result);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sumo/scenario_input.h"
+#include "sumo/sumo_outputs.h"
 
 namespace sumogamma {
 
@@ -26,12 +27,16 @@ struct ScenarioInventory {
   std::set<std::string> flows;  ///< ids of flows, whose vehicles are called ID.0, ID.1, ...
   std::vector<std::string> rerouter_edges;  ///< on which rerouters act
   std::vector<std::string> sign_lanes;      ///< of variable speed signs
+  std::vector<AskedOutput> outputs;         ///< that sumo-gamma writes, in the order of the files
+  std::vector<std::filesystem::path> output_folders;  ///< in which SUMO writes files
   bool complete = true;  ///< all demand was read: a loaded state or calibrators may bring others
 };
 
 /// Goes through the route and additional files, what they include, and the configuration, by
 /// compatibility_table(). With `plain` (SUMO drives everybody) only what concerns the run itself is
 /// listed. Ids are gathered where `with_ids`. A file that is no XML is left to SUMO's own words.
+/// Throws Error naming file and element, or option, and what to do, for an output that would be
+/// wrong for who GAMMA drives.
 ScenarioInventory take_inventory(const ScenarioInput& input, bool plain, bool with_ids);
 
 /// "rerouter r1 in x.add.xml: not followed (who GAMMA drives keeps its route)"; of several "37

@@ -83,7 +83,7 @@ void add_nodes(const pugi::xml_node& parent, const fs::path& config, SumoOptions
 }  // namespace
 
 std::string long_option_name(std::string_view name) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 29> kSynonyms = {{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 50> kSynonyms = {{
       {"c", "configuration-file"},
       {"configuration", "configuration-file"},
       {"C", "save-configuration"},
@@ -113,6 +113,27 @@ std::string long_option_name(std::string_view name) {
       {"B", "breakpoints"},
       {"D", "demo"},
       {"H", "human-readable-time"},
+      {"log-file", "log"},
+      {"ndump", "netstate-dump"},
+      {"netstate", "netstate-dump"},
+      {"netstate-output", "netstate-dump"},
+      {"summary", "summary-output"},
+      {"tripinfo", "tripinfo-output"},
+      {"vehroutes", "vehroute-output"},
+      {"vehroutes.exit-times", "vehroute-output.exit-times"},
+      {"vehroutes.last-route", "vehroute-output.last-route"},
+      {"vehroutes.sorted", "vehroute-output.sorted"},
+      {"vehroutes.dua", "vehroute-output.dua"},
+      {"vehroutes.intended-depart", "vehroute-output.intended-depart"},
+      {"vehroutes.route-length", "vehroute-output.route-length"},
+      {"personroutes", "personroute-output"},
+      {"statistics-output", "statistic-output"},
+      {"device.ssm.knownveh", "device.ssm.explicit"},
+      {"device.emissions.knownveh", "device.emissions.explicit"},
+      {"device.battery.knownveh", "device.battery.explicit"},
+      {"device.elechybrid.knownveh", "device.elechybrid.explicit"},
+      {"device.rerouting.knownveh", "device.rerouting.explicit"},
+      {"device.routing.period", "device.rerouting.period"},
   }};
   for (const auto& [synonym, full] : kSynonyms)
     if (name == synonym) return std::string(full);

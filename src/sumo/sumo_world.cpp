@@ -134,6 +134,11 @@ void SumoWorld::compare_poses() {
   }
 }
 
+std::size_t SumoWorld::riding() const {
+  return static_cast<std::size_t>(std::count_if(
+      absent_.begin(), absent_.end(), [](const auto& absent) { return absent.first.first; }));
+}
+
 bool SumoWorld::finished() const { return false; }
 
 }  // namespace sumogamma

@@ -89,6 +89,15 @@ class SumoWorld : public World {
   /// SUMO's id of an agent, by AgentId.
   const std::vector<std::string>& names() const { return names_; }
   const SumoStep& last_step() const { return step_; }
+  /// What is known of agents, by AgentId.
+  const std::vector<KnownAgent>& known_agents() const { return known_; }
+  /// Who waits off the map for room: ours, and SUMO's own.
+  const std::deque<PendingAgent>& pending() const { return pending_; }
+  const std::vector<DelayedVehicle>& delayed() const { return delayed_; }
+  /// Limits of all lanes that hold now; null: the network's.
+  SpeedLimits speed_limits() const { return limits_.limits; }
+  /// People in vehicles.
+  std::size_t riding() const;
 
  private:
   // advance
@@ -120,6 +129,7 @@ class SumoWorld : public World {
               std::vector<bool>& removed);
   /// The lane on which SUMO has the front of an agent that it drives, and its centre along that.
   void place_external(const SumoAgent& seen, Scene& scene, std::size_t row) const;
+  void note_sumo_place(const SumoAgent& seen, KnownAgent& known) const;
 
   // plans.cpp
   std::optional<SumoAgentDetails> details_of(const std::string& id, bool is_person);

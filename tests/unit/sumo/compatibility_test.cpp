@@ -76,6 +76,7 @@ TEST_F(SumoSchemas, EveryOptionOfAConfigurationHasARow) {
 TEST_F(SumoSchemas, NoRowIsAboutNothing) {
   const std::set<std::string> known_elements = elements(), known_options = options();
   std::set<std::string> attributes = names_in("routes_file.xsd", "attribute");
+  attributes.merge(names_in("additional_file.xsd", "attribute"));
   for (const CompatibilityRow& row : compatibility_table()) {
     const std::string name(row.name);
     if (row.part == ScenarioPart::Element) {
@@ -115,7 +116,8 @@ TEST(FindCompatibility, TheLongestStartWins) {
     return find_compatibility(ScenarioPart::Option, option)->treatment;
   };
   EXPECT_EQ(treatment("device.toc.probability"), Treatment::NotFollowed);
-  EXPECT_EQ(treatment("device.ssm.probability"), Treatment::FollowedBySumo);
+  EXPECT_EQ(treatment("device.ssm.range"), Treatment::FollowedBySumo);
+  EXPECT_EQ(treatment("device.ssm.probability"), Treatment::Refused);
   EXPECT_EQ(treatment("mesosim"), Treatment::Refused);
   EXPECT_EQ(find_compatibility(ScenarioPart::Option, "no-such-option"), nullptr);
   EXPECT_EQ(find_compatibility(ScenarioPart::Element, "seed"), nullptr);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "support/coupling_scenario.h"
 
 namespace sumogamma {
@@ -76,6 +77,47 @@ TEST_F(ScenarioInventoryTest, GathersNames) {
   for (const char* other : {"f", "f.", "f.x", "g.1", "w", ""}) EXPECT_FALSE(has_id(all, other));
   // a calibrator brings vehicles with ids of its own
   EXPECT_FALSE(all.complete);
+}
+
+TEST_F(ScenarioInventoryTest, GathersOutputsWithTheirFiles) {
+  folder_.write("x.add.xml",
+                "<add><inductionLoop id='d' lane='l' pos='1' file='d.xml'/><include "
+                "href='y.add.xml'/><edgeData id='off' file='NUL' type='emissions'/></add>");
+  folder_.write("y.add.xml",
+                "<add><e3Detector id='e' file='/e.xml'><detEntry lane='a' pos='1'/><detExit "
+                "lane='b' pos='2'/></e3Detector></add>");
+  const std::vector<std::string> words = {"--tripinfo", folder_.file("t.xml")};
+  const ScenarioInventory found =
+      take_inventory(find_scenario(folder_.file("s.sumocfg"), words), false, false);
+  ASSERT_EQ(found.outputs.size(), 3u);
+  EXPECT_EQ(found.outputs[0].what, "tripinfo-output");
+  EXPECT_EQ(found.outputs[1].what, "e1Detector");
+  EXPECT_EQ(found.outputs[1].file, folder_.file("d.xml"));
+  EXPECT_EQ(attribute_or(found.outputs[1].attributes, "pos"), "1");
+  EXPECT_EQ(found.outputs[2].file, "/e.xml");
+  ASSERT_EQ(found.outputs[2].parts.size(), 2u);
+  EXPECT_EQ(found.outputs[2].parts[1].first, "detExit");
+  EXPECT_THAT(found.output_folders, Contains(std::filesystem::path("/")));
+  EXPECT_THAT(take_inventory(find_scenario(folder_.file("s.sumocfg"), words), true, false).outputs,
+              IsEmpty());
+}
+
+TEST_F(ScenarioInventoryTest, RefusesOutputsThatWouldBeWrong) {
+  const auto refusal = [&](bool plain) -> std::string {
+    try {
+      inventory(plain);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  folder_.write("x.add.xml", "<add><routeProbe id='p' edge='e' file='p.xml'/></add>");
+  EXPECT_THAT(refusal(false), HasSubstr("x.add.xml: routeProbe p would be wrong"));
+  EXPECT_EQ(refusal(true), "");
+  folder_.write("x.add.xml", "<add><laneData id='m' file='m.xml' trackVehicles='true'/></add>");
+  EXPECT_THAT(refusal(false), HasSubstr("laneData m, attribute trackVehicles"));
+  folder_.write("x.add.xml", "<add><e1Detector id='d' lane='l' file='stdout'/></add>");
+  EXPECT_THAT(refusal(false), HasSubstr("name a file"));
 }
 
 TEST_F(ScenarioInventoryTest, LeavesWhatIsNoXmlToSumo) {
