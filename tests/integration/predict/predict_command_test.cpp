@@ -76,8 +76,9 @@ TEST(PredictCommand, ExportsWhatAnIndependentScorerNeeds) {
       EXPECT_EQ(theirs[k].at("windows"), ours[k].at("windows"));
       EXPECT_EQ(theirs[k].at("memory"), "strict");
       for (const char* figure : {"ade", "fde", "miss_rate", "min_ade", "min_fde"})
-        if (ours[k].contains(figure))
+        if (ours[k].contains(figure)) {
           EXPECT_NEAR(theirs[k].at(figure).get<double>(), ours[k].at(figure).get<double>(), 5e-5);
+        }
     }
   }
 }
