@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -5,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -15,6 +18,7 @@
 #include "prediction/methods.h"
 #include "prediction/plot.h"
 #include "prediction/report.h"
+#include "prediction/walking_training.h"
 
 namespace sumogamma {
 
@@ -23,11 +27,15 @@ namespace {
 struct PredictOptions {
   std::vector<std::string> files;
   std::string protocol = "C";
+  std::string memory = "strict";
   std::vector<std::string> methods;
   std::size_t samples = 0;
   double noise = 0;
   bool ablations = false;
-  std::string json, plots;
+  std::string json, plots, walking_rows, exported;
+  std::string format;
+  double period = 0, rate = 0, fill = 1.0;
+  std::vector<std::string> types;
   bool list_parameters = false;
 };
 
@@ -81,6 +89,141 @@ void write_plots(const std::string& folder, const TrackSet& set, const Protocol&
   }
 }
 
+ReadOptions read_options(const PredictOptions& options) {
+  ReadOptions read;
+  read.format = options.format;
+  read.fill = options.fill;
+  if (options.period > 0 && options.rate > 0)
+    throw Error("--fps", "stands beside --period, expected one of them");
+  read.period = options.rate > 0 ? 1.0 / options.rate : options.period;
+  for (const std::string& pair : options.types) {
+    const std::size_t equals = pair.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw Error("--type " + pair, "expected THEIRS=OURS, such as lorry=truck");
+    read.types[pair.substr(0, equals)] = pair.substr(equals + 1);
+  }
+  return read;
+}
+
+/// Recordings that can be used, and what is wrong with the others.
+struct Batch {
+  std::vector<TrackSet> sets;
+  std::vector<std::pair<std::string, std::string>> left_out;  ///< file and why
+};
+
+void say_how_it_was_read(const TrackSet& set) {
+  print(stderr, "{}: read as {}, {} tracks, a frame every {:.4g} s\n", set.name, set.format,
+        set.tracks.size(), set.own_period);
+  for (const std::string& note : set.notes) print(stderr, "{}: {}\n", set.name, note);
+  if (set.filled_gaps > 0)
+    print(stderr, "{}: {} gaps filled ({} steps of 0.4 s)\n", set.name, set.filled_gaps,
+          set.filled_steps);
+  if (set.split_gaps > 0)
+    print(stderr, "{}: {} gaps are too long to fill: tracks end and begin there\n", set.name,
+          set.split_gaps);
+}
+
+Batch read_batch(const PredictOptions& options, const Protocol& protocol, bool quiet) {
+  const ReadOptions read = read_options(options);
+  Batch batch;
+  for (const std::string& file : options.files) {
+    try {
+      TrackSet set = read_track_set(file, read);
+      if (!quiet) say_how_it_was_read(set);
+      if (windows_of(set, protocol).empty())
+        throw Error(file,
+                    "nobody is there for " + std::to_string(protocol.observed + protocol.steps) +
+                        " frames without a gap, as protocol " + std::string(1, protocol.letter) +
+                        " needs; check the columns and that frames are a constant step apart");
+      batch.sets.push_back(std::move(set));
+    } catch (const Error& error) {
+      if (options.files.size() == 1) throw;
+      print(stderr, "sumo-gamma: left out: {}\n", error.what());
+      batch.left_out.emplace_back(file, error.what());
+    }
+  }
+  if (batch.sets.empty()) throw Error("predict", "none of the recordings can be used");
+  return batch;
+}
+
+int write_training(const PredictOptions& options, const Batch& batch) {
+  std::ostringstream rows;
+  for (const TrackSet& set : batch.sets) write_walking_rows(rows, set, &set == &batch.sets.front());
+  write_text(options.walking_rows, rows.str());
+  return kExitDone;
+}
+
+nlohmann::ordered_json recording_json(const TrackSet& set) {
+  return {{"set", set.name},
+          {"format", set.format},
+          {"content", fmt::format("{:016x}", content_of(set))},
+          {"own_period_s", set.own_period},
+          {"tracks", set.tracks.size()},
+          {"filled_gaps", set.filled_gaps},
+          {"filled_steps", set.filled_steps},
+          {"split_gaps", set.split_gaps},
+          {"notes", set.notes}};
+}
+
+void write_json(const PredictOptions& options, const CommonOptions& common, const Batch& batch,
+                const std::vector<Evaluation>& evaluations) {
+  PredictorParameters parameters = parameters_from(common);
+  nlohmann::ordered_json json = {{"protocol", options.protocol},
+                                 {"memory", options.memory},
+                                 {"seed", common.seed},
+                                 {"samples", options.samples},
+                                 {"added_noise_m", options.noise}};
+  for (const NamedParameter& parameter : named_parameters(parameters))
+    json["parameters"][parameter.name] = *parameter.value;
+  json["recordings"] = nlohmann::ordered_json::array();
+  for (const TrackSet& set : batch.sets) json["recordings"].push_back(recording_json(set));
+  json["left_out"] = nlohmann::ordered_json::array();
+  for (const auto& [file, why] : batch.left_out)
+    json["left_out"].push_back({{"file", file}, {"why", why}});
+  json["evaluations"] = nlohmann::ordered_json::array();
+  for (const Evaluation& evaluation : evaluations)
+    json["evaluations"].push_back(to_json(evaluation, common.seed));
+  write_text(options.json, json.dump(2) + "\n");
+}
+
+/// What --export writes, beside the file until it is whole.
+class ExportFile {
+ public:
+  explicit ExportFile(const std::string& path) : path_(path), part_(path + ".part") {
+    if (path.empty()) return;
+    file_.open(part_);
+    file_ << "set,memory,method,agent,type,frame,step,sample,weight,x_m,y_m,true_x_m,true_y_m\n";
+    if (!file_) throw Error(path, "cannot be written");
+  }
+  ForecastSink sink(const std::string& prefix) {
+    if (path_.empty()) return {};
+    return [this, prefix](const ScoredForecast& told) {
+      const auto now = static_cast<std::size_t>(told.frame - told.truth.first);
+      for (std::size_t k = 0; k < told.predicted.size(); ++k) {
+        const Vec2 &at = told.predicted[k], &truth = told.truth.position[now + 1 + k];
+        print(file_, "{},{},{},{},{},{},{:.9g},{:.6f},{:.6f},{:.6f},{:.6f}\n", prefix,
+              told.truth.id, type_of(types_, told.truth.type).name, told.frame, k + 1, told.sample,
+              told.weight, at.x(), at.y(), truth.x(), truth.y());
+      }
+    };
+  }
+  void close() {
+    if (path_.empty()) return;
+    if (!file_.flush()) throw Error(path_, "cannot be written");
+    file_.close();
+    std::filesystem::rename(part_, path_);
+  }
+
+ private:
+  template <typename... Fields>
+  static void print(std::ofstream& file, fmt::format_string<Fields...> format, Fields&&... fields) {
+    file << fmt::format(format, std::forward<Fields>(fields)...);
+  }
+  std::string path_, part_;
+  std::ofstream file_;
+  AgentTypeTable types_ = recorded_agent_types();
+};
+
 int run(const PredictOptions& options, const CommonOptions& common) {
   PredictorParameters parameters = parameters_from(common);
   if (options.list_parameters) {
@@ -93,40 +236,46 @@ int run(const PredictOptions& options, const CommonOptions& common) {
   if (options.samples == 1)
     throw Error("--samples 1", "one sample is no distribution, expected 0 or at least 2");
   const Protocol protocol = protocol_from_letter(options.protocol);
+  const Memory memory = memory_from_name(options.memory);
   const MethodSettings settings{parameters, options.samples, common.seed};
   const std::vector<std::string> names =
-      options.methods.empty() ? default_methods(options.ablations) : options.methods;
+      options.methods.empty() ? default_methods(options.ablations, memory) : options.methods;
+  const Batch batch = read_batch(options, protocol, common.quiet);
+  if (!options.walking_rows.empty()) return write_training(options, batch);
+  ExportFile exported(options.exported);
   std::vector<Evaluation> evaluations;
-  for (const std::string& file : options.files) {
-    const TrackSet truth = read_track_set(file);
-    if (windows_of(truth, protocol).empty())
-      throw Error(file,
-                  "nobody is there for " + std::to_string(protocol.observed + protocol.steps) +
-                      " frames without a gap, as protocol " + std::string(1, protocol.letter) +
-                      " needs; check the columns and that frames are a constant step apart");
+  for (const TrackSet& truth : batch.sets) {
     const TrackSet seen = options.noise > 0 ? with_noise(truth, options.noise, common.seed) : truth;
     for (const std::string& name : names) {
       if (interrupted()) return kExitInterrupted;
       if (!common.quiet) print(stderr, "{}: {}\n", truth.name, name);
-      evaluations.push_back(evaluate(make_method(name, settings, truth), seen, truth, protocol));
+      const std::string prefix = truth.name + "," + options.memory + "," + name;
+      evaluations.push_back(evaluate(make_method(name, settings, truth), seen, truth, protocol,
+                                     memory, exported.sink(prefix)));
     }
   }
+  exported.close();
   if (!options.plots.empty())
-    for (const std::string& file : options.files)
-      write_plots(options.plots, read_track_set(file), protocol, settings);
+    for (const TrackSet& set : batch.sets) write_plots(options.plots, set, protocol, settings);
   print(stdout, "{}", to_table(evaluations, protocol, common.seed));
-  if (options.json.empty()) return kExitDone;
-  nlohmann::ordered_json json = {{"protocol", std::string(1, protocol.letter)},
-                                 {"seed", common.seed},
-                                 {"samples", options.samples},
-                                 {"added_noise_m", options.noise}};
-  for (const NamedParameter& parameter : named_parameters(parameters))
-    json["parameters"][parameter.name] = *parameter.value;
-  json["evaluations"] = nlohmann::ordered_json::array();
-  for (const Evaluation& evaluation : evaluations)
-    json["evaluations"].push_back(to_json(evaluation, common.seed));
-  write_text(options.json, json.dump(2) + "\n");
-  return kExitDone;
+  if (!options.json.empty()) write_json(options, common, batch, evaluations);
+  return batch.left_out.empty() ? kExitDone : kExitNotHeld;
+}
+
+void add_reading_options(CLI::App& command, PredictOptions& options) {
+  command.add_option("--format", options.format,
+                     "what the recordings must be: " + recording_formats());
+  command
+      .add_option("--period", options.period,
+                  "time from one frame of the recordings to the next [s]")
+      ->check(finite_number(1e-4, 10.0));
+  command.add_option("--fps", options.rate, "the same as frames a second")
+      ->check(finite_number(0.1, 10000.0));
+  command.add_option("--fill", options.fill, "gaps up to this long are filled [s]")
+      ->check(finite_number(0.0, 60.0))
+      ->capture_default_str();
+  command.add_option("--type", options.types,
+                     "THEIRS=OURS: what a type of the recordings is here (may be repeated)");
 }
 
 }  // namespace
@@ -136,15 +285,22 @@ CommandRunner add_predict_command(CLI::App& parent) {
       parent.add_subcommand("predict", "the prediction benchmark on recorded trajectories");
   auto options = std::make_shared<PredictOptions>();
   command->add_option("FILES", options->files,
-                      "recordings: CSV or the common text format (frame id x y)");
+                      "recordings; formats are told by looking: " + recording_formats());
+  add_reading_options(*command, *options);
   command
       ->add_option(
           "--protocol", options->protocol,
           "A (the paper's script), B (same windows, 12 true steps) or C (8 seen, 12 predicted)")
       ->capture_default_str();
   command
+      ->add_option(
+          "--memory", options->memory,
+          "strict (each window by itself, as published methods are measured) or online (the "
+          "recording so far may teach, everybody by the same means)")
+      ->capture_default_str();
+  command
       ->add_option("--method", options->methods,
-                   "predictors to run; default: gamma and all baselines")
+                   "predictors to run; default: gamma and all baselines. Known: " + all_methods())
       ->delimiter(',');
   command->add_flag("--ablations", options->ablations,
                     "gamma with one part left out at a time, and the bound over its hypotheses");
@@ -158,9 +314,13 @@ CommandRunner add_predict_command(CLI::App& parent) {
                    "disturb what is observed by normal noise of this deviation [m]")
       ->check(finite_number(0.0, 10.0))
       ->capture_default_str();
+  command->add_option("--export", options->exported,
+                      "write a row for each agent, window, step and sample to this CSV file");
   command->add_option("--json", options->json, "write all figures to this file");
   command->add_option("--plots", options->plots,
                       "write pictures (SVG) of the fullest frames to this folder");
+  command->add_option("--walking-rows", options->walking_rows,
+                      "write what tools/train_walking_model.py learns from to this file and end");
   command->add_flag("--parameters", options->list_parameters, "print the parameters and end");
   return [options](const CommonOptions& common) { return run(*options, common); };
 }

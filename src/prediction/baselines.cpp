@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "geometry/rotation.h"
 #include "inference/motion_estimate.h"
+#include "prediction/experts.h"
 #include "prediction/roll_out.h"
 
 namespace sumogamma {
@@ -17,7 +18,9 @@ namespace {
 constexpr Baseline kBaselines[] = {
     {"cv", "constant velocity", constant_velocity},
     {"cv-smoothed", "constant velocity, smoothed speed", smoothed_velocity},
+    {"mean", "mean of the last 3 displacements", mean_velocity},
     {"ca", "constant acceleration", constant_acceleration},
+    {"ctra", "constant turn rate and acceleration", turning_acceleration},
     {"ctr", "constant turn rate", constant_turn_rate},
     {"kalman", "Kalman filter, constant velocity", kalman_velocity},
     {"orca", "ORCA (discs)", disc_orca},
@@ -124,6 +127,12 @@ Forecast constant_velocity(const ObservedScene& scene, std::size_t steps) {
                      [&](const ObservedAgent& agent) { return agent.last_velocity(scene.period); });
 }
 
+Forecast mean_velocity(const ObservedScene& scene, std::size_t steps) {
+  return go_straight(scene, steps, [&](const ObservedAgent& agent) {
+    return Vec2(mean_displacement(agent.position, 3) / scene.period);
+  });
+}
+
 Forecast smoothed_velocity(const ObservedScene& scene, std::size_t steps) {
   constexpr std::array<double, 4> kWeights = {1.0, 0.8, 0.64, 0.4096};
   return go_straight(scene, steps, [&](const ObservedAgent& agent) {
@@ -143,16 +152,22 @@ Forecast constant_acceleration(const ObservedScene& scene, std::size_t steps) {
   forecast.resize(scene.agents.size(), steps);
   for (std::size_t row = 0; row < scene.agents.size(); ++row) {
     const ObservedAgent& agent = scene.agents[row];
-    const Vec2 last = agent.last_velocity(scene.period);
-    const Vec2 change = (last - earlier_velocity(agent, 2, scene.period)) / 2.0;
-    Vec2 velocity = last, position = agent.now();
-    bool stopped = false;
-    for (std::size_t k = 0; k < steps; ++k) {
-      velocity += change;
-      stopped = stopped || velocity.dot(last) <= 0;
-      if (!stopped) position += scene.period * velocity;
-      forecast.position[row * steps + k] = position;
-    }
+    const std::span<Vec2> path(forecast.position.data() + row * steps, steps);
+    accelerating_path(agent.position, path);
+    for (Vec2& point : path) point += agent.now();
+  }
+  point_along_motion(scene, forecast);
+  return forecast;
+}
+
+Forecast turning_acceleration(const ObservedScene& scene, std::size_t steps) {
+  Forecast forecast;
+  forecast.resize(scene.agents.size(), steps);
+  for (std::size_t row = 0; row < scene.agents.size(); ++row) {
+    const ObservedAgent& agent = scene.agents[row];
+    const std::span<Vec2> path(forecast.position.data() + row * steps, steps);
+    turning_path(agent.position, 2, 0, path);
+    for (Vec2& point : path) point += agent.now();
   }
   point_along_motion(scene, forecast);
   return forecast;

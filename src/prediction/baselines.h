@@ -30,6 +30,11 @@ Forecast smoothed_velocity(const ObservedScene& scene, std::size_t steps);
 Forecast constant_acceleration(const ObservedScene& scene, std::size_t steps);
 /// Speed and turn rate of the last displacements go on.
 Forecast constant_turn_rate(const ObservedScene& scene, std::size_t steps);
+/// The mean of the last three displacements goes on.
+Forecast mean_velocity(const ObservedScene& scene, std::size_t steps);
+/// The speed's change goes on along an arc of the present turn rate, both from the last three
+/// displacements; stops instead of turning back.
+Forecast turning_acceleration(const ObservedScene& scene, std::size_t steps);
 /// Constant velocity behind a Kalman filter of position and velocity over the last eight frames
 /// (white acceleration 0.5 m/s^2, observations 5 cm).
 Forecast kalman_velocity(const ObservedScene& scene, std::size_t steps);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "prediction/distribution.h"
+#include "prediction/predictor_parameters.h"
 
 namespace sumogamma {
 
@@ -64,10 +65,50 @@ Predicted predicted_agents(const TrackSet& set, const ObservedScene& scene,
   return predicted;
 }
 
+/// All that was predicted at a frame.
+struct Told {
+  const ObservedScene& scene;
+  const Predicted& predicted;
+  const Forecast& forecast;
+  const std::vector<Forecast>& samples;
+  const Protocol& protocol;
+  const ForecastSink& sink;
+};
+
+WindowScore score_window(const TrackSet& truth, const Window& window, const Told& told) {
+  const Track& track = truth.tracks[window.track];
+  const std::vector<std::size_t>& tracks = told.predicted.tracks;
+  const auto at = std::find(tracks.begin(), tracks.end(), window.track);
+  const std::size_t row = told.predicted.rows[static_cast<std::size_t>(at - tracks.begin())];
+  WindowScore score;
+  score.track = window.track;
+  score.frame = window.frame;
+  score.type = track.type;
+  score.speed = told.scene.agents[row].last_velocity(told.scene.period).norm();
+  score.error = window_error(track, window.frame, told.forecast.row(row), told.protocol);
+  if (!told.samples.empty())
+    score_samples(track, window.frame, row, told.samples, told.protocol, score);
+  if (!told.sink) return score;
+  const auto scored = static_cast<std::size_t>(told.protocol.steps - told.protocol.counts_present);
+  told.sink({track, window.frame, 0, 1.0, told.forecast.row(row).first(scored)});
+  for (std::size_t s = 0; s < told.samples.size(); ++s)
+    told.sink({track, window.frame, s + 1, 1.0 / static_cast<double>(told.samples.size()),
+               told.samples[s].row(row).first(scored)});
+  return score;
+}
+
+/// Lets a method know only the frames [first, last] of a recording.
+void show_window(const Method& method, const TrackSet& window) {
+  if (method.forget) method.forget();
+  if (!method.observe) return;
+  for (int frame = window.first_frame; frame <= window.last_frame; ++frame)
+    method.observe(observe(window, frame));
+}
+
 }  // namespace
 
 Evaluation evaluate(const Method& method, const TrackSet& set, const TrackSet& truth,
-                    const Protocol& protocol) {
+                    const Protocol& protocol, Memory memory, const ForecastSink& sink) {
   const AgentTypeTable types = recorded_agent_types();
   const std::vector<Window> windows = windows_of(set, protocol);
   const std::size_t steps = static_cast<std::size_t>(protocol.steps);
@@ -76,13 +117,22 @@ Evaluation evaluate(const Method& method, const TrackSet& set, const TrackSet& t
   result.set = set.name;
   result.method = method.name;
   result.title = method.title;
+  result.memory = memory;
+  result.in_training = trained_on(content_of(truth));
   result.has_samples = static_cast<bool>(method.sample);
   std::size_t next = 0;
   for (int frame = set.first_frame; frame <= set.last_frame; ++frame) {
-    const ObservedScene scene = observe(set, frame);
+    const bool strict = memory == Memory::Strict;
+    const TrackSet window =
+        strict ? window_of(set, frame - protocol.observed + 1, frame) : TrackSet{};
+    const ObservedScene scene = observe(strict ? window : set, frame);
     const Predicted predicted = predicted_agents(set, scene, protocol);
+    if (strict && predicted.rows.empty()) continue;
     const double begin = cpu_seconds();
-    if (method.observe) method.observe(scene);
+    if (strict)
+      show_window(method, window);
+    else if (method.observe)
+      method.observe(scene);
     Forecast forecast;
     if (!predicted.rows.empty()) forecast = method.predict(scene, steps);
     result.cpu_seconds += cpu_seconds() - begin;
@@ -94,21 +144,9 @@ Evaluation evaluate(const Method& method, const TrackSet& set, const TrackSet& t
     if (next >= windows.size() || windows[next].frame != frame) continue;
     std::vector<Forecast> samples;
     if (method.sample) samples = method.sample(scene, steps);
-    for (; next < windows.size() && windows[next].frame == frame; ++next) {
-      const Track& track = truth.tracks[windows[next].track];
-      const auto at =
-          std::find(predicted.tracks.begin(), predicted.tracks.end(), windows[next].track);
-      const std::size_t row =
-          predicted.rows[static_cast<std::size_t>(at - predicted.tracks.begin())];
-      WindowScore score;
-      score.track = windows[next].track;
-      score.frame = frame;
-      score.type = track.type;
-      score.speed = scene.agents[row].last_velocity(scene.period).norm();
-      score.error = window_error(track, frame, forecast.row(row), protocol);
-      if (!samples.empty()) score_samples(track, frame, row, samples, protocol, score);
-      result.windows.push_back(score);
-    }
+    const Told told{scene, predicted, forecast, samples, protocol, sink};
+    for (; next < windows.size() && windows[next].frame == frame; ++next)
+      result.windows.push_back(score_window(truth, windows[next], told));
   }
   return result;
 }

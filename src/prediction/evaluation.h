@@ -11,12 +11,14 @@
 namespace sumogamma {
 
 /// A predictor as the evaluation calls it: `observe` once a frame in order (may be empty), then
-/// `predict` for the same scene, then `sample` (may be empty) for its distribution.
+/// `predict` for the same scene, then `sample` (may be empty) for its distribution. `forget` (may
+/// be empty) makes it as new: nothing of what was observed may remain.
 struct Method {
   std::string name, title;
   std::function<void(const ObservedScene&)> observe;
   std::function<Forecast(const ObservedScene&, std::size_t steps)> predict;
   std::function<std::vector<Forecast>(const ObservedScene&, std::size_t steps)> sample;
+  std::function<void()> forget;
 };
 
 /// Scores of one window.
@@ -35,18 +37,32 @@ struct WindowScore {
 /// One method on one recording.
 struct Evaluation {
   std::string set, method, title;
+  Memory memory = Memory::Strict;
   std::vector<WindowScore> windows;
   CollisionCount collisions, true_collisions;
   bool has_samples = false;
+  bool in_training = false;      ///< parameters were chosen on these very tracks
   double cpu_seconds = 0;        ///< in observe and predict, without samples
   std::int64_t predictions = 0;  ///< agents predicted with a full history
 };
 
-/// Runs a method over a recording, frame by frame from its beginning, and scores all windows. `set`
-/// is what the method sees, `truth` what it is scored against (the same recording, unless noise was
-/// added).
+/// What is told of every scored window: its track, its present frame, which sample (0: the
+/// prediction itself, then 1, 2, ...), the sample's weight, and the scored positions.
+struct ScoredForecast {
+  const Track& truth;
+  int frame;
+  std::size_t sample;
+  double weight;
+  std::span<const Vec2> predicted;
+};
+using ForecastSink = std::function<void(const ScoredForecast&)>;
+
+/// Runs a method over a recording and scores all windows. Online: frame by frame from the
+/// beginning. Strict: for every frame anew, from the frames that the protocol lets be seen and no
+/// others. `set` is what the method sees, `truth` what it is scored against (the same recording,
+/// unless noise was added). `sink`, where given, gets everything that is scored.
 Evaluation evaluate(const Method& method, const TrackSet& set, const TrackSet& truth,
-                    const Protocol& protocol);
+                    const Protocol& protocol, Memory memory, const ForecastSink& sink = {});
 
 /// Means over the windows for which `chosen` holds; null for none.
 struct Summary {

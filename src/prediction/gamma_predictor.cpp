@@ -114,11 +114,22 @@ void GammaPredictor::measure_noise(const ObservedScene& scene) {
   wheels_filter_ = filter_for(parameters_.wheels, wheels_noise_, period_);
 }
 
+void GammaPredictor::forget() {
+  noise_ = {};
+  flow_ = FlowMemory(options_.flow_cell_capacity);
+  calibration_ = {};
+  experts_ = {};
+  memory_.clear();
+  seen_ = {};
+  rows_.clear();
+}
+
 void GammaPredictor::observe(const ObservedScene& scene) {
   measure_noise(scene);
   for (const ObservedAgent& agent : scene.agents) {
     flow_.resolve(agent.id, agent.now());
     calibration_.resolve(agent.id, agent.now());
+    experts_.resolve(agent.id, agent.now(), kind_of(agent.type).experts);
   }
 
   // Eqs. 9 and 10: weigh what was expected of this frame
@@ -148,7 +159,8 @@ void GammaPredictor::remember(const ObservedScene& scene) {
     const Row& row = rows_[r];
     if (agent.position.size() < 3) continue;
     std::array<Vec2, FlowMemory::kSteps> expected = row.mean;
-    for (std::size_t k = 0; k < expected.size(); ++k) expected[k] += row.together[k];
+    for (std::size_t k = 0; k < expected.size(); ++k)
+      expected[k] += row.learned[k] + row.together[k];
     flow_.remember(agent.id, agent.now(), row.motion.velocity, expected);
     for (std::size_t k = 0; k < expected.size(); ++k) expected[k] += row.flow[k] + agent.now();
     const std::size_t kind = walks(type_of(model_.types, agent.type)) ? 0 : 1;
@@ -223,9 +235,50 @@ void GammaPredictor::estimate_rows(const ObservedScene& scene) {
     }
     ways(agent, row);
     mean_path(row);
+    row.learned.fill(Vec2::Zero());
     predecessors(agent, row);
   }
+  if (options_.use_experts) weigh_experts(scene);
   go_together(scene);
+}
+
+std::array<double, kExperts> GammaPredictor::expert_weights_of(std::uint32_t id,
+                                                               AgentTypeId type) const {
+  ExpertRate rate = kind_of(type).experts;
+  if (!options_.use_walking_model || std::abs(period_ - kWalkingPeriod) > 1e-6) rate.walking = 0;
+  return experts_.weights(id, walks(type_of(model_.types, type)) ? 0 : 1, rate);
+}
+
+void GammaPredictor::expert_paths(const ObservedAgent& agent, const Row& row, std::size_t r,
+                                  std::array<ExpertPath, kExperts>& paths) const {
+  auto path = [&](Expert expert) -> ExpertPath& { return paths[static_cast<std::size_t>(expert)]; };
+  path(Expert::Model) = row.mean;
+  walking_path(walking_[r], path(Expert::Walking));
+  straight_path(displacement_before(agent.position, 0), path(Expert::LastDisplacement));
+  straight_path(mean_displacement(agent.position, 3), path(Expert::MeanDisplacement));
+  straight_path(period_ * row.motion.velocity, path(Expert::Kalman));
+  accelerating_path(agent.position, path(Expert::Acceleration));
+  turning_path(agent.position, 2, 3, path(Expert::BriefTurn));
+  turning_path(agent.position, 2, 6, path(Expert::LongTurn));
+  turning_path(agent.position, 1, 8, path(Expert::FreshTurn));
+}
+
+void GammaPredictor::weigh_experts(const ObservedScene& scene) {
+  walking_features(model_.types, scene, walking_);
+  std::array<ExpertPath, kExperts> paths;
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    const ObservedAgent& agent = scene.agents[r];
+    Row& row = rows_[r];
+    expert_paths(agent, row, r, paths);
+    const std::array<double, kExperts> weight = expert_weights_of(agent.id, agent.type);
+    for (std::size_t k = 0; k < row.learned.size(); ++k) {
+      for (std::size_t e = 0; e < kExperts; ++e) row.learned[k] += weight[e] * paths[e][k];
+      row.learned[k] -= row.mean[k];
+    }
+    experts_.remember(agent.id, walks(type_of(model_.types, agent.type)) ? 0 : 1, agent.now(),
+                      agent.position.size(), paths);
+  }
+  experts_.end_frame(parameters_.walker.experts, parameters_.wheels.experts);
 }
 
 void GammaPredictor::predecessors(const ObservedAgent& agent, Row& row) const {
@@ -245,6 +298,9 @@ void GammaPredictor::go_together(const ObservedScene& scene) {
       companions_[r] = {agent.now(), rows_[r].motion.velocity,
                         walks(type_of(model_.types, agent.type)) && agent.position.size() >= 3,
                         flow ? rows_[r].flow : rows_[r].mean};
+      if (flow) continue;
+      for (std::size_t k = 0; k < companions_[r].path.size(); ++k)
+        companions_[r].path[k] += rows_[r].learned[k];
     }
     join_paths(companions_, parameters_.companions, companion_grid_, joint_);
     for (std::size_t r = 0; r < rows_.size(); ++r) {
@@ -254,7 +310,7 @@ void GammaPredictor::go_together(const ObservedScene& scene) {
         continue;
       }
       for (std::size_t k = 0; k < row.mean.size(); ++k)
-        row.together[k] = joint_[r][k] - row.mean[k];
+        row.together[k] = joint_[r][k] - row.mean[k] - row.learned[k];
     }
   }
 }
@@ -299,13 +355,16 @@ Forecast GammaPredictor::roll_out(const std::vector<Vec2>& path, std::size_t ste
   return forecast;
 }
 
+Vec2 GammaPredictor::corrected(const Row& row, std::size_t step) {
+  return row.learned[step] + row.together[step] + row.flow[step];
+}
+
 Forecast GammaPredictor::forecast(std::size_t steps) {
   assert(steps <= FlowMemory::kSteps);
   std::vector<Vec2> path(rows_.size() * steps);
   for (std::size_t r = 0; r < rows_.size(); ++r)
     for (std::size_t k = 0; k < steps; ++k)
-      path[r * steps + k] =
-          seen_.agents[r].now() + rows_[r].mean[k] + rows_[r].together[k] + rows_[r].flow[k];
+      path[r * steps + k] = seen_.agents[r].now() + rows_[r].mean[k] + corrected(rows_[r], k);
   return roll_out(path, steps);
 }
 
@@ -314,8 +373,7 @@ Forecast GammaPredictor::forecast_intention(IntentionHypothesis intention, std::
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const auto& way = rows_[r].way[static_cast<std::size_t>(intention)];
     for (std::size_t k = 0; k < steps; ++k)
-      path[r * steps + k] =
-          seen_.agents[r].now() + way[k] + rows_[r].together[k] + rows_[r].flow[k];
+      path[r * steps + k] = seen_.agents[r].now() + way[k] + corrected(rows_[r], k);
   }
   return roll_out(path, steps);
 }
@@ -369,8 +427,8 @@ Forecast GammaPredictor::sample(std::size_t index, std::size_t count, std::size_
                                 normal.y() * spread.across * left_of(spread.forward));
     for (std::size_t step = 0; step < steps; ++step) {
       const double time = static_cast<double>(step + 1) * period_;
-      path[r * steps + step] = agent.now() + way[step] + row.together[step] + row.flow[step] +
-                               std::pow(time, spread.growth) * noise;
+      path[r * steps + step] =
+          agent.now() + way[step] + corrected(row, step) + std::pow(time, spread.growth) * noise;
     }
   }
   return roll_out(path, steps);

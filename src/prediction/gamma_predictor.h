@@ -5,12 +5,14 @@
 
 #include "inference/behavior_filter.h"
 #include "prediction/companions.h"
+#include "prediction/expert_weights.h"
 #include "prediction/flow_memory.h"
 #include "prediction/observed_scene.h"
 #include "prediction/predictor_parameters.h"
 #include "prediction/road_guess.h"
 #include "prediction/roll_out.h"
 #include "prediction/spread_calibration.h"
+#include "prediction/walking_model.h"
 
 namespace sumogamma {
 
@@ -20,9 +22,11 @@ struct PredictorOptions {
   bool use_polygons = true;    ///< false: discs
   bool use_avoidance = true;   ///< G
   bool use_inference =
-      true;              ///< false: everybody keeps its velocity, as the paper's ablation has it
-  bool use_flow = true;  ///< what those did who were here before
-  bool use_companions = true;  ///< people who walk together keep together
+      true;                 ///< false: everybody keeps its velocity, as the paper's ablation has it
+  bool use_flow = true;     ///< what those did who were here before
+  bool use_experts = true;  ///< false: the mean of the intentions alone
+  bool use_walking_model = true;  ///< false: the experts without the regression
+  bool use_companions = true;     ///< people who walk together keep together
   bool use_smoothing =
       true;                  ///< false: velocity and acceleration from the last displacements alone
   bool most_likely = false;  ///< the paper's choice: the single likeliest intention, not the mean
@@ -38,6 +42,9 @@ class GammaPredictor {
   GammaPredictor(const AgentTypeTable& types, const PredictorParameters& parameters,
                  const PredictorOptions& options, double period,
                  const std::vector<Obstacle>& obstacles = {}, const RoadNetwork* road = nullptr);
+
+  /// As new: nothing of what was observed remains.
+  void forget();
 
   /// Takes in the next frame: updates beliefs by what everybody did since the last one. Frames must
   /// be consecutive; after a gap beliefs start anew.
@@ -56,6 +63,9 @@ class GammaPredictor {
   /// Every intention alone, for the oracle bound: what the best of them would have predicted.
   Forecast forecast_intention(IntentionHypothesis intention, std::size_t steps);
 
+  /// Weights of the experts for an agent of the last observed scene.
+  std::array<double, kExperts> expert_weights_of(std::uint32_t id, AgentTypeId type) const;
+
   /// Belief of an agent in the last observed scene; null where it is unknown.
   const Belief* belief_of(std::uint32_t id) const;
 
@@ -73,6 +83,7 @@ class GammaPredictor {
     using Path = std::array<Vec2, FlowMemory::kSteps>;
     std::array<Path, kIntentions> way;              ///< displacement by intention [m]
     std::array<Vec2, FlowMemory::kSteps> mean;      ///< displacement of the intentions [m]
+    std::array<Vec2, FlowMemory::kSteps> learned;   ///< what the experts make of it [m]
     std::array<Vec2, FlowMemory::kSteps> together;  ///< correction by companions [m]
     std::array<Vec2, FlowMemory::kSteps> flow;      ///< correction by predecessors [m]
   };
@@ -83,10 +94,16 @@ class GammaPredictor {
   void estimate_rows(const ObservedScene& scene);
   void ways(const ObservedAgent& agent, Row& row) const;
   void mean_path(Row& row) const;
+  /// Weighs the ways in which everybody may go on by how they did so far.
+  void weigh_experts(const ObservedScene& scene);
+  void expert_paths(const ObservedAgent& agent, const Row& row, std::size_t r,
+                    std::array<ExpertPath, kExperts>& paths) const;
   void predecessors(const ObservedAgent& agent, Row& row) const;
   void go_together(const ObservedScene& scene);
   Spread spread_of(const ObservedAgent& agent, const Row& row) const;
   void remember(const ObservedScene& scene);
+  /// What experts, companions and predecessors make of an intention's way [m].
+  static Vec2 corrected(const Row& row, std::size_t step);
   void infer(const ObservedScene& scene);
   /// The rows as a scene, each with its likeliest behaviour. Vehicles on the carriageway keep to
   /// it: what stands beside or above it is not in their way.
@@ -104,6 +121,8 @@ class GammaPredictor {
   MotionFilter walker_filter_, wheels_filter_;
   FlowMemory flow_;
   SpreadCalibration calibration_;
+  ExpertWeights experts_;
+  std::vector<WalkingFeatures> walking_;
   std::unordered_map<std::uint32_t, AgentMemory>
       memory_;  ///< looked up; iterated only to drop entries
   ObservedScene seen_;

@@ -17,6 +17,7 @@ constexpr std::size_t kLiveCellCapacity = 24;
 PredictorOptions live_options(bool has_road) {
   PredictorOptions options;
   options.use_flow = !has_road;
+  options.use_experts = false;  // where a map tells how one goes on, straight lines tell less
   options.flow_cell_capacity = kLiveCellCapacity;
   return options;
 }
@@ -24,6 +25,8 @@ PredictorOptions live_options(bool has_road) {
 
 PredictorParameters live_predictor_parameters() {
   PredictorParameters parameters = default_predictor_parameters();
+  // without the regression, which sees companions itself, they weigh in full
+  parameters.companions.weight = 1.0;
   parameters.walker.shape.speed_decay = parameters.wheels.shape.speed_decay = 0;
   return parameters;
 }

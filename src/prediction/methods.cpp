@@ -1,11 +1,13 @@
 #include "prediction/methods.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "base/error.h"
 #include "base/units.h"
 #include "prediction/baselines.h"
+#include "prediction/flow_memory.h"
 #include "prediction/gamma_predictor.h"
 
 namespace sumogamma {
@@ -29,6 +31,10 @@ constexpr Variant kVariants[] = {
      [](PredictorOptions& o) { o.use_avoidance = false; }},
     {"gamma-no-flow", "  without the flow of predecessors",
      [](PredictorOptions& o) { o.use_flow = false; }},
+    {"gamma-no-experts", "  without experts (intentions alone)",
+     [](PredictorOptions& o) { o.use_experts = false; }},
+    {"gamma-no-regression", "  without the regression of walkers",
+     [](PredictorOptions& o) { o.use_walking_model = false; }},
     {"gamma-no-companions", "  without companions",
      [](PredictorOptions& o) { o.use_companions = false; }},
     {"gamma-no-obstacles", "  without solid things",
@@ -39,12 +45,67 @@ constexpr Variant kVariants[] = {
      [](PredictorOptions& o) { o.most_likely = true; }},
 };
 
+/// A baseline that learns by the same means as the predictor does: the flow of those who were at
+/// the same place before.
+struct FlowedBaseline {
+  const Baseline& baseline;
+  PredictorParameters parameters;
+  AgentTypeTable types = recorded_agent_types();
+  FlowMemory flow{};
+
+  void observe(const ObservedScene& scene) {
+    for (const ObservedAgent& agent : scene.agents) flow.resolve(agent.id, agent.now());
+    const Forecast forecast = baseline.predict(scene, FlowMemory::kSteps);
+    std::array<Vec2, FlowMemory::kSteps> way;
+    for (std::size_t row = 0; row < scene.agents.size(); ++row) {
+      const ObservedAgent& agent = scene.agents[row];
+      if (agent.position.size() < 3) continue;
+      for (std::size_t k = 0; k < way.size(); ++k) way[k] = forecast.row(row)[k] - agent.now();
+      flow.remember(agent.id, agent.now(), agent.last_velocity(scene.period), way);
+    }
+    flow.end_frame();
+  }
+
+  Forecast predict(const ObservedScene& scene, std::size_t steps) const {
+    Forecast forecast = baseline.predict(scene, steps);
+    for (std::size_t row = 0; row < scene.agents.size(); ++row) {
+      const ObservedAgent& agent = scene.agents[row];
+      const bool walks = type_of(types, agent.type).kinematics == Kinematics::Holonomic;
+      const FlowKernel& kernel = walks ? parameters.walker.flow : parameters.wheels.flow;
+      const auto correction =
+          flow.correction(agent.id, agent.now(), agent.last_velocity(scene.period), kernel);
+      for (std::size_t k = 0; k < steps; ++k) forecast.position[row * steps + k] += correction[k];
+    }
+    return forecast;
+  }
+};
+
+constexpr std::string_view kFlowSuffix = "+flow";
+
+Method flowed_method(const Baseline& baseline, const MethodSettings& settings) {
+  const std::shared_ptr<FlowedBaseline> flowed(
+      new FlowedBaseline{.baseline = baseline, .parameters = settings.parameters});
+  Method method{std::string(baseline.name) + std::string(kFlowSuffix),
+                std::string(baseline.title) + " + flow",
+                {},
+                {},
+                {},
+                {}};
+  method.observe = [flowed](const ObservedScene& scene) { flowed->observe(scene); };
+  method.predict = [flowed](const ObservedScene& scene, std::size_t steps) {
+    return flowed->predict(scene, steps);
+  };
+  method.forget = [flowed] { flowed->flow = FlowMemory(); };
+  return method;
+}
+
 Method gamma_method(const Variant& variant, const MethodSettings& settings, const TrackSet& set) {
   PredictorOptions options;
   variant.change(options);
   auto predictor = std::make_shared<GammaPredictor>(recorded_agent_types(), settings.parameters,
                                                     options, set.period, set.obstacles);
-  Method method{variant.name, variant.title, {}, {}, {}};
+  Method method{variant.name, variant.title, {}, {}, {}, {}};
+  method.forget = [predictor] { predictor->forget(); };
   method.observe = [predictor](const ObservedScene& scene) { predictor->observe(scene); };
   method.predict = [predictor](const ObservedScene&, std::size_t steps) {
     return predictor->forecast(steps);
@@ -63,7 +124,8 @@ Method gamma_method(const Variant& variant, const MethodSettings& settings, cons
 Method oracle_method(const MethodSettings& settings, const TrackSet& set) {
   auto predictor = std::make_shared<GammaPredictor>(recorded_agent_types(), settings.parameters,
                                                     PredictorOptions{}, set.period, set.obstacles);
-  Method method{"oracle", "  bound: best single intention (min columns)", {}, {}, {}};
+  Method method{"oracle", "  bound: best single intention (min columns)", {}, {}, {}, {}};
+  method.forget = [predictor] { predictor->forget(); };
   method.observe = [predictor](const ObservedScene& scene) { predictor->observe(scene); };
   method.predict = [predictor](const ObservedScene&, std::size_t steps) {
     return predictor->forecast(steps);
@@ -103,12 +165,12 @@ std::vector<Forecast> velocity_fan(const ObservedScene& scene, std::size_t count
 }
 
 Method baseline_method(const Baseline& baseline) {
-  return {std::string(baseline.name), std::string(baseline.title), {}, baseline.predict, {}};
+  return {std::string(baseline.name), std::string(baseline.title), {}, baseline.predict, {}, {}};
 }
 
 }  // namespace
 
-std::vector<std::string> default_methods(bool ablations) {
+std::vector<std::string> default_methods(bool ablations, Memory memory) {
   std::vector<std::string> names;
   if (ablations) {
     for (const Variant& variant : kVariants) names.emplace_back(variant.name);
@@ -116,7 +178,21 @@ std::vector<std::string> default_methods(bool ablations) {
   }
   names.emplace_back("gamma");
   for (const Baseline& baseline : baselines()) names.emplace_back(baseline.name);
+  // who may learn from the recording is compared with those who may as well
+  if (memory == Memory::Online)
+    for (const char* simple : {"cv", "mean", "kalman", "ca"})
+      names.push_back(simple + std::string(kFlowSuffix));
   return names;
+}
+
+std::string all_methods() {
+  std::string all;
+  auto add = [&](std::string_view name) { all += (all.empty() ? "" : ", ") + std::string(name); };
+  for (const Variant& variant : kVariants) add(variant.name);
+  add("oracle");
+  add("cv-fan");
+  for (const Baseline& baseline : baselines()) add(baseline.name);
+  return all + "; with +flow behind a baseline's name it learns as gamma does";
 }
 
 Method make_method(const std::string& name, const MethodSettings& settings, const TrackSet& set) {
@@ -124,13 +200,15 @@ Method make_method(const std::string& name, const MethodSettings& settings, cons
     if (variant.name == name) return gamma_method(variant, settings, set);
   if (name == "oracle") return oracle_method(settings, set);
   if (name == "cv-fan") {
-    Method method{"cv-fan", "constant velocity, fan of directions", {}, constant_velocity, {}};
+    Method method{"cv-fan", "constant velocity, fan of directions", {}, constant_velocity, {}, {}};
     if (settings.samples > 1)
       method.sample = [count = settings.samples](const ObservedScene& scene, std::size_t steps) {
         return velocity_fan(scene, count, steps);
       };
     return method;
   }
+  if (name.ends_with(kFlowSuffix))
+    return flowed_method(find_baseline(name.substr(0, name.size() - kFlowSuffix.size())), settings);
   return baseline_method(find_baseline(name));
 }
 

@@ -16,11 +16,15 @@ struct MethodSettings {
   std::uint64_t seed = 1;
 };
 
-/// Names for a table: gamma and the baselines, or (ablations) gamma and its parts.
-std::vector<std::string> default_methods(bool ablations);
+/// Names for a table: gamma and the baselines (online: the simple ones with flow, too), or
+/// (ablations) gamma and its parts.
+std::vector<std::string> default_methods(bool ablations, Memory memory);
+
+/// Every name that make_method knows, for a help text.
+std::string all_methods();
 
 /// A fresh predictor for a recording (of which it is told period and solid things alone) by name:
-/// gamma, gamma-no-..., oracle, cv-fan or one of the baselines. Throws Error on an unknown name.
+/// one of all_methods(). Throws Error on an unknown name.
 Method make_method(const std::string& name, const MethodSettings& settings, const TrackSet& set);
 
 }  // namespace sumogamma

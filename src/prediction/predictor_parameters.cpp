@@ -20,7 +20,10 @@ PredictorParameters default_predictor_parameters() {
   p.walker.flow = {.distance = 1.875, .speed = 0.3, .prior = 4};
   p.walker.filter.intention_prior = {0.05303, 1, 0.1414, 0.1};
   p.walker.filter.change_of_mind = 0.005988;
-  p.companions = {.distance = 1.5, .speed = 0.2143, .weight = 1.0};
+  p.companions = {.distance = 1.5, .speed = 0.2143, .weight = 0.3};
+  // by hand: the regression looks twelve steps ahead, rounds four
+  p.walker.experts = {.rate = 0.3, .own = 2, .walking = 1000, .others = 100, .keep = 0.98};
+  p.wheels.experts = {.rate = 2, .own = 2, .others = 1000, .keep = 0.98};
 
   p.wheels.noise = {.observation = 0.02,
                     .acceleration_variance = 0.2654,
@@ -51,9 +54,31 @@ PredictorParameters default_predictor_parameters() {
   return p;
 }
 
-std::span<const std::string_view> training_recordings() {
-  static constexpr std::string_view kNames[] = {"eth", "hotel", "univ003", "zara1", "cross"};
-  return kNames;
+std::span<const TrainingRecording> training_recordings() {
+  static constexpr TrainingRecording kRecordings[] = {
+      {"eth", 0x59e780a2fb1609db},
+      {"hotel", 0x7783f672d0ae4c83},
+      {"univ003", 0xc9fc52a630ce7e95},
+      {"zara1", 0xa9e66c6cb2ad9845},
+      {"cross", 0x0a570409514ec603},
+      {"intersection_10", 0xf55dad2b36528013},
+      {"intersection_11", 0xf21246a4d297f3d1},
+      {"intersection_12", 0x92ab1debda2d2f8b},
+      {"roundabout_10", 0x6b86088ea0e38479},
+      {"bi_corr_400_b_03", 0xb7a6ffa732a29989},
+      {"uo-050-180-180", 0x2ec4e1b9d99972f0},
+      {"uo-070-180-180", 0x30b8c572382d3fd2},
+      {"uo-100-180-180", 0x5e522c5bbe7fef35},
+      {"uo-180-180-070", 0xc550917766847c1c},
+      {"uo-180-180-120", 0xbb8806cbf7710a14},
+  };
+  return kRecordings;
+}
+
+bool trained_on(std::uint64_t content) {
+  for (const TrainingRecording& recording : training_recordings())
+    if (recording.content == content) return true;
+  return false;
 }
 
 namespace {
@@ -79,6 +104,12 @@ void append_kind(const std::string& prefix, KindParameters& kind,
   add("flow_distance", kind.flow.distance);
   add("flow_speed", kind.flow.speed);
   add("flow_prior", kind.flow.prior);
+  add("expert_rate", kind.experts.rate);
+  add("expert_own", kind.experts.own);
+  add("expert_prior_model", kind.experts.model);
+  add("expert_prior_walking", kind.experts.walking);
+  add("expert_others", kind.experts.others);
+  add("expert_keep", kind.experts.keep);
   add("road_ahead", kind.road_ahead);
   add("road_turn", kind.road_turn);
   add("along_fixed", kind.along_fixed);

@@ -6,6 +6,7 @@
 
 #include "inference/behavior_filter.h"
 #include "prediction/companions.h"
+#include "prediction/expert_weights.h"
 #include "prediction/flow_memory.h"
 
 namespace sumogamma {
@@ -19,6 +20,7 @@ struct KindParameters {
   IntentionShape shape;
   FilterParameters filter;
   FlowKernel flow;
+  ExpertRate experts;
   /// prior of the road's ways where a network is known: straight on; each of left and right
   double road_ahead = 1.0, road_turn = 0.3;
 
@@ -44,8 +46,14 @@ struct PredictorParameters {
 
 PredictorParameters default_predictor_parameters();
 
-/// Names of the recordings that the parameters were chosen on.
-std::span<const std::string_view> training_recordings();
+/// A recording that parameters or coefficients were chosen on.
+struct TrainingRecording {
+  std::string_view name;
+  std::uint64_t content;  ///< see content_of
+};
+std::span<const TrainingRecording> training_recordings();
+/// Whether these very tracks were among them, whatever they are called now.
+bool trained_on(std::uint64_t content);
 
 /// A parameter by its name, such as "walker.flow_distance".
 struct NamedParameter {

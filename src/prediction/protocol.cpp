@@ -23,6 +23,14 @@ Protocol protocol_from_letter(std::string_view letter) {
   throw Error("--protocol", "\"" + std::string(letter) + "\" is unknown, expected A, B or C");
 }
 
+std::string_view name_of(Memory memory) { return memory == Memory::Strict ? "strict" : "online"; }
+
+Memory memory_from_name(std::string_view name) {
+  for (const Memory memory : {Memory::Strict, Memory::Online})
+    if (name == name_of(memory)) return memory;
+  throw Error("--memory", "\"" + std::string(name) + "\" is unknown, expected strict or online");
+}
+
 std::vector<Window> windows_of(const TrackSet& set, const Protocol& protocol) {
   std::vector<Window> windows;
   const bool script = protocol.id != ProtocolId::C;
@@ -32,7 +40,11 @@ std::vector<Window> windows_of(const TrackSet& set, const Protocol& protocol) {
     int begin = track.first + protocol.observed - 1;
     if (script) begin = std::max(begin, 1);
     const int end = std::min(track.last(), last_read) - protocol.steps;
-    for (int frame = begin; frame <= end; ++frame) windows.push_back({t, frame});
+    for (int frame = begin; frame <= end; ++frame) {
+      // a point in a gap was made of the next one: it would tell the future
+      const auto now = static_cast<std::size_t>(frame - track.first);
+      if (track.filled.empty() || !track.filled[now]) windows.push_back({t, frame});
+    }
   }
   std::stable_sort(windows.begin(), windows.end(),
                    [](const Window& a, const Window& b) { return a.frame < b.frame; });

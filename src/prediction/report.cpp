@@ -134,6 +134,7 @@ std::span<const PublishedResult> published_results() { return kPublished; }
 nlohmann::ordered_json to_json(const Evaluation& evaluation, std::uint64_t seed) {
   const AgentTypeTable types = recorded_agent_types();
   Json json = {{"set", evaluation.set}, {"method", evaluation.method}, {"title", evaluation.title}};
+  json["memory"] = name_of(evaluation.memory);
   json.update(summary_json(summarize(evaluation), evaluation.has_samples));
   const Intervals intervals = intervals_of(evaluation, seed);
   json["ade_95"] = to_json(intervals.average);
@@ -141,9 +142,7 @@ nlohmann::ordered_json to_json(const Evaluation& evaluation, std::uint64_t seed)
   json["collision_rate"] = evaluation.collisions.rate();
   json["collision_pairs"] = evaluation.collisions.pairs;
   json["true_collision_rate"] = evaluation.true_collisions.rate();
-  const auto training = training_recordings();
-  json["in_training"] =
-      std::find(training.begin(), training.end(), evaluation.set) != training.end();
+  json["in_training"] = evaluation.in_training;
   json["cpu_us_per_agent_prediction"] = microseconds(evaluation);
   Json by_class = Json::object(), by_speed = Json::object();
   for (std::size_t t = 0; t < types.size(); ++t) {
@@ -171,11 +170,19 @@ std::string to_table(const std::vector<Evaluation>& evaluations, const Protocol&
       "agents.\n",
       protocol.letter, protocol.observed, protocol.steps,
       protocol.counts_present ? ", the present counted as the first" : "");
+  const bool strict = evaluations.empty() || evaluations.front().memory == Memory::Strict;
+  text += strict
+              ? "Memory: strict. Each window by itself: what is seen of everybody in it, nothing "
+                "else. Published rows are of this kind.\n"
+              : "Memory: online. The recording so far may teach; rows with \"+ flow\" learn as "
+                "sumo-gamma does. No published row is comparable, so none is printed.\n";
   text += "Parameters: one set, chosen on";
-  for (const std::string_view name : training_recordings()) text += " " + std::string(name);
+  for (const TrainingRecording& recording : training_recordings())
+    text += " " + std::string(recording.name);
   text += ".\n";
   std::string set;
   auto published = [&] {
+    if (!strict) return;
     for (const PublishedResult& row : published_results()) {
       // the paper's UNIV is both of its recordings together
       const bool both = row.set == "univ" && (set == "univ001" || set == "univ003");
@@ -188,11 +195,10 @@ std::string to_table(const std::vector<Evaluation>& evaluations, const Protocol&
     if (evaluation.set != set) {
       published();
       set = evaluation.set;
-      const auto training = training_recordings();
-      const bool known = std::find(training.begin(), training.end(), set) != training.end();
-      text += fmt::format("\n{}: {} windows, COL of the truth {:.4f}, parameters chosen {} it\n",
-                          set, evaluation.windows.size(), evaluation.true_collisions.rate(),
-                          known ? "with" : "without");
+      text += fmt::format(
+          "\n{}, {}: {} windows, COL of the truth {:.4f}, parameters chosen {} it\n", set,
+          name_of(evaluation.memory), evaluation.windows.size(), evaluation.true_collisions.rate(),
+          evaluation.in_training ? "with" : "without");
       text += fmt::format("  {:<40} {:>7} {:>7} {:>15} {:>6} {:>7} {:>8}", "", "ADE", "FDE",
                           "ADE 95 %", "miss", "COL", "us/pred");
       if (evaluation.has_samples) text += "   minADE  minFDE     NLL  energy  in 50  in 90";

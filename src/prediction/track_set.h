@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "geometry/vec2.h"
+#include "prediction/recording_formats.h"
 #include "road/road_network.h"
 #include "scene/agent_type.h"
 
@@ -18,6 +20,8 @@ struct Track {
   int first = 0;
   std::vector<Vec2> position;   ///< of the reference point: rear axle on wheels, centre on foot [m]
   std::vector<double> heading;  ///< as annotated, or else the last direction of motion [rad]
+  bool annotated = false;       ///< the recording tells headings itself
+  std::vector<bool> filled{};   ///< by frame: lies in a gap that was filled; empty: none does
 
   int last() const { return first + static_cast<int>(position.size()) - 1; }
   bool present(int frame) const { return frame >= first && frame <= last(); }
@@ -30,19 +34,34 @@ struct TrackSet {
   std::vector<Track> tracks;  ///< in order of id
   int first_frame = 0, last_frame = -1;
   std::vector<Obstacle> obstacles;  ///< solid things, in the same axes
+  std::string format;               ///< as which it was read
+  double own_period = 0.4;          ///< of the file's own frames [s]
+  std::int64_t filled_gaps = 0, filled_steps = 0, split_gaps = 0;
+  std::vector<std::string> notes;  ///< what was assumed in reading it
 };
 
 /// The types of the recordings with the boxes, wheelbases and limits that the published predictor
-/// uses (pedestrian, moped, bicycle, electric_tricycle, car, van, bus); a type's
+/// uses (pedestrian, moped, bicycle, electric_tricycle, car, van, bus), and a truck; a type's
 /// rear_axle_to_center leads from a track's position to its footprint's centre.
 AgentTypeTable recorded_agent_types();
 
-/// Reads `frame,agent_id,agent_type,x_m,y_m,vx_mps,vy_mps,heading_x,heading_y` (CSV with a header,
-/// columns found by name, heading and type optional) or the common text format `frame id x y`
-/// (blanks or tabs, no header, frames a constant number apart, everybody on foot). An agent whose
-/// frames have a gap becomes several tracks. Where NAME_obstacles.json stands beside NAME.csv, its
-/// polygons come along. Throws Error naming file and line.
-TrackSet read_track_set(const std::filesystem::path& path);
+/// Headings of a track: as annotated where that is a number, or else the direction of the last
+/// motion. Somebody on foot has none before moving.
+void point_track(const AgentTypeTable& types, std::span<const double> annotated, Track& track);
+
+/// Reads a recording in any format of recording_formats.h and samples it every 0.4 s
+/// (resampling.h). Where NAME_obstacles.json stands beside NAME.csv, its polygons come along.
+/// Throws Error naming file and line.
+TrackSet read_track_set(const std::filesystem::path& path, const ReadOptions& options = {});
+
+/// A number that two recordings of the same tracks share, whatever they are called and in whatever
+/// order: it is made of the positions, to a centimetre.
+std::uint64_t content_of(const TrackSet& set);
+
+/// The frames [first, last] of a recording as a recording by itself: whoever is present at any of
+/// them, with these positions and nothing from before or after. Directions of motion are taken from
+/// these positions alone. Obstacles come along.
+TrackSet window_of(const TrackSet& set, int first, int last);
 
 /// The same recording with its observations disturbed by normal noise of this deviation [m], to see
 /// what a predictor owes to observations that are finer than any tracker's.

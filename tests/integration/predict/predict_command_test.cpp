@@ -44,6 +44,67 @@ TEST(PredictCommand, ScoresARecordingAndWritesJson) {
   EXPECT_TRUE(json["evaluations"][0].contains("inside_90"));
 }
 
+/// The table's figures, to four digits, from the exported rows alone, by a program of its own.
+TEST(PredictCommand, ExportsWhatAnIndependentScorerNeeds) {
+  const auto folder = std::filesystem::temp_directory_path();
+  const std::string rows = (folder / "sumogamma_export.csv").string();
+  const std::string json_path = (folder / "sumogamma_export.json").string();
+  const auto hotel =
+      std::filesystem::path(SUMOGAMMA_SHARED_DIR) / "data" / "trajectories" / "hotel.csv";
+  const std::string recording = std::filesystem::exists(hotel) ? hotel.string() : small_recording();
+  for (const char* protocol : {"A", "C"}) {
+    SCOPED_TRACE(protocol);
+    const ProcessResult result =
+        predict({recording, "--method", "gamma,cv-fan,mean", "--samples", "4", "--protocol",
+                 protocol, "--json", json_path, "--export", rows});
+    ASSERT_TRUE(result.ok()) << result.errors;
+    const ProcessResult scored = run_process(
+        {.arguments = {"python3", std::string(SUMOGAMMA_SOURCE_DIR) + "/tools/score_predictions.py",
+                       rows, "--json", "--protocol", protocol},
+         .environment = {},
+         .folder = {},
+         .time_limit = 300.0,
+         .output_limit = 1 << 20,
+         .should_stop = {}});
+    ASSERT_TRUE(scored.ok()) << scored.errors;
+    const auto ours = nlohmann::json::parse(std::ifstream(json_path)).at("evaluations");
+    const auto theirs = nlohmann::json::parse(scored.output);
+    ASSERT_EQ(ours.size(), 3u);
+    ASSERT_EQ(theirs.size(), 3u);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(theirs[k].at("method"), ours[k].at("method"));
+      EXPECT_EQ(theirs[k].at("windows"), ours[k].at("windows"));
+      EXPECT_EQ(theirs[k].at("memory"), "strict");
+      for (const char* figure : {"ade", "fde", "miss_rate", "min_ade", "min_fde"})
+        if (ours[k].contains(figure)) {
+          EXPECT_NEAR(theirs[k].at(figure).get<double>(), ours[k].at(figure).get<double>(), 5e-5);
+        }
+    }
+  }
+}
+
+TEST(PredictCommand, SaysWhichMemoryAndKeepsPublishedRowsBesideStrict) {
+  const auto named = std::filesystem::temp_directory_path() / "hotel.txt";
+  std::filesystem::copy_file(small_recording(), named,
+                             std::filesystem::copy_options::overwrite_existing);
+  const ProcessResult strict = predict({named.string(), "--method", "cv"});
+  EXPECT_NE(strict.output.find("Memory: strict"), std::string::npos) << strict.output;
+  EXPECT_NE(strict.output.find("as published"), std::string::npos);
+  const ProcessResult online = predict({named.string(), "--memory", "online"});
+  ASSERT_TRUE(online.ok()) << online.errors;
+  EXPECT_NE(online.output.find("Memory: online"), std::string::npos);
+  EXPECT_NE(online.output.find("constant velocity + flow"), std::string::npos) << online.output;
+  EXPECT_EQ(online.output.find("as published"), std::string::npos);
+  EXPECT_EQ(predict({named.string(), "--memory", "none"}).exit_code, 2);
+}
+
+TEST(PredictCommand, NamesEveryMethodInItsHelp) {
+  const ProcessResult help = predict({"--help"});
+  for (const char* name :
+       {"gamma-no-experts", "oracle", "cv-fan", "mean", "kalman", "ctra", "+flow"})
+    EXPECT_NE(help.output.find(name), std::string::npos) << name;
+}
+
 TEST(PredictCommand, DrawsPictures) {
   const auto folder = std::filesystem::temp_directory_path() / "sumogamma_predict_plots";
   std::filesystem::remove_all(folder);
@@ -84,6 +145,35 @@ TEST(PredictCommand, RefusesBadRecordingsWithOneLine) {
     EXPECT_NE(result.errors.find(row.words), std::string::npos) << result.errors;
     EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
   }
+}
+
+TEST(PredictCommand, LeavesOutWhatCannotBeUsedAndWritesTheRest) {
+  const auto json_path = std::filesystem::temp_directory_path() / "sumogamma_left_out.json";
+  const std::string bad = made_file("bad.csv", "frame,agent_id,x,y\n0,1,1e300,0\n");
+  const ProcessResult result =
+      predict({bad, small_recording(), "--method", "cv", "--json", json_path.string()});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_NE(result.errors.find("left out: " + bad), std::string::npos) << result.errors;
+  EXPECT_NE(result.output.find("55 windows"), std::string::npos) << result.output;
+  const auto json = nlohmann::json::parse(std::ifstream(json_path));
+  EXPECT_EQ(json.at("left_out").size(), 1u);
+  EXPECT_EQ(json.at("evaluations").size(), 1u);
+  EXPECT_EQ(json.at("memory"), "strict");
+}
+
+TEST(PredictCommand, TakesTheRateThatItIsTold) {
+  std::string text = "frame,agent_id,x_m,y_m\n";
+  for (int frame = 0; frame < 300; ++frame) {
+    text += std::to_string(frame) + ",1," + std::to_string(0.05 * frame) + ",2\n";
+    text += std::to_string(frame) + ",2," + std::to_string(0.05 * frame) + ",4\n";
+  }
+  const std::string file = made_file("native.csv", text);
+  const ProcessResult silent = predict({file, "--method", "cv"});
+  EXPECT_EQ(silent.exit_code, 2);
+  EXPECT_NE(silent.errors.find("--fps"), std::string::npos) << silent.errors;
+  const ProcessResult told = predict({file, "--method", "cv", "--fps", "25"});
+  EXPECT_EQ(told.exit_code, 0) << told.errors;
+  EXPECT_NE(told.output.find("22 windows"), std::string::npos) << told.output;
 }
 
 TEST(PredictCommand, TakesOneAgentAlone) {

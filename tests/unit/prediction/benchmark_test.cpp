@@ -46,10 +46,10 @@ std::filesystem::path recording(const std::string& name) {
 
 TEST(TrackSet, ReadsTheCommonTextFormatAndSplitsAtGaps) {
   const TrackSet set =
-      read_track_set(write("gaps.txt", "0 1 0 0\n10 1 1 0\n30 1 3 0\n0\t2\t5\t5\n10\t2\t5\t6\n"));
+      read_track_set(write("gaps.txt", "0 1 0 0\n10 1 1 0\n50 1 5 0\n0\t2\t5\t5\n10\t2\t5\t6\n"));
   ASSERT_EQ(set.tracks.size(), 3u);
   EXPECT_EQ(set.tracks[0].position.size(), 2u);
-  EXPECT_EQ(set.tracks[2].first, 3);  // the later part of agent 1, under an id of its own
+  EXPECT_EQ(set.tracks[2].first, 5);  // the later part of agent 1, under an id of its own
   EXPECT_NEAR(set.tracks[1].heading[1], std::acos(0.0), 1e-12);
 }
 
@@ -114,8 +114,9 @@ TEST(Evaluation, ReproducesConstantVelocityOnTheRecordings) {
       GTEST_SKIP() << "no recordings beside the project";
     SCOPED_TRACE(std::string(row.set) + " " + row.protocol);
     const TrackSet set = read_track_set(recording(row.set));
-    const Method method{"cv", "", {}, constant_velocity, {}};
-    const Evaluation evaluation = evaluate(method, set, set, protocol_from_letter(row.protocol));
+    const Method method{"cv", "", {}, constant_velocity, {}, {}};
+    const Evaluation evaluation =
+        evaluate(method, set, set, protocol_from_letter(row.protocol), Memory::Online);
     const Summary summary = summarize(evaluation);
     EXPECT_EQ(summary.windows, row.windows);
     EXPECT_NEAR(summary.average, row.average, 5.1e-5);
@@ -128,10 +129,41 @@ TEST(GammaPredictor, BeatsConstantVelocityOnARecording) {
     GTEST_SKIP() << "no recordings beside the project";
   const TrackSet set = read_track_set(recording("hotel"));
   const MethodSettings settings{default_predictor_parameters(), 0, 1};
-  const Summary gamma =
-      summarize(evaluate(make_method("gamma", settings, set), set, set, protocol_from_letter("C")));
+  const Summary gamma = summarize(evaluate(make_method("gamma", settings, set), set, set,
+                                           protocol_from_letter("C"), Memory::Online));
   EXPECT_LT(gamma.average, 0.275);
   EXPECT_LT(gamma.final, 0.52);
+}
+
+/// Each window by itself, no baseline that needs no model is better.
+TEST(GammaPredictor, IsNeverWorseThanSimpleInStrictWindows) {
+  for (const char* name : {"hotel", "zara1", "cross"}) {
+    if (!std::filesystem::exists(recording(name)))
+      GTEST_SKIP() << "no recordings beside the project";
+    SCOPED_TRACE(name);
+    const TrackSet set = read_track_set(recording(name));
+    const MethodSettings settings{default_predictor_parameters(), 0, 1};
+    const auto score = [&](const char* method) {
+      return summarize(evaluate(make_method(method, settings, set), set, set,
+                                protocol_from_letter("C"), Memory::Strict));
+    };
+    const Summary gamma = score("gamma");
+    for (const char* simple : {"cv", "mean", "kalman", "ca", "ctra"}) {
+      const Summary other = score(simple);
+      EXPECT_LT(gamma.average, 0.96 * other.average) << simple;
+      EXPECT_LT(gamma.final, 0.96 * other.final) << simple;
+    }
+  }
+}
+
+TEST(TrainingRecordings, AreKnownByContentWhateverTheyAreCalled) {
+  if (!std::filesystem::exists(recording("zara1")))
+    GTEST_SKIP() << "no recordings beside the project";
+  TrackSet set = read_track_set(recording("zara1"));
+  set.name = "other";
+  EXPECT_TRUE(trained_on(content_of(set)));
+  set.tracks[3].position[2].x() += 0.05;
+  EXPECT_FALSE(trained_on(content_of(set)));
 }
 
 /// What comes later must not change what was predicted before.
