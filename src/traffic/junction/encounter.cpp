@@ -10,7 +10,7 @@ namespace {
 /// Who stands at red, or comes to it, and goes over it all the same (see signals).
 bool goes_over_red(const TrafficView& view, const Party& one, Light light) {
   const bool may_wait =
-      one.at.front < 1.0 || one.on_foot || view.traffic.halted_for[one.row()] == one.at.connection;
+      one.at.front < 1.0 || one.on_foot || one.waits.halted_for == one.at.connection;
   return is_red(light) && may_wait && goes_at_red(view, one.row(), one.at.connection);
 }
 
@@ -100,16 +100,14 @@ bool is_on_junction(const Encounter& e, const Party& one) {
 }
 
 bool has_halted(const Encounter& e, const Party& one) {
-  const ConnectionId halted_for = e.traffic.halted_for[one.row()];
-  return halted_for != kNoConnection &&
-         halted_for == halt_counts_for(e.model.road, *e.road.path(e.scene.path[one.row()]),
-                                       one.on_path, one.at.length);
+  return one.waits.halted_for != kNoConnection &&
+         one.waits.halted_for == halt_counts_for(e.model.road,
+                                                 *e.road.path(e.scene.path[one.row()]), one.on_path,
+                                                 one.at.length);
 }
 
 bool has_set_out_from(const Encounter& e, const Party& one, double place) {
-  const RoadContext& before = e.scene.context[one.row()];
-  return before.active &&
-         (before.reason == LimitReason::None || before.reason == LimitReason::Leader) &&
+  return (one.waits.reason == LimitReason::None || one.waits.reason == LimitReason::Leader) &&
          one.on_path.stop_line + one.at.front > place + e.parameters.line_tolerance;
 }
 

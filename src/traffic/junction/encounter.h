@@ -6,7 +6,9 @@
 
 namespace sumogamma {
 
-/// One of the two who come to a conflict area. Lengths are [m past its link's begin].
+/// One of the two who come to a conflict area. Lengths are [m past its link's begin]. Laws read
+/// what held it from `waits`: contexts, and what stands in TrafficState beside them, are being
+/// written.
 struct Party {
   Approach at;              ///< its front, speed and length on the way over its link
   const PathLink& on_path;  ///< the link as its path has it

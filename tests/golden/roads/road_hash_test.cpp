@@ -70,7 +70,7 @@ TEST_P(GoldenScenarios, HaveTheRecordedBits) {
 
 // one or two rules of the road each
 INSTANTIATE_TEST_SUITE_P(Scenario, GoldenScenarios,
-                         testing::Values(Golden{"all_way_stop", "671c4e4e2c49eb21"},
+                         testing::Values(Golden{"all_way_stop", "926ed16f8e176f20"},
                                          Golden{"bicycle_overtaken", "5aed0e2f017b4408"},
                                          Golden{"bus_stop", "4d5d6094cf09f9d3"},
                                          Golden{"lane_drop", "814d3cb416a9c423"},
@@ -96,7 +96,7 @@ TEST_P(GoldenMaps, HaveTheRecordedBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Map, GoldenMaps,
-                         testing::Values(Golden{"fujisawa", "f2eccd58bc65d74d", "50ec09f8af82421c"},
+                         testing::Values(Golden{"fujisawa", "7de547ba28bc8cbc", "50ec09f8af82421c"},
                                          Golden{"monaco", "60a682daca2f34b5", "d5e3ef5dc5ccdd0b"}),
                          name_of);
 

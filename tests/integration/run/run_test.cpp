@@ -356,7 +356,7 @@ TEST_F(UserConfigTest, WhatIsNotFollowedIsSaid) {
   ASSERT_NE(drivable, road.edges.end());
   const std::string edge = drivable->name;
   put("x.add.xml", "<whatever><calibrator id=\"c\" edge=\"" + edge +
-                       "\" pos=\"0\" output=\"c.xml\"><flow begin=\"0\" end=\"9\" speed=\"9\" "
+                       "\" pos=\"0\"><flow begin=\"0\" end=\"9\" speed=\"9\" "
                        "route=\"r\"/></calibrator><route id=\"r\" edges=\"" +
                        edge + "\"/></whatever>");
   const std::string file =
