@@ -228,8 +228,9 @@ Quantiles quantiles_of(std::vector<double> values) {
 
 HandBackResult summary_of(const std::vector<HandBack>& backs) {
   const auto spread = [&](double HandBack::*figure) {
-    std::vector<double> values;
-    for (const HandBack& back : backs) values.push_back(back.*figure);
+    std::vector<double> values(backs.size());
+    std::transform(backs.begin(), backs.end(), values.begin(),
+                   [&](const HandBack& back) { return back.*figure; });
     return quantiles_of(std::move(values));
   };
   return {backs.size(), spread(&HandBack::position), spread(&HandBack::heading),

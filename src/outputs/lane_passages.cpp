@@ -178,7 +178,7 @@ void LanePassages::advance(const OutputVehicle& vehicle, const VehiclePlace& pla
 }
 
 void LanePassages::add_up(const OutputVehicle& vehicle, const VehiclePlace& place, double way,
-                          State& state) {
+                          State& state) const {
   TripOdometer& odometer = state.odometer;
   const double time = begin_ + step_ - state.at;
   odometer.distance += way;

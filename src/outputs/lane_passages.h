@@ -122,7 +122,8 @@ class LanePassages {
   void drive(const OutputVehicle& vehicle, const VehiclePlace& place, State& state);
   void advance(const OutputVehicle& vehicle, const VehiclePlace& place, double way, State& state,
                std::size_t entered);
-  void add_up(const OutputVehicle& vehicle, const VehiclePlace& place, double way, State& state);
+  void add_up(const OutputVehicle& vehicle, const VehiclePlace& place, double way,
+              State& state) const;
   void change_lane(const LanePassage& like, LaneId to, State& state);
   LanePassage passage(const OutputVehicle& vehicle, const VehiclePlace& place) const;
   std::vector<LaneId> way_to(LaneId from, EdgeId edge, LaneId preferred) const;

@@ -97,7 +97,10 @@ bool XmlLine::has(std::string_view name) const { return get(name).data() != null
 
 void XmlLine::set(std::string_view name, std::string value) {
   for (auto& [key, old] : attributes)
-    if (key == name) old = std::move(value);
+    if (key == name) {
+      old = std::move(value);
+      return;
+    }
 }
 
 double XmlLine::number(std::string_view name, double otherwise) const {

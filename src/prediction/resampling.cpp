@@ -51,12 +51,14 @@ double unit_of(const RawRecording& raw, const ReadOptions& options, double step,
 struct Sampler {
   std::span<const RawPoint> points;
   double unit, begin;  ///< seconds a frame; time of the recording's first observation
+  double gap;          ///< wider than this, what is between two points is filled in [s]
+  int offset;          ///< of the recording's first observation [steps]
 
   double time(std::size_t k) const { return points[k].frame * unit - begin; }
 
   /// Appends the steps within [first, last] of the points to a track.
-  void sample(std::size_t first, std::size_t last, double gap, int offset, TrackSet& set,
-              std::vector<double>& annotated, Track& track) const {
+  void sample(std::size_t first, std::size_t last, TrackSet& set, std::vector<double>& annotated,
+              Track& track) const {
     constexpr double kSame = 1e-6;  // [steps]
     const auto from = static_cast<int>(std::ceil(time(first) / kPeriod - kSame));
     const auto to = static_cast<int>(std::floor(time(last) / kPeriod + kSame));
@@ -103,9 +105,9 @@ struct Sampling {
 
 void append_agent_tracks(std::span<const RawPoint> points, const Sampling& how, TrackSet& set,
                          std::uint32_t& fresh) {
-  const Sampler sampler{points, how.unit, how.begin};
   const double gap = kGap * how.step * how.unit;
-  const auto offset = static_cast<int>(std::llround(how.begin / kPeriod));
+  const Sampler sampler{points, how.unit, how.begin, gap,
+                        static_cast<int>(std::llround(how.begin / kPeriod))};
   std::size_t first = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const bool ends = k + 1 == points.size();
@@ -114,7 +116,7 @@ void append_agent_tracks(std::span<const RawPoint> points, const Sampling& how, 
     if (!ends && (width <= gap || width <= how.fill + 1e-9)) continue;
     Track track{first == 0 ? points[0].id : ++fresh, points[0].type, 0, {}, {}};
     std::vector<double> annotated;
-    sampler.sample(first, k, gap, offset, set, annotated, track);
+    sampler.sample(first, k, set, annotated, track);
     if (!ends) ++set.split_gaps;
     first = k + 1;
     if (track.position.empty()) continue;

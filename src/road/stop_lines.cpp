@@ -134,6 +134,7 @@ void halt_off(const Path& path, double least, const std::vector<Polyline>& ways,
 /// Where the fronts on the lanes before a junction halt that `links` lead over.
 void set_back(const std::vector<ConnectionId>& links, RoadNetwork& network) {
   std::vector<Way> ways;
+  ways.reserve(links.size());
   for (const ConnectionId id : links) ways.push_back(way_through(network, id));
   for (const ConnectionId id : links) {
     const Lane& lane = network.lane(network.connection(id).from);

@@ -292,11 +292,11 @@ void Inventory::read_options(const ScenarioInput& input) {
 }
 
 void Inventory::require_right_outputs(const ScenarioInput& input) const {
-  if (!refused_.empty()) throw refused_.front();
+  if (!refused_.empty()) throw Error(refused_.front());
   const auto tripinfo = input.options.find("tripinfo-output");
   const bool has_tripinfo =
       tripinfo != input.options.end() && !is_null_output(tripinfo->second.value);
-  if (has_tripinfo && !refused_with_tripinfo_.empty()) throw refused_with_tripinfo_.front();
+  if (has_tripinfo && !refused_with_tripinfo_.empty()) throw Error(refused_with_tripinfo_.front());
   if (is_on(input.options, "human-readable-time") && !result.outputs.empty())
     throw Error(result.outputs.front().source,
                 "human-readable-time: outputs that sumo-gamma writes (" +
