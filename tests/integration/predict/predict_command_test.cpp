@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -22,7 +23,8 @@ ProcessResult predict(std::vector<std::string> arguments) {
 
 /// Five walkers on straight lines, in the common text format.
 std::string small_recording() {
-  const auto path = std::filesystem::temp_directory_path() / "sumogamma_predict_small.txt";
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("sumogamma_predict_" + std::to_string(getpid()) + ".txt");
   std::ofstream file(path);
   for (int frame = 0; frame < 30; ++frame)
     for (int agent = 1; agent <= 5; ++agent)
@@ -116,7 +118,8 @@ TEST(PredictCommand, DrawsPictures) {
 
 /// A file with such a content.
 std::string made_file(const std::string& name, const std::string& text) {
-  const auto path = std::filesystem::temp_directory_path() / ("sumogamma_predict_" + name);
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("sumogamma_predict_" + std::to_string(getpid()) + "_" + name);
   std::ofstream(path) << text;
   return path.string();
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 /// A folder of files that ends with the test.
 struct Folder {
-  fs::path path = fs::temp_directory_path() / "sumogamma_formats";
+  fs::path path = fs::temp_directory_path() / ("sumogamma_formats_" + std::to_string(getpid()));
   Folder() {
     fs::remove_all(path);
     fs::create_directories(path);
