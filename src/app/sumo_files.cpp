@@ -12,14 +12,10 @@ namespace sumogamma {
 
 namespace {
 
-bool asks_for(const RunPlan& plan, std::string_view what) {
-  return std::any_of(plan.inventory.outputs.begin(), plan.inventory.outputs.end(),
-                     [&](const AskedOutput& output) { return output.what == what; });
-}
-
 /// Means of trips are made from SUMO's tripinfo: where nobody asks for that it is ours alone.
 std::filesystem::path helper_tripinfo(const RunPlan& plan) {
-  if (!asks_for(plan, "statistic-output") || asks_for(plan, "tripinfo-output")) return {};
+  const std::vector<AskedOutput>& asked = plan.inventory.outputs;
+  if (!asks_for(asked, "statistic-output") || asks_for(asked, "tripinfo-output")) return {};
   return plan.options.output / "tripinfo.xml";
 }
 
@@ -114,7 +110,8 @@ VehiclePlace SumoFiles::place_of(std::size_t row, const KnownAgent& known) {
 }
 
 bool SumoFiles::shows_persons() const {
-  return asks_for(run_.plan, "fcd-output") || asks_for(run_.plan, "person-summary-output");
+  const std::vector<AskedOutput>& asked = run_.plan.inventory.outputs;
+  return asks_for(asked, "fcd-output") || asks_for(asked, "person-summary-output");
 }
 
 void SumoFiles::see(std::size_t row, bool with_persons) {

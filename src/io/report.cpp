@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/xml_text.h"
 #include "io/output_file.h"
 #include "io/page_assets.h"
 
@@ -63,22 +64,7 @@ const RunColumn::Value* find_value(const RunColumn& run, const std::string& key)
 
 std::string escape_html(const std::string& text) {
   std::string escaped;
-  for (const char c : text) switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
+  append_escaped(escaped, text);
   return escaped;
 }
 

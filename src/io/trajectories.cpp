@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "base/xml_text.h"
 
 namespace sumogamma {
 
@@ -36,22 +37,7 @@ void append_attribute(std::string& text, const char* name, std::string_view valu
   text += ' ';
   text += name;
   text += "=\"";
-  for (const char c : value) switch (c) {
-      case '&':
-        text += "&amp;";
-        break;
-      case '<':
-        text += "&lt;";
-        break;
-      case '>':
-        text += "&gt;";
-        break;
-      case '"':
-        text += "&quot;";
-        break;
-      default:
-        text += c;
-    }
+  append_escaped(text, value);
   text += '"';
 }
 

@@ -74,11 +74,6 @@ void RunOutputs::add_detector(const AskedOutput& output) {
     outputs_.push_back(std::make_unique<MeanData>(network_, output, file, begin, step));
 }
 
-bool RunOutputs::asks_for(std::string_view option) const {
-  return std::any_of(request_.asked.begin(), request_.asked.end(),
-                     [&](const AskedOutput& output) { return output.what == option; });
-}
-
 void RunOutputs::add_vehicle(OutputVehicle vehicle, bool bicycle, double waited) {
   const auto index = static_cast<std::uint32_t>(vehicles_.size());
   TripFigures& trip = trips_[vehicle.name];
@@ -159,7 +154,9 @@ void RunOutputs::note_trips(const SeenStep& step) {
 }
 
 void RunOutputs::sum_up(const SeenStep& step) {
-  if (!asks_for("summary-output") && !asks_for("person-summary-output")) return;
+  if (!asks_for(request_.asked, "summary-output") &&
+      !asks_for(request_.asked, "person-summary-output"))
+    return;
   constexpr double kHalting = 0.1;  // SUMO's [m/s]
   SummaryFigures now;
   double speed = 0.0, relative = 0.0, number = 0.0;

@@ -70,7 +70,6 @@ class RunOutputs {
  private:
   std::shared_ptr<SumoFile> file_for(const AskedOutput& output);
   void add_detector(const AskedOutput& output);
-  bool asks_for(std::string_view option) const;
   void move_vehicles(SeenStep& step);
   void end_missing(bool is_last);
   void note_trips(const SeenStep& step);

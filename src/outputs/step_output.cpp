@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/time_text.h"
+#include "base/xml_text.h"
 
 namespace sumogamma {
 
@@ -36,17 +37,6 @@ bool OutputIntervals::is_over(double time, bool end) const {
 
 TypeFilter::TypeFilter(std::string_view types) {
   for (std::string& word : words_of(types)) types_.insert(std::move(word));
-}
-
-std::vector<std::string> words_of(std::string_view text) {
-  constexpr std::string_view kBetween = " \t\n,";
-  std::vector<std::string> words;
-  for (std::size_t begin = text.find_first_not_of(kBetween); begin != std::string_view::npos;) {
-    const std::size_t end = std::min(text.find_first_of(kBetween, begin), text.size());
-    words.emplace_back(text.substr(begin, end - begin));
-    begin = text.find_first_not_of(kBetween, end);
-  }
-  return words;
 }
 
 double number_of(const AskedOutput& output, const XmlAttributes& attributes, std::string_view name,

@@ -63,9 +63,6 @@ class TypeFilter {
   std::set<std::string, std::less<>> types_;
 };
 
-/// Words of a list, parted by blanks or commas.
-std::vector<std::string> words_of(std::string_view text);
-
 /// A number in an attribute. Throws Error naming element and source where it is none.
 double number_of(const AskedOutput& output, const XmlAttributes& attributes, std::string_view name,
                  double otherwise);

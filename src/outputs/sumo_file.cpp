@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/xml_text.h"
 
 namespace sumogamma {
 
@@ -21,23 +22,6 @@ std::string sumo_number(double value, int precision) {
 
 std::string sumo_time(double seconds, int precision) {
   return sumo_number(std::round(seconds * 1000.0) / 1000.0, std::min(precision, 3));
-}
-
-std::string xml_escaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&')
-      escaped += "&amp;";
-    else if (c == '<')
-      escaped += "&lt;";
-    else if (c == '>')
-      escaped += "&gt;";
-    else if (c == '"')
-      escaped += "&quot;";
-    else
-      escaped += c;
-  }
-  return escaped;
 }
 
 SumoFile::SumoFile(std::filesystem::path hidden, std::filesystem::path shown, std::string_view root,
@@ -82,7 +66,7 @@ SumoFile& SumoFile::word(std::string_view name, std::string_view value) {
   text_ += ' ';
   text_ += name;
   text_ += "=\"";
-  text_ += xml_escaped(value);
+  append_escaped(text_, value);
   text_ += '"';
   return *this;
 }

@@ -51,7 +51,4 @@ class SumoFile {
 std::string sumo_number(double value, int precision);
 /// A time as SUMO prints it [s]: whole milliseconds, three decimals at the most.
 std::string sumo_time(double seconds, int precision);
-/// Text as it stands in an attribute.
-std::string xml_escaped(std::string_view text);
-
 }  // namespace sumogamma

@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "base/error.h"
-#include "outputs/sumo_file.h"
+#include "base/xml_text.h"
 
 namespace sumogamma {
 
@@ -139,8 +139,11 @@ XmlLine parse_line(std::string text) {
 std::string text_of(const XmlLine& line) {
   std::string text(std::min(line.text.find_first_not_of(' '), line.text.size()), ' ');
   text += '<' + line.element;
-  for (const auto& [name, value] : line.attributes)
-    text += ' ' + name + "=\"" + xml_escaped(value) + '"';
+  for (const auto& [name, value] : line.attributes) {
+    text += ' ' + name + "=\"";
+    append_escaped(text, value);
+    text += '"';
+  }
   text += line.closed ? "/>" : ">";
   return text;
 }

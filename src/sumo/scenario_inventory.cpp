@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/xml_text.h"
 #include "sumo/compatibility.h"
 
 namespace sumogamma {
@@ -107,14 +108,8 @@ std::string_view attribute(const char** attributes, const char* name) {
   return {};
 }
 
-/// Names in an attribute, which SUMO parts by blanks or commas.
 void append_names(std::string_view text, std::vector<std::string>& names) {
-  constexpr std::string_view kBetween = " \t\n,";
-  for (std::size_t begin = text.find_first_not_of(kBetween); begin != std::string_view::npos;) {
-    const std::size_t end = std::min(text.find_first_of(kBetween, begin), text.size());
-    names.emplace_back(text.substr(begin, end - begin));
-    begin = text.find_first_not_of(kBetween, end);
-  }
+  for (std::string& word : words_of(text)) names.push_back(std::move(word));
 }
 
 void Inventory::note(const std::string& file, const std::string& what, const std::string& id,

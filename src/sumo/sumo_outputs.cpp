@@ -46,6 +46,11 @@ std::string_view attribute_or(const XmlAttributes& attributes, std::string_view 
   return found == attributes.end() ? otherwise : std::string_view(found->second);
 }
 
+bool asks_for(const std::vector<AskedOutput>& outputs, std::string_view what) {
+  return std::any_of(outputs.begin(), outputs.end(),
+                     [&](const AskedOutput& output) { return output.what == what; });
+}
+
 bool is_null_output(std::string_view name) {
   return name.empty() || name == "NUL" || name == "nul" || name == "/dev/null";
 }

@@ -26,6 +26,9 @@ struct AskedOutput {
 std::string_view attribute_or(const XmlAttributes& attributes, std::string_view name,
                               std::string_view otherwise = {});
 
+/// Is an output among these?
+bool asks_for(const std::vector<AskedOutput>& outputs, std::string_view what);
+
 /// Does a name of an output lead nowhere (NUL, /dev/null, nothing)?
 bool is_null_output(std::string_view name);
 
