@@ -14,6 +14,7 @@
 #include "app/command.h"
 #include "app/validators.h"
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/print.h"
 #include "prediction/methods.h"
 #include "prediction/plot.h"
@@ -156,7 +157,7 @@ int write_training(const PredictOptions& options, const Batch& batch) {
 nlohmann::ordered_json recording_json(const TrackSet& set) {
   return {{"set", set.name},
           {"format", set.format},
-          {"content", fmt::format("{:016x}", content_of(set))},
+          {"content", hash_text(content_of(set))},
           {"own_period_s", set.own_period},
           {"tracks", set.tracks.size()},
           {"filled_gaps", set.filled_gaps},

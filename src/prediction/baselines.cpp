@@ -61,6 +61,21 @@ Forecast go_straight(const ObservedScene& scene, std::size_t steps, VelocityOf&&
   return forecast;
 }
 
+/// Along displacements from now on, of what was seen of a row.
+template <typename WayOf>
+Forecast go_along(const ObservedScene& scene, std::size_t steps, WayOf&& way_of) {
+  Forecast forecast;
+  forecast.resize(scene.agents.size(), steps);
+  for (std::size_t row = 0; row < scene.agents.size(); ++row) {
+    const ObservedAgent& agent = scene.agents[row];
+    const std::span<Vec2> path(forecast.position.data() + row * steps, steps);
+    way_of(agent.position, path);
+    for (Vec2& point : path) point += agent.now();
+  }
+  point_along_motion(scene, forecast);
+  return forecast;
+}
+
 /// The j-th last displacement over the period, the oldest known for older ones [m/s].
 Vec2 earlier_velocity(const ObservedAgent& agent, std::size_t j, double period) {
   const std::size_t n = agent.position.size();
@@ -148,29 +163,15 @@ Forecast smoothed_velocity(const ObservedScene& scene, std::size_t steps) {
 }
 
 Forecast constant_acceleration(const ObservedScene& scene, std::size_t steps) {
-  Forecast forecast;
-  forecast.resize(scene.agents.size(), steps);
-  for (std::size_t row = 0; row < scene.agents.size(); ++row) {
-    const ObservedAgent& agent = scene.agents[row];
-    const std::span<Vec2> path(forecast.position.data() + row * steps, steps);
-    accelerating_path(agent.position, path);
-    for (Vec2& point : path) point += agent.now();
-  }
-  point_along_motion(scene, forecast);
-  return forecast;
+  return go_along(scene, steps, [](std::span<const Vec2> seen, std::span<Vec2> path) {
+    accelerating_path(seen, path);
+  });
 }
 
 Forecast turning_acceleration(const ObservedScene& scene, std::size_t steps) {
-  Forecast forecast;
-  forecast.resize(scene.agents.size(), steps);
-  for (std::size_t row = 0; row < scene.agents.size(); ++row) {
-    const ObservedAgent& agent = scene.agents[row];
-    const std::span<Vec2> path(forecast.position.data() + row * steps, steps);
-    turning_path(agent.position, 2, 0, path);
-    for (Vec2& point : path) point += agent.now();
-  }
-  point_along_motion(scene, forecast);
-  return forecast;
+  return go_along(scene, steps, [](std::span<const Vec2> seen, std::span<Vec2> path) {
+    turning_path(seen, 2, 0, path);
+  });
 }
 
 Forecast constant_turn_rate(const ObservedScene& scene, std::size_t steps) {
