@@ -175,59 +175,6 @@ struct Path {
 std::optional<Path> build_driving_path(const RoadNetwork& network, const PathRequest& request,
                                        std::string& why);
 
-/// The path of the same trip that moves over into `target`, a neighbour of the lane at `along`,
-/// within `distance` from there, and goes on as the trip needs. It begins `back` [m] behind the
-/// place or at the edge's begin: `along` becomes the place on the new path. Halts that lie ahead
-/// are kept. nullopt where the edge ends before the change does, the lane does not lead on, or too
-/// little is left of it for the changes that it takes from there.
-std::optional<Path> change_lane(const RoadNetwork& network, const Path& path, double& along,
-                                LaneId target, double distance, double back);
-
-/// The path of the same trip that stays on the present lane for `stay` [m] more before it changes
-/// lanes. Otherwise like change_lane. nullopt where too little of the edge would be left to change.
-std::optional<Path> stay_in_lane(const RoadNetwork& network, const Path& path, double& along,
-                                 double stay, double back);
-
-/// The path of the same trip for somebody who is amid a lane change at `along` and gives it up:
-/// back to the middle of the lane that it came from. Otherwise like change_lane. nullopt where
-/// there is no change there, or it has come more than two thirds of the way.
-std::optional<Path> back_to_lane(const RoadNetwork& network, const Path& path, double& along,
-                                 double back);
-
-/// The path of the same trip that leaves the edge by the present lane, for who finds no gap.
-/// Otherwise like change_lane. nullopt where the lane doesn't lead into the route's next edge, that
-/// one is too short for the changes that it takes there, or they cost more than `worse` lane
-/// changes later on.
-std::optional<Path> keep_lane(const RoadNetwork& network, const Path& path, double& along,
-                              double worse, double back);
-
-/// The last of a link on which a path is led over to the lane behind it [m].
-inline constexpr double kEntryReach = 12.0;
-
-/// The path of the same trip that comes out of the junction ahead, or the one that `along` is on,
-/// on `target`, a lane beside the one that its link leads to: it moves over on the last 12 m of
-/// the link. Otherwise like change_lane. nullopt where the trip doesn't go on from there.
-std::optional<Path> enter_beside(const RoadNetwork& network, const Path& path, double& along,
-                                 LaneId target, double back);
-
-/// The path of the same trip for who has come onto `lane`, at `on_lane` of its centerline [m], by
-/// no way that `path` knows: in that lane for some way, as far as that leaves room for the lane
-/// changes that the trip takes, else out of it by its own link, and no further than the trip's
-/// lanes lead. With `link` it is on that link of the lane, `on_lane` counted from the lane's begin
-/// still. `along` is then the place on the new path. nullopt where the lane isn't on the rest of
-/// the route.
-std::optional<Path> go_on_from(const RoadNetwork& network, const Path& path, double& along,
-                               LaneId lane, ConnectionId link, double on_lane, double back);
-
-/// The path of somebody who goes on from `along` by another route to the same destination. `route`
-/// begins with the edge at `along`. Otherwise like change_lane, except that nobody who has halts
-/// ahead gets another route: nullopt then, too.
-std::optional<Path> take_route(const RoadNetwork& network, const Path& path, double& along,
-                               std::vector<EdgeId> route, double back);
-
-/// The same path by the speed limits that hold now. Precondition: it is a vehicle's.
-Path with_speed_limits(const Path& path, const std::vector<double>& limits);
-
 /// Path of a pedestrian along the edges of a walk: sidewalks in either direction, walking areas and
 /// crossings between them found by least distance. nullopt with `why` set where the walk can't be
 /// connected. Who crosses between junctions (`mid_block`) does where that saves the crossing of the

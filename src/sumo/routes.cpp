@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/units.h"
+#include "road/replan.h"
 #include "scene/locate.h"
 #include "sumo/sumo_agents.h"
 #include "sumo/sumo_world.h"
@@ -124,10 +125,10 @@ void SumoWorld::look_for_faster_routes(Scene& scene, RoadState& road) {
     if (route.size() != found.size() || route.empty() ||
         std::equal(route.begin(), route.end(), ours.begin() + here.route_index, ours.end()))
       continue;
-    double along = scene.path_along[row];
     constexpr double kBack = 30.0;  // [m]
-    if (auto other = take_route(model_.road, path, along, std::move(route), kBack))
-      take_path(std::move(*other), along, row, road, scene);
+    if (auto other =
+            take_route({model_.road, path, scene.path_along[row], kBack}, std::move(route)))
+      take_path(std::move(other->path), other->along, row, road, scene);
   }
 }
 

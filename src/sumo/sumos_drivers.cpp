@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/units.h"
+#include "road/replan.h"
 #include "scene/extent.h"
 #include "scene/locate.h"
 #include "sumo/ghosts.h"
@@ -92,7 +93,7 @@ void SumoWorld::follow_lane(const SumoAgent& seen, AgentId id, std::size_t row, 
   }
   const Path* path = road.path(scene.path[row]);
   if (path == nullptr || !path->trip || known.lane == kNoLane) return;
-  double along = scene.path_along[row];
+  const double along = scene.path_along[row];
   // at a lane's end the two may disagree for a step: a path made anew there would have lost what
   // the tail is still on
   const auto is_there = [&](double by) {
@@ -113,11 +114,11 @@ void SumoWorld::follow_lane(const SumoAgent& seen, AgentId id, std::size_t row, 
   } else if (lane.kind != LaneKind::Normal) {
     return;
   }
-  auto other = go_on_from(model_.road, *path, along, from, piece.link, on_lane, kBack);
+  auto other = go_on_from({model_.road, *path, along, kBack}, {from, piece.link, on_lane});
   if (!other) return;
-  scene.path_along[row] = along;
+  scene.path_along[row] = other->along;
   scene.halt[row].next = 0;
-  road.paths[id.value] = std::make_shared<const Path>(std::move(*other));
+  road.paths[id.value] = std::make_shared<const Path>(std::move(other->path));
 }
 
 /// Nobody whom SUMO moves is faster than ghosts on its way allow, or changes into a lane where one

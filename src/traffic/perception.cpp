@@ -51,8 +51,13 @@ bool is_its_turn(const TrafficView& view, std::size_t row, double dt) {
   return (view.scene.tick + view.scene.id[row].value) % period == 0;
 }
 
-void go_on_by(const TrafficTick& tick, Path path, double along, std::size_t row) {
-  change_path(std::move(path), along, row, tick.road, tick.scene, tick.traffic);
+Replan replan(const TrafficTick& tick, std::size_t row) {
+  return {tick.model.road, *tick.road.path(tick.scene.path[row]), tick.scene.path_along[row],
+          tick.parameters.nearby};
+}
+
+void go_on_by(const TrafficTick& tick, Replanned way, std::size_t row) {
+  change_path(std::move(way.path), way.along, row, tick.road, tick.scene, tick.traffic);
   tick.perception.ego[row] = ego_on_path(tick.road, tick.scene, row);
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "road/replan.h"
 #include "scene/storey.h"
 #include "traffic/traffic_tick.h"
 
@@ -58,9 +59,12 @@ void perceive(const TrafficView& view, std::size_t row, double reach, Perception
 /// another tick. dt [s].
 bool is_its_turn(const TrafficView& view, std::size_t row, double dt);
 
-/// A row goes on by another path on which it is `along` [m], amid a tick (see change_path): those
-/// who look at it from here on see it there.
-void go_on_by(const TrafficTick& tick, Path path, double along, std::size_t row);
+/// What a row's path is made again from. Precondition: it has one, a vehicle's.
+Replan replan(const TrafficTick& tick, std::size_t row);
+
+/// A row goes on by another path, amid a tick (see change_path): those who look at it from here on
+/// see it there.
+void go_on_by(const TrafficTick& tick, Replanned way, std::size_t row);
 
 /// Fills `around` for a row with a path: everybody whose centre lies within `reach` ahead, or
 /// `reach` behind [m], and within `aside` of the path on the same storey.

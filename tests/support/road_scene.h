@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "model/model.h"
 #include "model/tick_geometry.h"
+#include "road/replan.h"
 #include "scene/locate.h"
 #include "support/plain_net.h"
 #include "traffic/junction/occupation.h"
@@ -109,6 +110,10 @@ class RoadScene {
   }
 
   const Path& path(std::size_t row) const { return *road.path(scene.path[row]); }
+  /// What the row's path is made again from, 20 m behind it.
+  Replan replan(std::size_t row) const {
+    return {model.road, path(row), scene.path_along[row], 20.0};
+  }
   const RoadContext& context(std::size_t row) const { return scene.context[row]; }
   /// Everybody is near everybody.
   TrafficView view() const {

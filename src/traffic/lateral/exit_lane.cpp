@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "road/path_builder.h"
+
 namespace sumogamma {
 
 LaneId free_entry(const TrafficView& view, const LaneQueues& queues, const Path& path,

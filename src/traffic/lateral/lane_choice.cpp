@@ -211,42 +211,33 @@ void look_about(const TrafficView& view, const Path& path, std::size_t row, Lane
 }
 
 /// The row's path with its lane change begun, put off or given up; none where it goes on as it is.
-std::optional<Path> path_as_intended(const TrafficTick& tick, const LaneIntent& intent,
-                                     std::size_t row, double& along) {
-  const RoadNetwork& network = tick.model.road;
-  const TrafficParameters& parameters = tick.parameters;
-  const Path& path = *tick.road.path(tick.scene.path[row]);
+std::optional<Replanned> path_as_intended(const TrafficTick& tick, const LaneIntent& intent,
+                                          std::size_t row) {
+  const Replan from = replan(tick, row);
   const double speed = tick.scene.speed[row];
-  if (intent.abort) return back_to_lane(network, path, along, parameters.nearby);
-  if (intent.postpone)
-    return stay_in_lane(network, path, along, std::max(speed, 3.0), parameters.nearby);
-  if (intent.entered != kNoLane)
-    return enter_beside(network, path, along, intent.entered, parameters.nearby);
-  return change_lane(network, path, along, intent.wanted, way_of_change(parameters, speed),
-                     parameters.nearby);
+  if (intent.abort) return back_to_lane(from);
+  if (intent.postpone) return stay_in_lane(from, std::max(speed, 3.0));
+  if (intent.entered != kNoLane) return enter_beside(from, intent.entered);
+  return change_lane(from, intent.wanted, way_of_change(tick.parameters, speed));
 }
 
 /// What others look at changes only here, one after the other.
 void do_as_intended(const TrafficTick& tick, const LaneIntent& intent, std::size_t row) {
   TrafficState& traffic = tick.traffic;
-  const RoadNetwork& network = tick.model.road;
   traffic.merge_to[row] = intent.merge_to;
   traffic.gate[row] = intent.gate;
   if (intent.wanted == kNoLane && intent.entered == kNoLane && !intent.postpone && !intent.abort)
     return;
-  double along = tick.scene.path_along[row];
-  const Path& path = *tick.road.path(tick.scene.path[row]);
-  auto changed = path_as_intended(tick, intent, row, along);
+  auto changed = path_as_intended(tick, intent, row);
   // no room left to change in: who gets on by its own lane nearly as well doesn't wait for a gap
   if (!changed && intent.postpone) {
-    changed =
-        keep_lane(network, path, along, tick.parameters.nearly_as_well, tick.parameters.nearby);
+    changed = keep_lane(replan(tick, row), tick.parameters.nearly_as_well);
     if (changed) traffic.merge_to[row] = kNoLane;
   }
   if (!changed) return;
   // who comes there now already reckons with it
   if (intent.wanted != kNoLane) traffic.merge_to[row] = intent.wanted;
-  go_on_by(tick, std::move(*changed), along, row);
+  go_on_by(tick, std::move(*changed), row);
 }
 
 }  // namespace

@@ -45,10 +45,10 @@ std::vector<double> travel_times(const TrafficView& view) {
 }
 
 /// Is there room at the begin of a path's next road for its agent?
-bool has_room(const TrafficView& view, const Path& path, double along, std::size_t row) {
+bool has_room(const TrafficView& view, const Replanned& way, std::size_t row) {
   const Scene& scene = view.scene;
-  const auto link = path.link_after(along);
-  if (link == path.links.end()) return true;
+  const auto link = way.path.link_after(way.along);
+  if (link == way.path.links.end()) return true;
   const LaneId target = view.model.road.connection(link->connection).to;
   const double own = 2.0 * half_extent(scene, row, direction_of(scene.heading[row]));
   for (std::size_t other = 0; other < scene.size(); ++other) {
@@ -69,8 +69,8 @@ std::uint64_t take_detours(const TrafficTick& tick) {
   const TrafficView view = tick.view();
   std::uint64_t taken = 0;
   std::vector<double> times;
-  auto go_on = [&](Path way, double along, std::size_t row) {
-    go_on_by(tick, std::move(way), along, row);
+  auto go_on = [&](Replanned way, std::size_t row) {
+    go_on_by(tick, std::move(way), row);
     forget_lane_change(traffic, row);
   };
   for (std::size_t row = 0; row < scene.size(); ++row) {
@@ -79,17 +79,16 @@ std::uint64_t take_detours(const TrafficTick& tick) {
     if (path == nullptr || scene.control[row] != Control::Gamma) continue;
     const PathLink* shut = shut_link(view, *path, row);
     if (shut == nullptr) continue;
-    double along = scene.path_along[row];
+    const Replan from = replan(tick, row);
     if (scene.context[row].reason == LimitReason::Merge) {
       // the lane may lead where it has to go as well, if not as easily
-      if (auto kept = keep_lane(model.road, *path, along, tick.parameters.not_as_easily,
-                                tick.parameters.nearby)) {
-        go_on(std::move(*kept), along, row);
+      if (auto kept = keep_lane(from, tick.parameters.not_as_easily)) {
+        go_on(std::move(*kept), row);
         continue;
       }
     }
     if (times.empty()) times = travel_times(view);
-    const PathStretch& here = path->stretch_at(along);
+    const PathStretch& here = path->stretch_at(from.along);
     // by any way but the one that is shut
     const EdgeId full = model.road.lane(model.road.connection(shut->connection).to).edge;
     const double passable = times[index_of(full)];
@@ -98,10 +97,9 @@ std::uint64_t take_detours(const TrafficTick& tick) {
                                path->trip->request.vehicle_class, times);
     times[index_of(full)] = passable;
     if (route.size() < 2 || route[1] == full) continue;
-    auto taken_path =
-        take_route(model.road, *path, along, std::move(route), tick.parameters.nearby);
-    if (!taken_path || !has_room(view, *taken_path, along, row)) continue;
-    go_on(std::move(*taken_path), along, row);
+    auto other = take_route(from, std::move(route));
+    if (!other || !has_room(view, *other, row)) continue;
+    go_on(std::move(*other), row);
     forget_keeping_clear(traffic, row);
     ++taken;
   }

@@ -8,6 +8,7 @@
 #include "road/lane_locator.h"
 #include "road/path.h"
 #include "road/path_pieces.h"
+#include "road/replan.h"
 #include "road/smoothing.h"
 #include "road/speed_profile.h"
 #include "support/plain_net.h"
@@ -127,39 +128,36 @@ TEST_F(Crossroads, ATurnThatNeedsTheOtherLaneChangesBeforeTheStopLine) {
 TEST_F(Crossroads, GoesOnFromTheLaneThatItHasBeenPutOnto) {
   const Path path = path_along(right(), {"WC", "CE"}, "WC_1");
   const auto lane = [&](const char* name) { return right().lane_by_name.at(name); };
-  double along = 30.0;
-  const auto beside = go_on_from(right(), path, along, lane("WC_2"), kNoConnection, 30.0, 20.0);
+  const auto beside = go_on_from({right(), path, 30.0, 20.0}, {lane("WC_2"), kNoConnection, 30.0});
   ASSERT_TRUE(beside);
-  expect_sound(*beside);
-  EXPECT_EQ(lanes_of(right(), *beside).front(), "WC_2");
-  EXPECT_NEAR(along, 20.0, 1e-9);
-  EXPECT_NEAR(
-      (beside->line.point_at(along) - right().lane(lane("WC_2")).centerline.point_at(30.0)).norm(),
-      0.0, 1e-6);
-  EXPECT_EQ(beside->trip, path.trip);
+  expect_sound(beside->path);
+  EXPECT_EQ(lanes_of(right(), beside->path).front(), "WC_2");
+  EXPECT_NEAR(beside->along, 20.0, 1e-9);
+  EXPECT_NEAR((beside->path.line.point_at(beside->along) -
+               right().lane(lane("WC_2")).centerline.point_at(30.0))
+                  .norm(),
+              0.0, 1e-6);
+  EXPECT_EQ(beside->path.trip, path.trip);
   // on the link that leads elsewhere than the path's
   const Connection& straight = right().connection(path.links.front().connection);
   const double end = right().lane(lane("WC_1")).centerline.length();
-  along = path.links.front().stop_line + 3.0;
-  const auto inside = go_on_from(right(), path, along, straight.from, path.links.front().connection,
-                                 end + 3.0, 20.0);
+  const auto inside = go_on_from({right(), path, path.links.front().stop_line + 3.0, 20.0},
+                                 {straight.from, path.links.front().connection, end + 3.0});
   ASSERT_TRUE(inside);
-  expect_sound(*inside);
-  EXPECT_EQ(inside->links.front().connection, path.links.front().connection);
-  EXPECT_NEAR(along, inside->links.front().stop_line + 3.0, 0.5);
+  expect_sound(inside->path);
+  EXPECT_EQ(inside->path.links.front().connection, path.links.front().connection);
+  EXPECT_NEAR(inside->along, inside->path.links.front().stop_line + 3.0, 0.5);
   // not on its route
-  along = 30.0;
-  EXPECT_FALSE(go_on_from(right(), path, along, lane("NC_1"), kNoConnection, 30.0, 20.0));
+  EXPECT_FALSE(go_on_from({right(), path, 30.0, 20.0}, {lane("NC_1"), kNoConnection, 30.0}));
 }
 
 TEST_F(Crossroads, WhoIsTooLateForItsTurnGoesOnToTheEndOfItsLane) {
   const Path path = path_along(right(), {"WC", "CN"}, "WC_2");
   const LaneId outer = right().lane_by_name.at("WC_1");
   const double end = right().lane(outer).centerline.length();
-  double along = end - 3.0;
-  const auto late = go_on_from(right(), path, along, outer, kNoConnection, end - 3.0, 20.0);
+  const auto late = go_on_from({right(), path, end - 3.0, 20.0}, {outer, kNoConnection, end - 3.0});
   ASSERT_TRUE(late);
-  EXPECT_EQ(lanes_of(right(), *late), std::vector<std::string>{"WC_1"});
+  EXPECT_EQ(lanes_of(right(), late->path), std::vector<std::string>{"WC_1"});
 }
 
 TEST_F(Crossroads, TakesTheBestLaneWhereNoneIsGiven) {

@@ -73,8 +73,9 @@ TEST_F(EntryBeside, IsNotForThoseWhoChangeLanesBefore) {
   const std::size_t own = here.add("car", {"NC", "CM", "ME"}, 5, 4, 0, -1, "NC_0");
   const LaneId other = here.model.road.lane_by_name.at("CM_0");
   for (const bool there : {false, true}) {
-    double along = there ? here.path(own).links.front().stop_line - 2.0 : 5.0;
-    EXPECT_EQ(enter_beside(here.model.road, here.path(own), along, other, 20.0).has_value(), there);
+    const double along = there ? here.path(own).links.front().stop_line - 2.0 : 5.0;
+    EXPECT_EQ(enter_beside({here.model.road, here.path(own), along, 20.0}, other).has_value(),
+              there);
   }
 }
 

@@ -146,10 +146,10 @@ TEST_F(Filtering, WhoIsAheadOnTheWayIntoTheGapGoesFirst) {
 TEST_F(Filtering, WhoStandsAmidItsLaneChangeIsPassed) {
   const std::size_t other = here_.add("motorcycle", {"WE"}, 65, 1, 0, -1, "WE_1");
   const LaneId lane = here_.model.road.lane_by_name.at("WE_0");
-  double along = here_.scene.path_along[other];
-  auto changing = change_lane(here_.model.road, here_.path(other), along, lane, 12.0, 20.0);
+  auto changing = change_lane(here_.replan(other), lane, 12.0);
   ASSERT_TRUE(changing);
-  change_path(std::move(*changing), along, other, here_.road, here_.scene, here_.traffic);
+  change_path(std::move(changing->path), changing->along, other, here_.road, here_.scene,
+              here_.traffic);
   here_.scene.position[other] = here_.scene.position[rider_] + Vec2(4.0, -1.0);
   here_.move(rider_, here_.scene.path_along[rider_], 1.75);
   here_.traffic.lateral_aim[rider_] = 1.75;

@@ -38,10 +38,10 @@ class ChangingLanes : public ::testing::Test {
              const std::string& other = "car", double ahead = 1.0) {
     own_ = here_.add(type, {"WE"}, 66, 2, 0, -1, "WE_0");
     const LaneId left = here_.model.road.lane_by_name.at("WE_1");
-    double along = here_.scene.path_along[own_];
-    auto changed = change_lane(here_.model.road, here_.path(own_), along, left, 40, 20);
+    auto changed = change_lane(here_.replan(own_), left, 40);
     ASSERT_TRUE(changed);
-    change_path(std::move(*changed), along, own_, here_.road, here_.scene, here_.traffic);
+    double along = changed->along;
+    change_path(std::move(changed->path), along, own_, here_.road, here_.scene, here_.traffic);
     const Polyline& target = here_.model.road.lane(left).centerline;
     while (target.project(here_.path(own_).line.point_at(along)).distance > from_lane) along += 0.5;
     here_.move(own_, along, -to_right);
@@ -261,37 +261,33 @@ class NoGap : public ::testing::Test {
 TEST_F(NoGap, WhoseLaneLeadsOnKeepsIt) {
   const std::size_t own = here_.add("car", {"WC", "CE", "EL"}, 10, 5, 0, -1, "WC_0");
   ASSERT_EQ(lane_at(here_.path(own), 120), "WC_1");
-  double along = here_.scene.path_along[own];
-  const auto kept = keep_lane(here_.model.road, here_.path(own), along, 2.0, 20.0);
+  const auto kept = keep_lane(here_.replan(own), 2.0);
   ASSERT_TRUE(kept);
-  EXPECT_NEAR((kept->line.point_at(along) - here_.scene.position[own]).norm(), 0.0, 0.1);
-  EXPECT_EQ(lane_at(*kept, 120), "WC_0");
-  EXPECT_EQ(lane_at(*kept, 185), "CE_1") << "it changes on the next road";
+  EXPECT_NEAR((kept->path.line.point_at(kept->along) - here_.scene.position[own]).norm(), 0.0, 0.1);
+  EXPECT_EQ(lane_at(kept->path, 120), "WC_0");
+  EXPECT_EQ(lane_at(kept->path, 185), "CE_1") << "it changes on the next road";
   // not where that costs more than it may, or the lane doesn't lead on at all
-  along = here_.scene.path_along[own];
-  EXPECT_FALSE(keep_lane(here_.model.road, here_.path(own), along, 0.2, 20.0));
+  EXPECT_FALSE(keep_lane(here_.replan(own), 0.2));
   const std::size_t late = here_.add("car", {"CE", "EL"}, 10, 5, 0, -1, "CE_0");
-  along = here_.scene.path_along[late];
-  EXPECT_FALSE(keep_lane(here_.model.road, here_.path(late), along, 1e9, 20.0));
+  EXPECT_FALSE(keep_lane(here_.replan(late), 1e9));
 }
 
 // on Shi Men Er Lu it swung over the stop lines of others on a road of 20 cm
 TEST(NoGapBeforeAShortRoad, WhoCouldNotChangeOnItDoesNotKeepItsLane) {
   RoadScene here{testing::read_plain_net(both_lanes_lead_on(8))};
   const std::size_t own = here.add("car", {"WC", "CE", "EL"}, 10, 5, 0, -1, "WC_0");
-  double along = here.scene.path_along[own];
-  EXPECT_FALSE(keep_lane(here.model.road, here.path(own), along, 1e9, 20.0));
+  EXPECT_FALSE(keep_lane(here.replan(own), 1e9));
 }
 
 TEST_F(NoGap, WhoHasNoRoomLeftToChangeGoesOnByItsLane) {
   const double end =
       here_.model.road.lane(here_.model.road.lane_by_name.at("WC_0")).centerline.length();
   const std::size_t own = here_.add("car", {"WC", "CE", "EL"}, 5, 0, 0, -1, "WC_0");
-  double along = here_.scene.path_along[own];
+  const double along = here_.scene.path_along[own];
   // the change begins at the last place that leaves room for it, beside somebody who stands
-  auto late = stay_in_lane(here_.model.road, here_.path(own), along, end - 15.0 - along, 20.0);
+  auto late = stay_in_lane(here_.replan(own), end - 15.0 - along);
   ASSERT_TRUE(late);
-  change_path(std::move(*late), along, own, here_.road, here_.scene, here_.traffic);
+  change_path(std::move(late->path), late->along, own, here_.road, here_.scene, here_.traffic);
   here_.move(own, end - 15.0);
   here_.add("car", {"WC", "CE", "EL"}, end - 14.5, 0, 0, -1, "WC_1");
   here_.update();
@@ -338,8 +334,7 @@ TEST_F(NoGap, NobodyChangesWhoHasNoRoomLeftToChangeBackIn) {
   const LaneId other = here_.model.road.lane_by_name.at("CE_0");
   for (const double place : {5.0, 20.0}) {
     const std::size_t own = here_.add("car", {"CE", "EL"}, place, 5, 0, -1, "CE_1");
-    double along = here_.scene.path_along[own];
-    const auto changed = change_lane(here_.model.road, here_.path(own), along, other, 12.0, 20.0);
+    const auto changed = change_lane(here_.replan(own), other, 12.0);
     EXPECT_EQ(changed.has_value(), place < 10.0) << place;
   }
 }
@@ -357,8 +352,7 @@ TEST_F(NoGap, NarrowVehiclesChangeLanesInLess) {
     std::string why;
     const auto path = build_driving_path(here_.model.road, request, why);
     ASSERT_TRUE(path) << why;
-    double along = 5.0;
-    const auto late = stay_in_lane(here_.model.road, *path, along, end - 9.0 - along, 20.0);
+    const auto late = stay_in_lane({here_.model.road, *path, 5.0, 20.0}, end - 14.0);
     EXPECT_EQ(late.has_value(), turning_radius < 2.0);
   }
 }
@@ -366,11 +360,10 @@ TEST_F(NoGap, NarrowVehiclesChangeLanesInLess) {
 /// Puts off the lane change of a row as long as there is room for it, and the row a metre before
 /// it. Where it begins [m along the path].
 double wait_at_gate(RoadScene& here, std::size_t row) {
-  double along = here.scene.path_along[row];
   for (double room = 40.0; room > 0.0; room -= 1.0) {
-    auto late = stay_in_lane(here.model.road, here.path(row), along, room, 20.0);
+    auto late = stay_in_lane(here.replan(row), room);
     if (!late) continue;
-    change_path(std::move(*late), along, row, here.road, here.scene, here.traffic);
+    change_path(std::move(late->path), late->along, row, here.road, here.scene, here.traffic);
     break;
   }
   const PathStretch* change = first_change(here, row);
