@@ -81,7 +81,8 @@ std::unique_ptr<Simulation> make_simulation(const RunPlan& plan, unsigned thread
   sim->traffic.parameters = plan.config.traffic;
   sim->traffic.code = plan.config.code;
   sim->model.options.step = plan.clock.step;
-  sim->model.kinematics = build_kinematic_tables(sim->model.types, *sim->workers);
+  // of whom a scenario has, when the first of them comes (VehicleTypeRows)
+  sim->model.kinematics.resize(sim->model.types.size());
   RoadCache cache;
   if (!plan.options.no_cache) cache.folder = cache_folder();
   Road road = read_road(plan.input.network, cache, *sim->workers);

@@ -27,6 +27,8 @@ class KinematicTable {
  public:
   KinematicTable() = default;
 
+  /// False before build_kinematic_tables.
+  bool is_built() const { return !nodes_.empty(); }
   /// K at a state: bilinear in speed [m/s] and steering [rad], clamped to the table's range.
   KinematicSet at(double speed, double steering) const;
   /// Unit normals of the front faces, in the set's axes.

@@ -46,7 +46,8 @@ struct ModelOptions {
 /// Constant for a run, shared by every thread.
 struct Model {
   AgentTypeTable types;
-  std::vector<KinematicTable> kinematics;  ///< K by type, in the order of `types`
+  std::vector<KinematicTable> kinematics;  ///< K by type, in the order of `types`; of those that
+                                           ///< occur
   RoadNetwork road;                        ///< empty for a standalone scene
   ConflictTable conflicts;                 ///< by connection of `road`
   SweptWayTable swept_ways;                ///< likewise

@@ -118,7 +118,11 @@ AgentTypeId VehicleTypeRows::row_of(AgentTypeId kind, const SumoAgentDetails& de
   const AgentType& row = type_of(model_.types, kind);
   AgentType type = with_vehicle_type(row, details, kept_);
   const Values values = values_of(type);
-  if (values == values_of(row)) return kind;
+  if (values == values_of(row)) {
+    KinematicTable& table = model_.kinematics[static_cast<std::size_t>(kind)];
+    if (!table.is_built()) table = build_kinematic_tables({row}, workers_).front();
+    return kind;
+  }
   const auto [known, fresh] = rows_.try_emplace({kind, values}, kind);
   if (!fresh || model_.types.size() > std::numeric_limits<std::uint16_t>::max())
     return known->second;

@@ -19,7 +19,7 @@ AgentType with_vehicle_type(const AgentType& row, const SumoAgentDetails& detail
                             const std::set<std::string>& kept);
 
 /// Rows of the model's tables that vTypes of a scenario ask for, added when the first agent of each
-/// comes. Agents whose vTypes say the same share one.
+/// comes, and K of the others who come. Agents whose vTypes say the same share one.
 class VehicleTypeRows {
  public:
   /// `model` outlives this.
