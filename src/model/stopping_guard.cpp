@@ -22,7 +22,8 @@ constexpr double kLeastWish = 0.4;
 // and one that is slower than this stands [m/s]
 constexpr double kStill = 0.01;
 // people shuffle without turning round, see tracking
-constexpr double kShuffle = 0.28;  // [m/s]
+constexpr double kShuffle = 0.28;       // [m/s]
+constexpr double kShufflesAfter = 2.0;  // that they have stood [s]
 // rounding: neither an overlap nor a smaller gap [m]
 constexpr double kSame = 1e-6;
 // on a road nobody comes closer than this: halving what is left, bodies touch in the end [m]
@@ -324,16 +325,20 @@ Vec2 guarded_velocity(StoppingGuard& guard, const Model& model, const Scene& sce
   const double brake = type_of(model.types, own.type).max_deceleration * model.options.step;
   if (const auto round = creep_along_way_round(guard, model, scene, geometry, row, preferred, hard))
     return *round;
+  // a crowd sets off by small steps, each into the room that whoever is ahead has left: who
+  // shuffles instead, to whatever side, is in the way of those behind
+  const bool sets_off = !own.on_wheels && scene.held[row].standing < kShufflesAfter;
+  const double slowest = sets_off ? kStill : 0.5 * kCreep;
   // as asked, or the same way but slower: no faster than now, braking by half, braking
-  const bool stands = asked < 0.5 * kCreep;
+  const bool stands = asked < slowest;
   if (!stands && guard.admits(velocity)) return velocity;
   const Vec2 along = asked > 1e-6 ? Vec2(velocity / asked) : Vec2(Vec2::Zero());
   for (const double speed : {now, now - 0.5 * brake, now - brake})
-    if (!stands && speed < asked && speed >= 0.5 * kCreep && guard.admits(speed * along))
+    if (!stands && speed < asked && speed >= slowest && guard.admits(speed * along))
       return speed * along;
 
-  if (model.options.creep_when_held && preferred.norm() > kLeastWish && now < 2.0 * kCreep &&
-      !guard.overlapping()) {
+  if (model.options.creep_when_held && !sets_off && preferred.norm() > kLeastWish &&
+      now < 2.0 * kCreep && !guard.overlapping()) {
     const auto creep = creep_round(guard, model, scene, own, row, preferred, hard);
     if (creep) return *creep;
   }

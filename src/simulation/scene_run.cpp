@@ -8,6 +8,7 @@
 
 #include "geometry/rotation.h"
 #include "model/gamma_velocity.h"
+#include "model/stopping_guard.h"
 #include "simulation/overlap.h"
 
 namespace sumogamma {
@@ -180,6 +181,7 @@ SceneReport run_scene(const SceneFile& file, const ModelOptions& options, std::s
     cpu += cpu_seconds() - cpu_model;
     wall += wall_seconds() - wall_model;
     move_rows(commands, dt, scene, workers);
+    for (std::size_t row = 0; row < rows; ++row) update_held(dt, scene, row);
     standstill.update(scene, dt);
     report.state_hash = hash_state(scene, report.state_hash);
     if (observer) observer(scene);
