@@ -125,14 +125,46 @@ def discharge(tracks, scenario, green):
             queue += 1
         times = [t for t, _ in crossings[:queue]]
         lanes.append({"queue": queue, "start_up": times[0] - green if times else None,
+                      "fourth": times[3] - green if len(times) > 3 else None,
                       "headways": [b - a for a, b in zip(times[3:], times[4:])]})
     return lanes
+
+
+def queues_at(tracks, scenario, time):
+    """Tracks of who stands in each lane before the line at `time`, first the one at the line."""
+    lanes = []
+    for lane in (0, 1):
+        (_, _), (line, y) = lane_points(scenario, f"in_{lane}")
+        here = [(s.x, track) for track in vehicles(tracks) if (s := track.at(time)) and s.time < time + 0.2
+                and s.x <= line and s.speed < 0.3 and abs(s.y - y) < 1.6]
+        lanes.append([track for _, track in sorted(here, key=lambda one: -one[0])])
+    return lanes
+
+
+def setting_off(tracks, scenario, green):
+    """How queues start: gaps of those who stand, speed of the wave of starts, accelerations from 0 to 5 m/s."""
+    gaps, waves, accelerations = [], [], []
+    for queue in queues_at(tracks, scenario, green - 0.5):
+        stood = [track.at(green - 0.5) for track in queue]
+        gaps += [a.x - ahead.length - b.x for a, ahead, b in zip(stood, queue, stood[1:])]
+        starts = [next(s.time for s in track.samples if s.time >= green and s.speed > 0.5) for track in queue]
+        if len(queue) > 3:
+            waves.append((stood[0].x - stood[-1].x) / (starts[-1] - starts[0]))
+        for track, start in zip(queue[:5], starts):
+            fast = next((s.time for s in track.samples if s.time > start and s.speed >= 5.0), None)
+            if fast:
+                accelerations.append(4.5 / (fast - start))
+    gaps.sort()
+    return {"standing_gap": gaps[len(gaps) // 2] if gaps else None, "starting_wave": mean(waves),
+            "start_acceleration": mean(accelerations)}
 
 
 def saturation(tracks):
     lanes = discharge(tracks, "saturation", green=57.0)
     headways = [h for lane in lanes for h in lane["headways"]]
-    return {"saturation_flow": 3600 / mean(headways) if headways else None, "headways": len(headways),
+    lost = [lane["fourth"] - 4 * mean(headways) for lane in lanes if lane["fourth"] is not None and headways]
+    return {**setting_off(tracks, "saturation", green=57.0), "start_up_lost_time": mean(lost),
+            "saturation_flow": 3600 / mean(headways) if headways else None, "headways": len(headways),
             "queues": [lane["queue"] for lane in lanes], "start_up": mean(lane["start_up"] for lane in lanes if lane["queue"]),
             "longest_headway": max(headways, default=None)}
 
@@ -233,7 +265,9 @@ def roundabout_entry(tracks):
         def flow(times):
             return 3600 * sum(t is not None and begin + 30 <= t < begin + 300 for t in times) / 270
         circulating = flow(ring)
-        stages.append({"ring": circulating, "entered": flow(entered), "hcm": 1380 * math.exp(-1.02e-3 * circulating)})
+        capacity = 1380 * math.exp(-1.02e-3 * circulating)
+        stages.append({"ring": circulating, "entered": flow(entered), "hcm": capacity,
+                       "entered_over_hcm": flow(entered) / capacity})
     return {"stages": stages}
 
 
