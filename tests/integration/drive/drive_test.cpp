@@ -139,6 +139,15 @@ TEST_F(Drive, PairedSeedsHaveTheSameWorldUpToTheFirstAction) {
     EXPECT_GT(std::stod(gamma["progress_m"]), 5.0);
   }
   EXPECT_NE(episode("idm", "1")["world_hash"], episode("idm", "2")["world_hash"]);
+  // side by side
+  ProcessRequest request;
+  request.arguments = {SUMOGAMMA_PROGRAM,     "report", here_.file("gamma"),    here_.file("idm"),
+                       here_.file("futures"), "-o",     here_.file("page.html")};
+  const ProcessResult report = run_process(request);
+  ASSERT_EQ(report.exit_code, 0) << report.errors;
+  EXPECT_THAT(report.output, HasSubstr("3 paired seeds"));
+  EXPECT_THAT(report.output, HasSubstr("idm less gamma"));
+  EXPECT_THAT(here_.read("page.html"), HasSubstr("</svg>"));
 }
 
 TEST_F(Drive, KilledTwiceAndResumedOrInTwoShardsItLeavesTheSameBytes) {
@@ -258,7 +267,7 @@ INSTANTIATE_TEST_SUITE_P(
                      "neither JSON nor CBOR"},
         Misbehaviour{"SaysNothing", "time.sleep(6)", "doesn't answer any more"},
         Misbehaviour{"GivesUp", "env.reset()", "gave up amid an episode"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& one) { return one.param.name; });
 
 TEST_F(Drive, AnotherVersionOrSilenceAtTheDoorIsRefused) {
   for (const auto& [client, complaint] :

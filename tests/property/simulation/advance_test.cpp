@@ -140,7 +140,9 @@ TEST_P(AdvanceOn, APlannedRowIsMovedAsItIsAskedAndNobodyElseIs) {
   EXPECT_GT(going.scene.speed[ego], before);
   EXPECT_LE(braking.scene.speed[ego], before);
   for (std::size_t row = 0; row < sim.scene.size(); ++row)
-    if (row != ego) EXPECT_EQ(going.scene.position[row], braking.scene.position[row]);
+    if (row != ego) {
+      EXPECT_EQ(going.scene.position[row], braking.scene.position[row]);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Maps, AdvanceOn, ::testing::Values("two_way_stop", "roundabout"));
