@@ -21,6 +21,7 @@ enum class Draw : std::uint32_t {
   Control,
   EgoStart,
   Futures,
+  Scenario,
 };
 
 /// 64 well-mixed bits: a pure function of its arguments (splitmix64 finaliser, applied a word at a
