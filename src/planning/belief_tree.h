@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <concepts>
 #include <cstdint>
@@ -214,18 +215,38 @@ class BeliefTree {
   std::uint32_t states_used_ = 0;
   std::vector<SearchParticle> rolling_;  ///< the default policy's scenarios
   std::vector<State> rolling_states_;
+  std::vector<SearchParticle> scratch_;
 };
 
 /// Below this the root's bounds count as equal, as in the published solver.
 inline constexpr double kClosedGap = 1e-6;
 
 /// Puts particles that share an observation side by side, in order of (observation, scenario).
-inline void sort_by_observation(std::span<SearchParticle> particles) {
-  const auto before = [](const SearchParticle& a, const SearchParticle& b) {
-    return a.observation != b.observation ? a.observation < b.observation : a.scenario < b.scenario;
-  };
-  if (!std::is_sorted(particles.begin(), particles.end(), before))
-    std::sort(particles.begin(), particles.end(), before);
+/// Precondition: they are in order of scenario. `scratch` holds at least as many.
+inline void sort_by_observation(std::span<SearchParticle> particles,
+                                std::vector<SearchParticle>& scratch) {
+  constexpr std::size_t kFew = 16;
+  std::array<std::uint64_t, kFew> seen{};
+  std::size_t kinds = 0;
+  for (const SearchParticle& particle : particles) {
+    const auto end = seen.begin() + static_cast<std::ptrdiff_t>(kinds);
+    if (std::find(seen.begin(), end, particle.observation) != end) continue;
+    if (kinds == kFew) {
+      std::sort(particles.begin(), particles.end(), [](const auto& a, const auto& b) {
+        return a.observation != b.observation ? a.observation < b.observation
+                                              : a.scenario < b.scenario;
+      });
+      return;
+    }
+    seen[kinds++] = particle.observation;
+  }
+  if (kinds < 2) return;
+  std::sort(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(kinds));
+  std::copy(particles.begin(), particles.end(), scratch.begin());
+  auto to = particles.begin();
+  for (std::size_t kind = 0; kind < kinds; ++kind)
+    to = std::copy_if(scratch.begin(), scratch.begin() + std::ssize(particles), to,
+                      [&](const auto& particle) { return particle.observation == seen[kind]; });
 }
 
 /// End of the run of particles with the observation of the one at `begin`.
@@ -254,6 +275,7 @@ void BeliefTree<Problem>::start(Problem& problem, const Scenarios<State>& scenar
   if (states_.size() < count) states_.resize(count, scenarios.states.front());
   if (rolling_states_.size() < count) rolling_states_.resize(count, scenarios.states.front());
   rolling_.reserve(count);
+  scratch_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     states_[i] = scenarios.states[i];
     particles_.push_back(
@@ -338,7 +360,7 @@ void BeliefTree<Problem>::expand_action(Problem& problem, std::uint32_t index) {
   }
   statistics_.steps += parent.particles;
   const std::uint32_t end = static_cast<std::uint32_t>(particles_.size());
-  sort_by_observation(std::span(particles_).subspan(begin));
+  sort_by_observation(std::span(particles_).subspan(begin), scratch_);
   const std::uint32_t first_child = static_cast<std::uint32_t>(beliefs_.size());
   for (std::uint32_t run = begin; run < end;) {
     const std::uint32_t run_end = end_of_run(particles_, run);
@@ -403,7 +425,7 @@ double BeliefTree<Problem>::roll_out(Problem& problem, std::uint32_t begin, std:
     if (!outcome.ended) particles[kept++] = particle;
   }
   statistics_.steps += end - begin;
-  sort_by_observation(particles.first(kept));
+  sort_by_observation(particles.first(kept), scratch_);
   double after = 0;
   for (std::uint32_t run = 0; run < kept;) {
     const std::uint32_t run_end = end_of_run(particles.first(kept), run);

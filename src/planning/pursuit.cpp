@@ -17,7 +17,8 @@ double pursuit_steering(const WheeledShape& shape, const AxlePose& pose, const P
                     shape.max_steering);
 }
 
-Vec2 velocity_of(const WheeledShape& shape, const AxlePose& pose, double speed, double steering) {
+Vec2 rolling_velocity(const WheeledShape& shape, const AxlePose& pose, double speed,
+                      double steering) {
   const double turning = speed * std::tan(steering) / shape.wheelbase;
   return from_body({speed, turning * shape.rear_axle_to_center}, direction_of(pose.heading));
 }

@@ -25,7 +25,8 @@ double pursuit_steering(const WheeledShape& shape, const AxlePose& pose, const P
 
 /// Velocity of the body's centre [m/s] whose rear axle rolls at `speed` with the wheels so: what
 /// the body's own controller (advance_body) is asked for.
-Vec2 velocity_of(const WheeledShape& shape, const AxlePose& pose, double speed, double steering);
+Vec2 rolling_velocity(const WheeledShape& shape, const AxlePose& pose, double speed,
+                      double steering);
 
 /// Is a body with its margins in touch with another one ahead of it? Margins are the ego's: in
 /// front, to the sides and behind; ahead is within the cone about its heading from its middle.

@@ -26,7 +26,7 @@ double farthest_off(const Polyline& way, Vec2 start, double heading, double spee
     if (at.along >= until) return off;
     if (at.along > until / 3) off = std::max(off, at.distance);
     const double steering = pursuit_steering(shape, pose, way, at.along, 5.0);
-    body = advance_body(type, body, velocity_of(shape, pose, speed, steering), 0.05);
+    body = advance_body(type, body, rolling_velocity(shape, pose, speed, steering), 0.05);
   }
 }
 
