@@ -37,6 +37,7 @@ set(SUMOGAMMA_LIBS_sumo ${CMAKE_DL_LIBS} pugixml::pugixml spdlog::spdlog EXPAT::
 set(SUMOGAMMA_LIBS_outputs ZLIB::ZLIB)
 set(SUMOGAMMA_LIBS_validation nlohmann_json::nlohmann_json)
 set(SUMOGAMMA_LIBS_demand pugixml::pugixml)
+set(SUMOGAMMA_LIBS_ego nlohmann_json::nlohmann_json)
 set(SUMOGAMMA_LIBS_prediction nlohmann_json::nlohmann_json)
 set(SUMOGAMMA_LIBS_io nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus ZLIB::ZLIB pugixml::pugixml)
 set(SUMOGAMMA_LIBS_app CLI11::CLI11 spdlog::spdlog nlohmann_json::nlohmann_json)

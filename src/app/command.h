@@ -31,6 +31,7 @@ CommandRunner add_import_command(CLI::App& parent);
 CommandRunner add_run_command(CLI::App& parent);
 CommandRunner add_scene_command(CLI::App& parent);
 CommandRunner add_predict_command(CLI::App& parent);
+CommandRunner add_drive_command(CLI::App& parent);
 CommandRunner add_replay_command(CLI::App& parent);
 CommandRunner add_report_command(CLI::App& parent);
 CommandRunner add_validate_command(CLI::App& parent);

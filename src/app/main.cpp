@@ -95,9 +95,9 @@ int run_program(int argc, char** argv) {
       ->capture_default_str();
 
   std::vector<std::pair<CLI::App*, CommandRunner>> commands;
-  for (auto add :
-       {add_import_command, add_run_command, add_scene_command, add_predict_command,
-        add_replay_command, add_report_command, add_validate_command, add_version_command}) {
+  for (auto add : {add_import_command, add_run_command, add_scene_command, add_predict_command,
+                   add_drive_command, add_replay_command, add_report_command, add_validate_command,
+                   add_version_command}) {
     CommandRunner runner = add(app);
     commands.emplace_back(app.get_subcommands({}).back(), std::move(runner));
   }

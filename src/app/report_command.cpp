@@ -3,19 +3,36 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/command.h"
+#include "base/error.h"
+#include "io/drive_report.h"
 #include "io/output_file.h"
 #include "io/output_folder.h"
 #include "io/report.h"
 
 namespace sumogamma {
 
+namespace {
+
+/// Episodes of drives over the seeds that all of them have.
+int report_drives(std::span<const std::filesystem::path> folders, const std::string& page,
+                  bool csv) {
+  if (csv) throw Error("--csv", "is for runs: the tables of a drive are in its folder");
+  const DriveReport report = compare_drives(folders);
+  if (!page.empty()) write_file(page, drive_report_html(report));
+  std::fputs(drive_report_markdown(report).c_str(), stdout);
+  return kExitDone;
+}
+
+}  // namespace
+
 CommandRunner add_report_command(CLI::App& parent) {
-  CLI::App* command =
-      parent.add_subcommand("report", "compare runs side by side: a table on stdout, and a page");
+  CLI::App* command = parent.add_subcommand(
+      "report", "compare runs, or drives, side by side: a table on stdout, and a page");
   struct Options {
     std::vector<std::string> folders;
     std::string output;
@@ -23,8 +40,9 @@ CommandRunner add_report_command(CLI::App& parent) {
   };
   auto options = std::make_shared<Options>();
   command
-      ->add_option("DIR", options->folders,
-                   "output folders of `run`, the first is what others are compared with")
+      ->add_option(
+          "DIR", options->folders,
+          "output folders of `run`, or of `drive`, the first is what others are compared with")
       ->required();
   command->add_option("-o,--output", options->output, "write an HTML page too");
   command->add_flag("--csv", options->csv, "CSV on stdout instead of Markdown");
@@ -32,6 +50,7 @@ CommandRunner add_report_command(CLI::App& parent) {
     const std::vector<std::filesystem::path> folders(options->folders.begin(),
                                                      options->folders.end());
     if (!options->output.empty()) require_page_name(options->output);
+    if (is_drive(folders.front())) return report_drives(folders, options->output, options->csv);
     const std::vector<RunColumn> runs = read_runs(folders);
     if (!same_metrics(runs))
       spdlog::warn(

@@ -49,8 +49,9 @@ void add_sumo_options(CLI::App& command, RunOptions& options) {
       ->check(CLI::IsMember({"traci", "libsumo"}));
   command
       .add_option("--preset", options.preset,
-                  "how people behave: compliant (keep every rule) or observed (as recorded)")
-      ->check(CLI::IsMember({"compliant", "observed"}));
+                  "how people behave: compliant (keep every rule), observed (as recorded) or "
+                  "unregulated (nobody keeps any)")
+      ->check(CLI::IsMember({"compliant", "observed", "unregulated"}));
   command.add_option("--connect", options.connect,
                      "HOST:PORT of a SUMO or sumo-gui started with --remote-port");
   command

@@ -165,7 +165,7 @@ class Agents final : public RunObserver {
     const Scene& scene = run_.sim.scene;
     hash_ = hash_state(scene, hash_);
     driven_ = static_cast<std::uint64_t>(
-        std::count(scene.control.begin(), scene.control.end(), Control::Gamma));
+        std::count_if(scene.control.begin(), scene.control.end(), is_ours));
     driven_sum_ += driven_;
     driven_most_ = std::max(driven_most_, driven_);
     ++ticks_;

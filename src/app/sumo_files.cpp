@@ -92,7 +92,7 @@ VehiclePlace SumoFiles::place_of(std::size_t row, const KnownAgent& known) {
     return place;
   }
   if (scene.control[row] == Control::Parked) return place;
-  if (scene.control[row] == Control::Gamma) {
+  if (is_ours(scene.control[row])) {
     if (const auto front = front_place(network, run_.sim.road, scene, row, known.length,
                                        outputs_.last_lane(known.sumo_id))) {
       place.lane = front->lane;
@@ -122,7 +122,7 @@ void SumoFiles::see(std::size_t row, bool with_persons) {
   SeenAgent agent;
   agent.name = run_.name_of(scene.id[row]);
   agent.is_person = known.is_person;
-  agent.driven = scene.control[row] == Control::Gamma || known.service != StopService::None;
+  agent.driven = is_ours(scene.control[row]) || known.service != StopService::None;
   agent.place = place_of(row, known);
   step_.agents.push_back(agent);
 }
@@ -148,7 +148,7 @@ void SumoFiles::add(std::vector<RunEvent>&) {
   // SUMO has brought those whom it drives to where they were when this tick began
   if (has_step_) {
     for (std::size_t row = 0; row < scene.size(); ++row) {
-      if (scene.control[row] != Control::Gamma)
+      if (!is_ours(scene.control[row]))
         see(row, with_persons);
       else
         step_.unseen.emplace_back(run_.name_of(scene.id[row]));
@@ -161,7 +161,7 @@ void SumoFiles::add(std::vector<RunEvent>&) {
   has_step_ = true;
   see_waiting();
   for (std::size_t row = 0; row < scene.size(); ++row)
-    if (scene.control[row] == Control::Gamma) see(row, with_persons);
+    if (is_ours(scene.control[row])) see(row, with_persons);
 }
 
 void SumoFiles::close() {

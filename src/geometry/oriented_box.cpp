@@ -1,9 +1,12 @@
 #include "geometry/oriented_box.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "geometry/segment.h"
 
 namespace sumogamma {
 
@@ -30,6 +33,27 @@ std::optional<OrientedBox> as_box(std::span<const Vec2> body_outline) {
   box.center = 0.5 * (low + high);
   box.half = 0.5 * (high - low);
   return box.half.allFinite() && box.half.minCoeff() > 0 ? std::optional(box) : std::nullopt;
+}
+
+namespace {
+
+std::array<Vec2, 4> corners_of(const OrientedBox& box) {
+  const Vec2 along = box.half.x() * box.forward, aside = box.half.y() * left_of(box.forward);
+  return {Vec2(box.center + along - aside), Vec2(box.center + along + aside),
+          Vec2(box.center - along + aside), Vec2(box.center - along - aside)};
+}
+
+}  // namespace
+
+double distance(const OrientedBox& a, const OrientedBox& b) {
+  if (separation(a, b) <= 0.0) return 0.0;
+  const std::array<Vec2, 4> one = corners_of(a), other = corners_of(b);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < one.size(); ++i)
+    for (std::size_t k = 0; k < other.size(); ++k)
+      least = std::min(
+          least, distance_of_segments(one[i], one[(i + 1) % 4], other[k], other[(k + 1) % 4]));
+  return least;
 }
 
 double separation(const OrientedBox& a, const OrientedBox& b) {

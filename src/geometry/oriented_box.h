@@ -23,6 +23,9 @@ std::optional<OrientedBox> as_box(std::span<const Vec2> body_outline);
 /// lower bound of their distance.
 double separation(const OrientedBox& a, const OrientedBox& b);
 
+/// Distance of two boxes [m]; 0 where they overlap.
+double distance(const OrientedBox& a, const OrientedBox& b);
+
 /// B - A of Eq. 3 for two boxes, relative to A's centre, in closed form: an eight-sided polygon
 /// around `center`, whose opposite edges are parallel. Edge k runs along generator k for k < 4, in
 /// order of direction, and backwards along it for k + 4.

@@ -33,8 +33,8 @@ struct Choice {
 /// `open`, and at most `most`.
 struct Binding {
   std::string key;
-  std::variant<double*, int*, bool*, std::string*, Choice<Kinematics>, Choice<PairHorizon>,
-               Choice<BehaviorPreset>>
+  std::variant<double*, int*, bool*, std::string*, std::vector<double>*, Choice<Kinematics>,
+               Choice<PairHorizon>, Choice<BehaviorPreset>>
       target;
   double least = kAny;
   bool open = false;
@@ -82,6 +82,8 @@ constexpr std::array kComplianceFields{
     ComplianceField{"jaywalking_rate", &Compliance::jaywalking_rate, true},
     ComplianceField{"speed_factor", &Compliance::speed_factor, false},
     ComplianceField{"speed_factor_deviation", &Compliance::speed_factor_deviation, false},
+    ComplianceField{"free_speed", &Compliance::free_speed, false},
+    ComplianceField{"free_speed_spread", &Compliance::free_speed_spread, false},
     ComplianceField{"headway_deviation", &Compliance::headway_deviation, false},
     ComplianceField{"responsibility_least", &Compliance::responsibility_least, true},
     ComplianceField{"responsibility_most", &Compliance::responsibility_most, true},
@@ -116,9 +118,28 @@ void bind_model(ModelOptions& model, std::vector<Binding>& bindings) {
   bindings.push_back({"model.walker_margin", &model.walker_margin, 0});
 }
 
+void bind_ego(EgoSettings& ego, std::vector<Binding>& bindings) {
+  bindings.push_back({"ego.vehicle", &ego.vehicle});
+  bindings.push_back({"ego.type", &ego.type});
+  bindings.push_back({"ego.window", &ego.window});
+  bindings.push_back({"ego.goal_edge", &ego.goal_edge});
+  bindings.push_back({"ego.goal_at", &ego.goal_at, 0});
+  bindings.push_back({"ego.goal_way", &ego.goal_way, 0});
+  bindings.push_back({"ego.max_speed", &ego.max_speed, 0, true});
+  bindings.push_back({"ego.accelerations", &ego.accelerations});
+  bindings.push_back({"ego.rate", &ego.rate, 0, true});
+  bindings.push_back({"ego.planner", &ego.planner});
+  bindings.push_back({"ego.trusted", &ego.trusted});
+  bindings.push_back({"ego.emergency_brake", &ego.emergency_brake});
+  bindings.push_back({"ego.warm_up", &ego.warm_up, 0, false, 1e6});
+  bindings.push_back({"ego.clearance", &ego.clearance, 0});
+  bindings.push_back({"ego.limit", &ego.limit, 0, true, 1e6});
+}
+
 void bind_preset(BehaviorPreset& preset, std::vector<Binding>& bindings) {
   Choice<BehaviorPreset> choice{&preset, {}};
-  for (const BehaviorPreset one : {BehaviorPreset::Compliant, BehaviorPreset::Observed})
+  for (const BehaviorPreset one :
+       {BehaviorPreset::Compliant, BehaviorPreset::Observed, BehaviorPreset::Unregulated})
     choice.words.emplace_back(name_of(one), one);
   bindings.push_back({"behavior.preset", choice});
 }
@@ -138,6 +159,7 @@ std::vector<Binding> bind_all(ScenarioConfig& config) {
   };
   bind_preset(config.preset, bindings);
   bind_model(config.model, bindings);
+  bind_ego(config.ego, bindings);
   bindings.push_back({"traffic.turn_on_red", &config.code.turn_on_red});
   for (const TrafficParameter& one : traffic_parameters())
     bindings.push_back({"traffic." + std::string(one.name), &(config.traffic.*one.value), one.least,
@@ -338,6 +360,16 @@ class Document {
   void assign(const toml::node& node, const Binding& binding, std::string* target) const {
     if (!node.is_string()) fail(node, "'" + binding.key + "' must be a text in quotes");
     *target = node.value<std::string>().value();
+  }
+  void assign(const toml::node& node, const Binding& binding, std::vector<double>* target) const {
+    const toml::array* const list = node.as_array();
+    if (list == nullptr) fail(node, "'" + binding.key + "' must be a list of numbers, [1, 2]");
+    target->clear();
+    for (const toml::node& one : *list) {
+      if (!one.is_number()) fail(one, "'" + binding.key + "' must hold numbers alone");
+      target->push_back(one.value<double>().value());
+      check_range(one, binding, target->back());
+    }
   }
   template <typename Enum>
   void assign(const toml::node& node, const Binding& binding, const Choice<Enum>& choice) const {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ego/ego_settings.h"
 #include "model/model.h"
 #include "scene/agent_type.h"
 #include "scene/behavior_preset.h"
@@ -35,6 +36,8 @@ struct ScenarioConfig {
   // [traffic]
   TrafficParameters traffic;
   TrafficCode code;
+  // [ego]: of `sumo-gamma drive`
+  EgoSettings ego;
   // [types.NAME]: rows changed, or added with base = "car"
   AgentTypeTable types = default_agent_types();
   /// Keys that were set, and where: scenario.toml or the command line (--set).

@@ -136,7 +136,7 @@ void ReplayRecorder::append_changes(const Scene& scene, const AgentName& name_of
     next_.push_back({scene.id[row], 0, 0, 0, 0, 0});
     put_count(scene.id[row].value);
     put_byte(static_cast<unsigned>(types ? kind_of(*types, scene.type[row]) : scene.type[row]));
-    put_byte(scene.control[row] == Control::Gamma ? 0 : 1);
+    put_byte(is_ours(scene.control[row]) ? 0 : 1);
     put_text(name_of(scene.id[row]));
     put_byte(scene.footprint[row].count);
     for (const Vec2& corner : scene.footprint[row].outline()) {

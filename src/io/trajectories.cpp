@@ -14,9 +14,7 @@ namespace sumogamma {
 
 namespace {
 
-bool driven_by_us(const Scene& scene, std::size_t row) {
-  return scene.control[row] == Control::Gamma;
-}
+bool driven_by_us(const Scene& scene, std::size_t row) { return is_ours(scene.control[row]); }
 
 void append_number(std::string& text, double value, int decimals) {
   char digits[64];
@@ -140,7 +138,7 @@ void TrajectoryWriter::add(const Scene& scene, const AgentTypeTable& types,
   next_time_ = started_ ? std::max(next_time_ + period_, began) : began + period_;
   started_ = open_ = true;
   external_ = std::any_of(scene.control.begin(), scene.control.end(),
-                          [](Control control) { return control != Control::Gamma; });
+                          [](Control control) { return !is_ours(control); });
   head_ = "    <timestep";
   // hundredths as SUMO writes them, thousandths where the step needs them
   const bool fine = std::llround(began * 1000.0) % 10 != 0;

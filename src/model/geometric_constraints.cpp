@@ -47,7 +47,7 @@ double road_horizon(const RoadContext& context, const AgentGeometry& own,
 /// The velocity that an agent would have if nobody were in its way [m/s]: onwards at the speed it
 /// likes, on foot towards its sub-goal, however it has to turn and step aside now.
 Vec2 intended_velocity(const Scene& scene, const AgentGeometry& agent, std::size_t row) {
-  if (scene.control[row] != Control::Gamma) return agent.velocity;
+  if (!agent.yields) return agent.velocity;
   const RoadContext& context = scene.context[row];
   double speed = scene.preferred_speed[row];
   if (context.active) speed = std::min({speed, context.speed_limit, context.allowed_speed});
@@ -171,8 +171,8 @@ double responsibility_share(const Model& model, const Scene& scene, const TickGe
                             std::size_t row, std::size_t other, const BehaviorState& behavior) {
   if (!model.options.share_responsibility) return behavior.responsibility;
   // SUMO's drivers and those who don't look this way do nothing for this pair
-  if (scene.control[other] != Control::Gamma) return 1.0;
   const AgentGeometry& their = geometry.agent[other];
+  if (!their.yields) return 1.0;
   if (!attends(their, geometry.agent[row], their.attention)) return 1.0;
   const double own = std::max(behavior.responsibility, 0.0);
   const double theirs = std::max(scene.behavior[other].responsibility, 0.0);

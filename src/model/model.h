@@ -32,6 +32,7 @@ struct ModelOptions {
       true;  ///< who has to stand creeps round what is in its way where the guard admits it
   bool take_detours = true;       ///< drivers whose way is shut for long take another one
   bool use_guard = true;          ///< ablation: false leaves the stopping guard out
+  bool trust_planned = true;      ///< others count on an ego (Control::Planned) to do its share
   double guard_margin = 0.015;    ///< room that the guard keeps between bodies that brake [m]
   double step = 0.05;             ///< length of a tick, which the guard reckons with [s]
   double separation_time = 0.03;  ///< how urgently wheeled bodies that overlap come apart [s];

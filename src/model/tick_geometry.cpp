@@ -61,7 +61,8 @@ AgentGeometry describe(const Model& model, const Scene& scene, std::size_t row) 
   agent.type = scene.type[row];
   agent.attention = scene.behavior[row].attention;
   fill_outline(model.options, scene.footprint[row], agent);
-  agent.yields = scene.control[row] == Control::Gamma;
+  agent.yields = scene.control[row] == Control::Gamma ||
+                 (scene.control[row] == Control::Planned && model.options.trust_planned);
   agent.stopping =
       kReactionTime * agent.speed + square(agent.speed) / (2.0 * type.comfortable_deceleration);
   const double step = model.options.step;

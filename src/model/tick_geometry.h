@@ -37,7 +37,7 @@ struct AgentGeometry {
   AgentTypeId type{};
   bool is_box = true;
   bool on_wheels = true;
-  bool yields = true;  ///< driven by the model: brakes where it must
+  bool yields = true;  ///< driven by the model, or trusted to do as well: brakes where it must
 
   OrientedBox braking;  ///< holds the bare outline until it stands if it brakes now (boxes only)
 

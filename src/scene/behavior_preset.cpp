@@ -25,10 +25,27 @@ constexpr Observed kObserved[] = {
     {"gyro_scooter", 0.26, 0.5, 0.0, 0.2, 1.0},       // as bicycles
 };
 
+/// Speeds of the crowd of the paper's section V-B: about 4 m/s on four wheels, 2 on two, 1 on foot.
+void make_unregulated(AgentType& type) {
+  constexpr double kOnFoot = 1.0, kOnTwoWheels = 2.0, kDriving = 4.0, kSpread = 0.5;  // [m/s]
+  type.compliance.free_speed = type.kinematics == Kinematics::Holonomic ? kOnFoot
+                               : is_narrow(type.width)                  ? kOnTwoWheels
+                                                                        : kDriving;
+  type.compliance.free_speed_spread = kSpread;
+}
+
 }  // namespace
 
 std::string_view name_of(BehaviorPreset preset) {
-  return preset == BehaviorPreset::Observed ? "observed" : "compliant";
+  switch (preset) {
+    case BehaviorPreset::Observed:
+      return "observed";
+    case BehaviorPreset::Unregulated:
+      return "unregulated";
+    case BehaviorPreset::Compliant:
+      break;
+  }
+  return "compliant";
 }
 
 void apply_preset(BehaviorPreset preset, AgentTypeTable& types) {
@@ -39,7 +56,8 @@ void apply_preset(BehaviorPreset preset, AgentTypeTable& types) {
     if (own == compliant.end()) continue;
     type.compliance = own->compliance;
     type.critical_gap = own->critical_gap;
-    if (preset == BehaviorPreset::Compliant) continue;
+    if (preset == BehaviorPreset::Unregulated) make_unregulated(type);
+    if (preset != BehaviorPreset::Observed) continue;
     for (const Observed& row : kObserved) {
       if (type.name != row.type) continue;
       type.compliance.red_light_running = row.red_light_running;

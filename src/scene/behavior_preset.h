@@ -11,10 +11,15 @@ namespace sumogamma {
 enum class BehaviorPreset : std::uint8_t {
   Compliant,  ///< keeps every rule
   Observed,   ///< as recorded on real roads where there is a record; docs/scenario.md has the table
+  Unregulated,  ///< nobody keeps a rule of the road, and all are slow (keeps_rules())
 };
 
 /// Word for a preset as in scenario.toml.
 std::string_view name_of(BehaviorPreset preset);
+
+/// Do signals, right of way, leaders and lanes count? Without them everybody makes for its way
+/// alone and avoids the others.
+inline bool keeps_rules(BehaviorPreset preset) { return preset != BehaviorPreset::Unregulated; }
 
 /// Sets what a preset says of every type. Types that it doesn't know keep what they have.
 void apply_preset(BehaviorPreset preset, AgentTypeTable& types);

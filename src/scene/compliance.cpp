@@ -30,6 +30,12 @@ double draw_speed_factor(const Compliance& compliance, std::uint64_t seed, std::
                      Draw::DesiredSpeed);
 }
 
+double draw_free_speed(const Compliance& compliance, std::uint64_t seed, std::uint64_t id) {
+  constexpr double kLeast = 0.2;  // [m/s]
+  const double aside = random_uniform(seed, id, 1, Draw::DesiredSpeed, -1.0, 1.0);
+  return std::max(compliance.free_speed + compliance.free_speed_spread * aside, kLeast);
+}
+
 double draw_mid_block(const Compliance& compliance, std::uint64_t seed, std::uint64_t id) {
   const double draw = random_uniform(seed, id, 0, Draw::MidBlock);
   return draw < compliance.jaywalking_rate ? draw / compliance.jaywalking_rate : -1.0;

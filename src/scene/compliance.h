@@ -16,6 +16,9 @@ struct Compliance {
   double speed_factor = 0;  ///< mean of the desired speed over the limit (on foot and on bicycles:
                             ///< over the usual speed); 0: what SUMO drew from its vType
   double speed_factor_deviation = 0;
+  double free_speed = 0;         ///< mean of the desired speed, whatever roads allow [m/s]; 0: as
+                                 ///< speed_factor says
+  double free_speed_spread = 0;  ///< of that to both sides, uniform [m/s]
   double headway_deviation = 0;  ///< of the factor on the type's headway, whose mean is 1
   double responsibility_least = 0.5, responsibility_most = 0.6;  ///< gamma of Eq. 5, uniform
   double attention_least = 0.9, attention_most = 1.3;  ///< factor on the reach of Att, uniform
@@ -34,6 +37,10 @@ Manners draw_manners(const Compliance& compliance, std::uint64_t seed, std::uint
 /// Factor on the desired speed of an agent whose type has one of its own (speed_factor > 0):
 /// normal, cut off at twice the deviation, at least 0.2. A pure function of seed and id.
 double draw_speed_factor(const Compliance& compliance, std::uint64_t seed, std::uint64_t id);
+
+/// Desired speed of an agent whose type has a free_speed: uniform about it, at least 0.2 m/s [m/s].
+/// A pure function of seed and id.
+double draw_free_speed(const Compliance& compliance, std::uint64_t seed, std::uint64_t id);
 
 /// For the share `jaywalking_rate` of all ids, who cross roads between junctions, a number in [0,
 /// 1) that says where; -1 for the others. A pure function of seed and id.

@@ -32,7 +32,13 @@ enum class Control : std::uint8_t {
   Gamma,     ///< by this model
   External,  ///< by the world (SUMO): observed, never commanded
   Parked,    ///< by nobody: it stands off the road, in a place of the world's
+  Planned,   ///< by a planner's wish, which its body follows: the ego of a drive
 };
+
+/// Does the world show an agent where we have moved it, instead of moving it?
+inline bool is_ours(Control control) {
+  return control == Control::Gamma || control == Control::Planned;
+}
 
 /// Which of its path's planned halts an agent comes to next, or stands at.
 struct PlannedHalt {

@@ -5,10 +5,8 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "model/gamma_velocity.h"
-#include "model/tracking.h"
+#include "simulation/advance.h"
 #include "simulation/world.h"
-#include "traffic/pipeline.h"
 
 namespace sumogamma {
 
@@ -25,17 +23,18 @@ struct Simulation {
   Model model;
   RoadState road;
   Scene scene;
-  double dt = 0.05;  ///< [s]
+  double dt = 0.05;   ///< [s]
+  bool rules = true;  ///< of the road, lane choice among them; see AdvanceOptions
   std::unique_ptr<Workers> workers = std::make_unique<Workers>(1);
   std::unique_ptr<Workers> recording;  ///< two: the world's step and what is recorded meanwhile
   PhaseTimes times;
   Traffic traffic;
-
-  // scratch, meaning nothing between ticks
-  TickGeometry geometry;
-  std::vector<Workspace> workspaces;
-  std::vector<BodyState> commands;
+  PlannedVelocity planned;  ///< of the ego, where there is one
+  AdvanceWork work;         ///< scratch, meaning nothing between ticks
 };
+
+/// What a step of a run reads and writes.
+Advance step_of(Simulation& simulation);
 
 /// Advances everybody by dt: observe, put the road's view of each agent together, choose velocities
 /// from the frozen scene (Eq. 7), track them with the bodies' controllers, and hand the result to

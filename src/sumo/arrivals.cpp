@@ -83,7 +83,7 @@ bool is_at_end(const Path& path, const Scene& scene, std::size_t row, double len
 void SumoWorld::finish_driven(Scene& scene, RoadState& road) {
   std::vector<bool> removed;
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (scene.control[row] != Control::Gamma) continue;
+    if (!is_ours(scene.control[row])) continue;
     const KnownAgent& known = known_[scene.id[row].value];
     if (!is_at_end(*road.path(scene.path[row]), scene, row, known.length, options_.dt)) continue;
     if (known.is_person) {

@@ -155,6 +155,16 @@ class SumoBackend {
   /// Puts a ghost onto a lane at `pose` in the coming step, where SUMO's stops and rerouters find
   /// it; from then on SUMO moves it, from `speed` [m/s], until it is a ghost again.
   virtual void put_on_lane(const SumoPose& pose, const std::string& lane, double speed) = 0;
+  /// Adds a vehicle that departs in the coming step: its vType, its route, the index of the lane of
+  /// the route's first edge and the place of its front along that [m]. One that SUMO can't have is
+  /// never seen.
+  struct NewVehicle {
+    std::string id, type;
+    std::vector<std::string> route;
+    int lane_index = 0;
+    double front = 0;
+  };
+  virtual void add_vehicle(const NewVehicle& vehicle) = 0;
   /// Adds a stop to a vehicle's plan.
   virtual void add_stop(const std::string& vehicle, const SumoAgentDetails::Stop& stop) = 0;
   /// The route of a vehicle from its first edge on.

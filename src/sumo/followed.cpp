@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/units.h"
+#include "scene/behavior_draw.h"
 #include "sumo/sumo_agents.h"
 #include "sumo/sumo_world.h"
 
@@ -91,7 +92,7 @@ void SumoWorld::appear(const SumoAgent& seen, PendingAgent& pending, Scene& scen
   agent.heading = heading;
   agent.speed = seen.speed;
   agent.preferred_speed = details.max_speed;
-  agent.behavior = draw_behavior(type, options_.seed, id);
+  agent.behavior = draw_behavior(type, options_.seed, id.value);
   agent.control = Control::External;
   road.paths.resize(known_.size());
   if (pending.entry.path) {

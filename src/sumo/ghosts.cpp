@@ -103,7 +103,7 @@ bool meets_ghosts(const Scene& scene, const SpatialGrid& grid, std::size_t row) 
   bool meets = false;
   grid.visit_within(scene.position[row], kLeast + 2.0 * kTime * scene.speed[row],
                     [&](std::uint32_t other, double) {
-                      if (meets || scene.control[other] != Control::Gamma) return;
+                      if (meets || !is_ours(scene.control[other])) return;
                       const Vec2 way = scene.position[other] - scene.position[row];
                       const double comes = -scene.velocity[other].dot(forward);
                       const double ahead = way.dot(forward);

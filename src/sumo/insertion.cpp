@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/units.h"
+#include "scene/behavior_draw.h"
 #include "sumo/sumo_agents.h"
 
 namespace sumogamma {
@@ -37,7 +38,10 @@ AgentState newcomer(const Model& model, const PendingAgent& pending, const Path&
           ? std::min(details.max_speed * (details.is_person ? details.speed_factor : 1.0),
                      type.max_speed)
           : type.preferred_speed;
-  agent.behavior = draw_behavior(type, seed, id);
+  if (type.compliance.free_speed > 0.0)
+    agent.preferred_speed =
+        std::min(draw_free_speed(type.compliance, seed, id.value), type.max_speed);
+  agent.behavior = draw_behavior(type, seed, id.value);
   agent.path = static_cast<PathId>(id.value);
   return agent;
 }

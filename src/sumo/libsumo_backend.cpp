@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "scene/sumo_defaults.h"
 #include "sumo/libsumo_module.h"
 #include "sumo/stepped_backend.h"
@@ -162,6 +163,7 @@ class LibsumoBackend final : public SteppedBackend {
     return guarded([] { return libsumo::Person::getIDList(); });
   }
   void put_on_lane(const SumoPose& pose, const std::string& lane, double speed) override;
+  void add_vehicle(const NewVehicle& vehicle) override;
   void set_route(const std::string& vehicle, const std::vector<std::string>& edges) override;
   std::vector<std::string> find_route(const std::string& from, const std::string& to,
                                       const std::string& type) override;
@@ -449,6 +451,18 @@ void LibsumoBackend::put_on_lane(const SumoPose& pose, const std::string& lane, 
                                  kOntoLane.keep_route, kOntoLane.match_threshold);
     } catch (const libsumo::TraCIException&) {
       // it left meanwhile
+    }
+  });
+}
+
+void LibsumoBackend::add_vehicle(const NewVehicle& vehicle) {
+  guarded([&] {
+    try {
+      libsumo::Route::add(vehicle.id, vehicle.route);
+      libsumo::Vehicle::add(vehicle.id, vehicle.id, vehicle.type, "now",
+                            std::to_string(vehicle.lane_index), number_text(vehicle.front), "0");
+    } catch (const libsumo::TraCIException&) {
+      // it is never seen: the traci back end says nothing, either
     }
   });
 }

@@ -191,19 +191,6 @@ void choose_mid_block(const AgentType& type, std::uint64_t seed, SumoAgentDetail
     details.mid_block = draw_mid_block(type.compliance, seed, fnv1a(details.id));
 }
 
-BehaviorState draw_behavior(const AgentType& type, std::uint64_t seed, AgentId id) {
-  BehaviorState behavior;
-  behavior.intention.kind = IntentionKind::Path;
-  behavior.responsibility =
-      random_uniform(seed, id.value, 0, Draw::Responsibility, type.compliance.responsibility_least,
-                     type.compliance.responsibility_most);
-  const double attention =
-      random_uniform(seed, id.value, 0, Draw::Attention, type.compliance.attention_least,
-                     type.compliance.attention_most);
-  behavior.attention = {attention * type.attention_front, attention * type.attention_rear};
-  return behavior;
-}
-
 double draw_path_offset(const Model& model, const AgentType& type, std::uint64_t seed, AgentId id) {
   const double kerb_side = model.road.left_hand ? 1.0 : -1.0;
   const double draw = random_uniform(seed, id.value, 1, Draw::Intention);

@@ -39,10 +39,6 @@ void choose_speed_factor(const AgentType& type, std::uint64_t seed, SumoAgentDet
 /// (Compliance::jaywalking_rate): a pure function of seed and SUMO's id.
 void choose_mid_block(const AgentType& type, std::uint64_t seed, SumoAgentDetails& details);
 
-/// Behaviour drawn for one agent (responsibility, attention; intention is its path): a pure
-/// function of seed and id.
-BehaviorState draw_behavior(const AgentType& type, std::uint64_t seed, AgentId id);
-
 /// Place beside the path that one agent likes: on foot and on two wheels towards the kerb, so that
 /// opposite flows part [m].
 double draw_path_offset(const Model& model, const AgentType& type, std::uint64_t seed, AgentId id);

@@ -84,7 +84,7 @@ void SumoWorld::advance(const Scene& scene) {
 /// Poses of those whom we drive. Who enters an edge with rerouters is shown to them instead.
 void SumoWorld::collect_poses(const Scene& scene) {
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (scene.control[row] != Control::Gamma) continue;
+    if (!is_ours(scene.control[row])) continue;
     const KnownAgent& known = known_[scene.id[row].value];
     if (known.service != StopService::None) continue;  // SUMO has it
     SumoPose pose{&known.sumo_id,

@@ -51,9 +51,8 @@ bool SumoWorld::fits(const DelayedVehicle& delayed, const SumoAgentDetails& deta
   const OrientedBox body{delayed.front - 0.5 * details.length * forward, forward,
                          Vec2(0.5 * details.length, 0.5 * details.width)};
   const double height = elevation_at(lane, lane.centerline.project(delayed.front).along);
-  return has_room(scene, ghosts_, body, height, speed, [&](std::uint32_t row) {
-    return !ghosts_only || scene.control[row] == Control::Gamma;
-  });
+  return has_room(scene, ghosts_, body, height, speed,
+                  [&](std::uint32_t row) { return !ghosts_only || is_ours(scene.control[row]); });
 }
 
 /// SUMO goes on with those for whom there is room now.
@@ -137,7 +136,7 @@ void SumoWorld::hold_drivers(const Scene& scene) {
     ghosts_.visit_within(scene.position[row],
                          kNear + 0.5 * known.length + kSight * scene.speed[row],
                          [&](std::uint32_t other, double) {
-                           if (scene.control[other] == Control::Gamma) near.push_back(other);
+                           if (is_ours(scene.control[other])) near.push_back(other);
                          });
     const bool aside = !known.is_person && overtakes(scene, row);
     hold_speed(scene, row, aside, near);
@@ -162,8 +161,7 @@ void SumoWorld::hold_speed(const Scene& scene, std::size_t row, bool aside,
   const RoadContext& context = scene.context[row];
   const std::size_t foe = foe_row(scene, row);
   const bool bound = !known.is_person && !aside && foe < scene.size() &&
-                     scene.control[foe] == Control::Gamma &&
-                     context.allowed_speed < scene.speed[row] + 1.0;
+                     is_ours(scene.control[foe]) && context.allowed_speed < scene.speed[row] + 1.0;
   double most = bound ? context.allowed_speed : kForever;
   const bool straight_on = aside || known.is_person;
   const Path* path = straight_on ? nullptr : road_->path(scene.path[row]);

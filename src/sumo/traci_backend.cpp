@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/number_text.h"
 #include "sumo/stepped_backend.h"
 #include "sumo/sumo_process.h"
 #include "sumo/traci_answers.h"
@@ -89,6 +91,7 @@ class TraciBackend final : public SteppedBackend {
   std::vector<std::string> present_vehicles() override { return id_list(traci::kVehicle); }
   std::vector<std::string> present_persons() override { return id_list(traci::kPerson); }
   void put_on_lane(const SumoPose& pose, const std::string& lane, double speed) override;
+  void add_vehicle(const NewVehicle& vehicle) override;
   void set_route(const std::string& vehicle, const std::vector<std::string>& edges) override;
   std::vector<std::string> find_route(const std::string& from, const std::string& to,
                                       const std::string& type) override;
@@ -637,6 +640,37 @@ void TraciBackend::put_on_lane(const SumoPose& pose, const std::string& lane, do
   // what SUMO derives from its motion as a ghost is no speed to start with
   queued_.set_pair(traci::kVehicle, traci::kPreviousSpeed, *pose.id, speed, 0.0);
   append_move(queued_, pose, lane_hint(lane), false, kOntoLane);
+}
+
+void TraciBackend::add_vehicle(const NewVehicle& vehicle) {
+  std::size_t route_body = 1 + 4 + vehicle.id.size() + 5;
+  for (const std::string& edge : vehicle.route) route_body += 4 + edge.size();
+  queued_.begin_command(traci::set_command(traci::kRouteDomain), route_body);
+  queued_.raw_byte(traci::kAddRoute);
+  queued_.raw_string(vehicle.id);
+  queued_.typed_strings(vehicle.route);
+  // route, vType, depart time, lane, place and speed, the same of the arrival, taz, taz, line
+  const std::array<std::string, 12> words{vehicle.id,
+                                          vehicle.type,
+                                          "now",
+                                          std::to_string(vehicle.lane_index),
+                                          number_text(vehicle.front),
+                                          "0",
+                                          "current",
+                                          "max",
+                                          "current",
+                                          "",
+                                          "",
+                                          ""};
+  std::size_t body = 1 + 4 + vehicle.id.size() + 5 + 5 + 5;
+  for (const std::string& word : words) body += 5 + word.size();
+  queued_.begin_command(traci::set_command(traci::kVehicle), body);
+  queued_.raw_byte(traci::kAddFull);
+  queued_.raw_string(vehicle.id);
+  queued_.compound(static_cast<std::int32_t>(words.size() + 2));
+  for (const std::string& word : words) queued_.typed_string(word);
+  queued_.typed_integer(0);  // places for people in it
+  queued_.typed_integer(0);  // and people
 }
 
 void TraciBackend::set_route(const std::string& vehicle, const std::vector<std::string>& edges) {

@@ -17,7 +17,8 @@ inline constexpr std::uint8_t kGetVersion = 0x00, kSimulationStep = 0x02, kSetOr
 
 /// A domain's get command; set, subscribe and the responses are fixed offsets from it.
 inline constexpr std::uint8_t kInductionLoop = 0xa0, kTrafficLight = 0xa2, kVehicle = 0xa4,
-                              kEdge = 0xaa, kSimulation = 0xab, kPerson = 0xae, kLaneDomain = 0xa3;
+                              kEdge = 0xaa, kSimulation = 0xab, kPerson = 0xae, kLaneDomain = 0xa3,
+                              kRouteDomain = 0xa6;
 constexpr std::uint8_t set_command(std::uint8_t domain) {
   return static_cast<std::uint8_t>(domain + 0x20);
 }
@@ -49,7 +50,8 @@ inline constexpr std::uint8_t kIdList = 0x00, kPosition = 0x42, kAngle = 0x43, k
                               kVirtualDetection = 0x22, kSignalState = 0x20, kNextSwitch = 0x2d,
                               kOption = 0x32, kTime = 0x66, kStepLength = 0x7b, kStop = 0x12,
                               kStopState = 0xb5, kRouteIndex = 0x69, kParameter = 0x7e,
-                              kRidesIn = 0xc3, kRoute = 0x57, kTravelTime = 0x58, kFindRoute = 0x86;
+                              kRidesIn = 0xc3, kRoute = 0x57, kTravelTime = 0x58, kFindRoute = 0x86,
+                              kAddRoute = 0x80, kAddFull = 0x85;
 inline constexpr std::uint8_t kDepartedVehicles = 0x74, kArrivedVehicles = 0x7a,
                               kDepartedPersons = 0x25, kArrivedPersons = 0x27,
                               kTeleportCount = 0x75, kEmergencyStopCount = 0x89,

@@ -53,8 +53,8 @@ void update_traffic(const TrafficTick& tick, Traffic& traffic) {
   find_ways_back(tick);
   prepare_tick(tick.model, scene, tick.workers, tick.geometry);
   perceive_all(tick);
-  choose_lanes(tick, traffic.lanes);
-  if (tick.model.options.take_detours) traffic.detours += take_detours(tick);
+  if (tick.lanes) choose_lanes(tick, traffic.lanes);
+  if (tick.lanes && tick.model.options.take_detours) traffic.detours += take_detours(tick);
   update_road_contexts(tick);
 }
 

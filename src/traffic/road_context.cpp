@@ -63,6 +63,7 @@ RoadContext road_context(const TrafficView& view, std::size_t row, double dt, Tr
   context.merge_to = traffic.merge_to[row];
   context.aside = traffic.lateral_aim[row] - scene.manners[row].path_offset;
   set_geometry(view, course, context);
+  if (!view.rules) return context;
   note_halt(view, course, traffic);
   if (path->walking) {
     set_walker_limits(view, course, context);
@@ -78,7 +79,7 @@ void update_road_contexts(const TrafficTick& tick) {
   const TrafficView view = tick.view();
   const Scene& scene = tick.scene;
   tick.waits.rebuild(scene);
-  tick.approaches.rebuild(view);
+  if (tick.rules) tick.approaches.rebuild(view);
   tick.workers.for_each_range(scene.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     StopPoints scratch;
     // a row reads other rows' state but never their new context

@@ -20,10 +20,12 @@ struct TrafficTick {
   WaitGraph& waits;
   const TrafficParameters& parameters;
   const TrafficCode& code;
+  bool rules = true;  ///< false: paths are ways that somebody means to take, and nothing more
+  bool lanes = true;  ///< lanes, places in them and detours are chosen
 
   TrafficView view() const {
-    return {model,      road,       scene, traffic,    geometry.grid,
-            approaches, perception, waits, parameters, code};
+    return {model,      road,  scene,      traffic, geometry.grid, approaches,
+            perception, waits, parameters, code,    rules};
   }
 };
 

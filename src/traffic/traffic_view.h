@@ -27,6 +27,7 @@ struct TrafficView {
   const WaitGraph& waits;           ///< as contexts were when this part of the tick began
   const TrafficParameters& parameters;
   const TrafficCode& code;
+  bool rules = true;  ///< as TrafficTick::rules
 };
 
 }  // namespace sumogamma

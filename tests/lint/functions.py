@@ -48,7 +48,7 @@ def functions(lines):
                 yield head_line, name.group(1) if name else "?", number - begin, parameters(" ".join(head))
                 head, begin = [], 0
             continue
-        if not line.strip() or re.match(r"\s*#|\}|(namespace|struct|class|enum|union|using|extern)\b|template\b[^;{]*$", line):
+        if not line.strip() or re.match(r"\s*#|\}|(namespace|struct|class|enum|union|using|extern|concept)\b|template\b[^;{]*$", line):
             head = []
             continue
         if not head:

@@ -200,7 +200,7 @@ void set_geometry(const TrafficView& view, const Course& course, RoadContext& co
   Sides room{here.room_left + over.left, here.room_right + over.right};
   if (!course.path.walking) {
     set_edges(view, course, room, context);
-    room = corridor_of(view, course, room, offset, half_width, extent);
+    if (view.rules) room = corridor_of(view, course, room, offset, half_width, extent);
   }
   context.room_left = room.left - course.offset - extent;
   context.room_right = room.right + course.offset - extent;

@@ -64,13 +64,13 @@ TEST(RoadTraffic, WhoBacksOutDoesNotDependOnTheOrderOfRows) {
                                sim.road,
                                sim.scene,
                                state,
-                               sim.geometry.grid,
+                               sim.work.geometry.grid,
                                sim.traffic.approaches,
                                sim.traffic.perception,
                                sim.traffic.waits,
                                sim.traffic.parameters,
                                sim.traffic.code};
-        update_backing(view, sim.geometry, sim.dt, workers, next, state);
+        update_backing(view, sim.work.geometry, sim.dt, workers, next, state);
         return std::pair{state.backing_left, state.gives_way_left};
       };
       const auto together = after(one);

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "scene/behavior_draw.h"
 #include "support/small_net.h"
 
 namespace sumogamma {
@@ -148,7 +149,7 @@ TEST(DrawBehavior, IsAPureFunctionOfSeedAndId) {
   const AgentType& car = type_of(types, find_agent_type(types, "car"));
   std::set<double> seen;
   for (std::uint32_t id = 0; id < 200; ++id) {
-    const BehaviorState drawn = draw_behavior(car, 7, {id}), again = draw_behavior(car, 7, {id});
+    const BehaviorState drawn = draw_behavior(car, 7, id), again = draw_behavior(car, 7, id);
     EXPECT_EQ(drawn.responsibility, again.responsibility);
     EXPECT_EQ(drawn.attention.front, again.attention.front);
     EXPECT_EQ(drawn.intention.kind, IntentionKind::Path);
@@ -161,7 +162,7 @@ TEST(DrawBehavior, IsAPureFunctionOfSeedAndId) {
     seen.insert(drawn.responsibility);
   }
   EXPECT_EQ(seen.size(), 200u);
-  EXPECT_NE(draw_behavior(car, 7, {1}).responsibility, draw_behavior(car, 8, {1}).responsibility);
+  EXPECT_NE(draw_behavior(car, 7, 1).responsibility, draw_behavior(car, 8, 1).responsibility);
 }
 
 TEST(ChooseSpeedFactor, SumosStaysUnlessTheTypeHasOne) {

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ego/forward_model.h"
+
+namespace sumogamma {
+
+/// What is asked about the future.
+struct FuturesRequest {
+  std::vector<double> plan;  ///< accelerations of the ego, one a period; the last one holds
+                             ///< [m/s^2]. Empty: it keeps its speed
+  int samples = 10;
+  std::uint64_t key = 0;  ///< of the draws
+};
+
+/// Where everybody might be: joint samples, so that within one sample all reacted to each other.
+struct Futures {
+  double step = ForwardModel::kStep;  ///< between two states [s]
+  std::size_t steps = 0;              ///< states a sample, the first after one step
+  std::vector<std::uint32_t> agents;  ///< the ego first, then the others, by distance now
+  struct Pose {
+    Vec2 position = Vec2::Zero();
+    double heading = 0, speed = 0;
+  };
+  std::vector<Pose> poses;  ///< [samples * steps * agents]
+  std::vector<double> gap;  ///< of the ego to the nearest of them [samples * steps, m]
+};
+
+/// `samples` futures over 4 s of the ego and the kAgentsSeen nearest, given the ego's plan along
+/// its way. Paths are everybody's true ones; what is hidden in people (responsibility, attention,
+/// headway, whether they keep a rule) is drawn anew in each sample, from `key` alone. Forgets
+/// nothing and changes nothing in the world.
+Futures sample_futures(const EgoView& view, const FuturesRequest& request, ForwardModel& forward);
+
+}  // namespace sumogamma

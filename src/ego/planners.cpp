@@ -1,0 +1,112 @@
+#include "ego/planners.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "ego/futures.h"
+#include "scene/extent.h"
+#include "traffic/longitudinal/car_following.h"
+
+namespace sumogamma {
+
+namespace {
+
+/// Whoever is in the corridor that the ego sweeps on its way, nearest first; nobody: far away.
+Followed leader_on_way(const EgoView& view) {
+  constexpr double kBeside = 0.3;  // [m]
+  const Scene& scene = view.world.scene;
+  Followed leader{std::numeric_limits<double>::infinity(), 0.0, 0.0};
+  const Path* path = view.world.road.path(scene.path[view.row]);
+  if (path == nullptr) return leader;
+  const double along = scene.path_along[view.row];
+  const OrientedBox own = box_of(scene, view.row);
+  for (const std::size_t row : rows_about(view.world.model, scene, view.row, kSeen, kAgentsSeen)) {
+    const PolylinePosition place = path->line.project(scene.position[row], along, along + kSeen);
+    const Vec2 tangent = path->line.direction_at(place.along);
+    const double across = half_extent(scene, row, left_of(tangent));
+    const double gap = place.along - along - own.half.x() - half_extent(scene, row, tangent);
+    if (place.distance > across + own.half.y() + kBeside || place.along <= along ||
+        gap >= leader.gap)
+      continue;
+    leader.gap = gap;
+    leader.speed = std::max(scene.velocity[row].dot(tangent), 0.0);
+  }
+  return leader;
+}
+
+/// The Intelligent Driver Model behind whoever is on the ego's way, and no faster than what the
+/// rules of the road leave it where there are rules.
+EgoAction follow_road(const EgoView& view) {
+  const Scene& scene = view.world.scene;
+  const RoadContext& context = scene.context[view.row];
+  const AgentType& type = type_of(view.world.model.types, scene.type[view.row]);
+  const double speed = scene.speed[view.row];
+  const double free = std::min({type.max_speed, view.settings.max_speed,
+                                context.active ? context.speed_limit : type.preferred_speed});
+  const Followed leader = leader_on_way(view);
+  EgoAction action;
+  action.acceleration =
+      following_acceleration(type, speed, std::max(free, 0.1), leader.gap, leader.speed);
+  if (std::isfinite(context.allowed_speed))
+    action.acceleration =
+        std::min(action.acceleration, (context.allowed_speed - speed) * view.settings.rate);
+  action.acceleration =
+      std::clamp(action.acceleration, -type.max_deceleration, type.max_acceleration);
+  return action;
+}
+
+/// Of the accelerations given the fastest with which it meets nobody in most of its futures,
+/// braking afterwards; else the hardest braking.
+class ByFutures {
+ public:
+  EgoAction operator()(const EgoView& view) {
+    constexpr double kLeastGap = 0.5;   // [m]
+    constexpr double kMostMeet = 0.11;  // share of the samples
+    std::vector<double> choices = view.settings.accelerations;
+    std::sort(choices.begin(), choices.end(), std::greater<>());
+    EgoAction action;
+    for (const double acceleration : choices) {
+      action.acceleration = acceleration;
+      FuturesRequest request{{acceleration, acceleration, choices.back()},
+                             9,
+                             view.seed * 1000003u + static_cast<std::uint64_t>(view.plan)};
+      const Futures futures = sample_futures(view, request, *forward_);
+      int meet = 0;
+      for (int sample = 0; sample < request.samples; ++sample) {
+        const auto begin =
+            futures.gap.begin() + static_cast<std::ptrdiff_t>(futures.steps) * sample;
+        meet += *std::min_element(begin, begin + static_cast<std::ptrdiff_t>(futures.steps)) <
+                kLeastGap;
+      }
+      if (meet <= kMostMeet * request.samples) return action;
+    }
+    return action;
+  }
+
+ private:
+  std::shared_ptr<ForwardModel> forward_ = std::make_shared<ForwardModel>();
+};
+
+constexpr std::array kPlanners{
+    PlannerEntry{"gamma", "drives the ego as one of the others: the reference run", nullptr},
+    PlannerEntry{"idm", "IDM behind whoever is on its way, within the rules of the road",
+                 [] { return Planner(follow_road); }},
+    PlannerEntry{"futures", "the fastest acceleration whose sampled futures meet nobody",
+                 [] { return Planner(ByFutures()); }},
+};
+
+}  // namespace
+
+std::span<const PlannerEntry> planners() { return kPlanners; }
+
+Planner make_planner(std::string_view name) {
+  const auto found = std::find_if(kPlanners.begin(), kPlanners.end(),
+                                  [&](const PlannerEntry& entry) { return entry.name == name; });
+  assert(found != kPlanners.end());
+  return found->make == nullptr ? Planner() : found->make();
+}
+
+}  // namespace sumogamma
