@@ -32,6 +32,8 @@ CommandRunner add_run_command(CLI::App& parent);
 CommandRunner add_scene_command(CLI::App& parent);
 CommandRunner add_predict_command(CLI::App& parent);
 CommandRunner add_replay_command(CLI::App& parent);
+CommandRunner add_batch_command(CLI::App& parent);
+CommandRunner add_compare_command(CLI::App& parent);
 CommandRunner add_report_command(CLI::App& parent);
 CommandRunner add_version_command(CLI::App& parent);
 
