@@ -10,8 +10,12 @@ find_package(pugixml REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(BZip2 REQUIRED)
 find_package(EXPAT REQUIRED)
+find_package(SQLite3 REQUIRED)
+# Student's t; headers alone, which libosmium takes along
+find_package(Boost REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(PROJ REQUIRED IMPORTED_TARGET proj)
+pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(POLYCLIPPING REQUIRED IMPORTED_TARGET polyclipping)
 
 # Debian's SUMO ships headers and libraries without a CMake package
@@ -36,8 +40,10 @@ set(SUMOGAMMA_LIBS_osm libosmium PkgConfig::PROJ PkgConfig::POLYCLIPPING nlohman
 set(SUMOGAMMA_LIBS_sumo ${CMAKE_DL_LIBS} pugixml::pugixml spdlog::spdlog EXPAT::EXPAT ZLIB::ZLIB)
 set(SUMOGAMMA_LIBS_outputs ZLIB::ZLIB)
 set(SUMOGAMMA_LIBS_validation nlohmann_json::nlohmann_json)
+set(SUMOGAMMA_LIBS_study Boost::headers)
 set(SUMOGAMMA_LIBS_demand pugixml::pugixml)
 set(SUMOGAMMA_LIBS_ego nlohmann_json::nlohmann_json)
 set(SUMOGAMMA_LIBS_prediction nlohmann_json::nlohmann_json)
-set(SUMOGAMMA_LIBS_io nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus ZLIB::ZLIB pugixml::pugixml)
+set(SUMOGAMMA_LIBS_io nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus ZLIB::ZLIB pugixml::pugixml
+  SQLite::SQLite3 PkgConfig::ZSTD)
 set(SUMOGAMMA_LIBS_app CLI11::CLI11 spdlog::spdlog nlohmann_json::nlohmann_json)

@@ -16,6 +16,8 @@ build_packages+=(libosmium2-dev libprotozero-dev zlib1g-dev libbz2-dev libexpat1
 # linear algebra, command line, configuration, logging, XML
 build_packages+=(libeigen3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
   libpugixml-dev)
+# studies: their results as a database, Student's t, compressed tables
+build_packages+=(libsqlite3-dev libboost-dev libzstd-dev)
 
 # test and benchmark libraries, the second compiler with its linters and sanitizers, script checks, XML schemas
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev

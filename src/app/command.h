@@ -33,6 +33,8 @@ CommandRunner add_scene_command(CLI::App& parent);
 CommandRunner add_predict_command(CLI::App& parent);
 CommandRunner add_drive_command(CLI::App& parent);
 CommandRunner add_replay_command(CLI::App& parent);
+CommandRunner add_batch_command(CLI::App& parent);
+CommandRunner add_compare_command(CLI::App& parent);
 CommandRunner add_report_command(CLI::App& parent);
 CommandRunner add_validate_command(CLI::App& parent);
 CommandRunner add_version_command(CLI::App& parent);

@@ -13,6 +13,9 @@
 #include "io/output_file.h"
 #include "io/output_folder.h"
 #include "io/report.h"
+#include "io/study_page.h"
+#include "io/study_plan_file.h"
+#include "io/study_results.h"
 
 namespace sumogamma {
 
@@ -26,6 +29,16 @@ int report_drives(std::span<const std::filesystem::path> folders, const std::str
   if (!page.empty()) write_file(page, drive_report_html(report));
   std::fputs(drive_report_markdown(report).c_str(), stdout);
   return kExitDone;
+}
+
+/// The results of a batch, as it left them.
+void report_study(const std::filesystem::path& folder, const std::string& page, bool csv) {
+  const Study study = read_study_plan(folder);
+  const std::vector<StudyRunResult> runs =
+      read_study_runs(folder, study, runs_of(study, study.seeds));
+  const std::vector<SummaryRow> rows = summarize(study, runs);
+  if (!page.empty()) write_file(page, study_html(folder, study, runs, rows));
+  std::fputs((csv ? summary_csv(rows) : summary_markdown(study, rows)).c_str(), stdout);
 }
 
 }  // namespace
@@ -42,7 +55,8 @@ CommandRunner add_report_command(CLI::App& parent) {
   command
       ->add_option(
           "DIR", options->folders,
-          "output folders of `run`, or of `drive`, the first is what others are compared with")
+          "output folders of `run`, or of `drive`, the first is what others are compared with; or "
+          "one of `batch`")
       ->required();
   command->add_option("-o,--output", options->output, "write an HTML page too");
   command->add_flag("--csv", options->csv, "CSV on stdout instead of Markdown");
@@ -51,6 +65,10 @@ CommandRunner add_report_command(CLI::App& parent) {
                                                      options->folders.end());
     if (!options->output.empty()) require_page_name(options->output);
     if (is_drive(folders.front())) return report_drives(folders, options->output, options->csv);
+    if (folders.size() == 1 && std::filesystem::exists(folders.front() / kPlanFile)) {
+      report_study(folders.front(), options->output, options->csv);
+      return kExitDone;
+    }
     const std::vector<RunColumn> runs = read_runs(folders);
     if (!same_metrics(runs))
       spdlog::warn(

@@ -1,6 +1,10 @@
+#include <algorithm>
+
 #include "app/command.h"
 #include "app/run_session.h"
 #include "app/validators.h"
+#include "base/error.h"
+#include "io/trajectory_tables.h"
 
 namespace sumogamma {
 
@@ -88,6 +92,25 @@ void add_output_options(CLI::App& command, RunOptions& options) {
       ->capture_default_str();
   command
       .add_option(
+          "--trajectories", options.trajectories,
+          "formats of trajectories: fcd, csv, parquet, or none; CSV and Parquet are tables, "
+          "vehicles and persons apart")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"fcd", "csv", "parquet", "none"}));
+  command
+      .add_option(
+          "--trajectory-columns", options.trajectory_columns,
+          "columns of the tables (default: all): time, id, type, x, y, angle, speed, place, "
+          "pos, slope")
+      ->delimiter(',')
+      ->check(CLI::IsMember(trajectory_columns()));
+  command
+      .add_option("--interval", options.interval,
+                  "time over which lanes.csv and traffic.csv sum up [s]")
+      ->check(finite_number(1.0, 1e6))
+      ->capture_default_str();
+  command
+      .add_option(
           "--fail-on", options.fail_on,
           "exit 1 where this happened: collision, deep-collision, red-light, stuck, removed")
       ->delimiter(',')
@@ -95,6 +118,24 @@ void add_output_options(CLI::App& command, RunOptions& options) {
 }
 
 }  // namespace
+
+RunOptions parse_run_words(const std::string& where, const std::filesystem::path& scenario,
+                           const std::vector<std::string>& words) {
+  CLI::App parser;
+  RunOptions options;
+  add_scenario_options(parser, options);
+  add_sumo_options(parser, options);
+  add_output_options(parser, options);
+  std::vector<std::string> all{scenario.string(), "--output", "."};
+  all.insert(all.end(), words.begin(), words.end());
+  std::reverse(all.begin(), all.end());
+  try {
+    parser.parse(all);
+  } catch (const CLI::ParseError& error) {
+    throw Error(where, std::string(error.what()) + "; sumo-gamma run --help has the options");
+  }
+  return options;
+}
 
 CommandRunner add_run_command(CLI::App& parent) {
   auto options = std::make_shared<RunOptions>();

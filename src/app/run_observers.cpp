@@ -6,7 +6,9 @@
 #include "base/hash.h"
 #include "io/output_file.h"
 #include "io/results.h"
+#include "io/traffic_csv.h"
 #include "io/trajectories.h"
+#include "io/trajectory_tables.h"
 #include "prediction/live_predictor.h"
 
 namespace sumogamma {
@@ -34,6 +36,24 @@ class Collisions final : public RunObserver {
  private:
   CollisionMonitor monitor_;
   std::size_t marked_ = 0;
+};
+
+class Conflicts final : public RunObserver {
+ public:
+  explicit Conflicts(const WatchedRun& run)
+      : RunObserver(run), monitor_(run.sim.dt, &run.sim.model.road) {}
+  void add(std::vector<RunEvent>&) override { monitor_.add(run_.sim.scene, run_.sim.model.types); }
+  void fill(RunResults& results) const override {
+    results.safety = monitor_.result(run_.sim.model.types);
+  }
+  void close() override {
+    write_file(run_.plan.options.output / "conflicts.csv",
+               conflicts_csv(monitor_.conflicts(), run_.sim.model.types,
+                             [&](AgentId id) { return run_.name_of(id); }));
+  }
+
+ private:
+  ConflictMonitor monitor_;
 };
 
 class Rules final : public RunObserver {
@@ -89,6 +109,27 @@ class Flow final : public RunObserver {
   std::size_t marked_ = 0;
 };
 
+class Traffic final : public RunObserver {
+ public:
+  explicit Traffic(const WatchedRun& run)
+      : RunObserver(run), monitor_(run.sim.dt, run.sim.model.road, run.plan.options.interval) {}
+  void add(std::vector<RunEvent>&) override { monitor_.add(run_.sim.scene, run_.sim.model.types); }
+  void fill(RunResults& results) const override {
+    results.traffic = monitor_.result(run_.sim.model.types);
+  }
+  void close() override {
+    const std::filesystem::path& output = run_.plan.options.output;
+    const AgentTypeTable& types = run_.sim.model.types;
+    write_file(output / "lanes.csv", lanes_csv(monitor_.lanes(), run_.sim.model.road, types));
+    write_file(output / "traffic.csv", traffic_csv(monitor_.types(), types));
+    write_file(output / "journeys.csv", journeys_csv(monitor_.journeys(), types,
+                                                     [&](AgentId id) { return run_.name_of(id); }));
+  }
+
+ private:
+  TrafficMonitor monitor_;
+};
+
 class Smoothness final : public RunObserver {
  public:
   explicit Smoothness(const WatchedRun& run) : RunObserver(run), monitor_(run.sim.dt) {}
@@ -105,14 +146,31 @@ class Trajectories final : public RunObserver {
  public:
   explicit Trajectories(const WatchedRun& run)
       : RunObserver(run),
-        writer_(run.plan.options.output / "trajectories.fcd.xml.gz",
-                run.plan.options.trajectory_period, run.sim.dt, run.sim.model.road, &run.locator) {}
+        writer_(run.plan.options.trajectory_period, run.sim.dt, run.sim.model.road, &run.locator) {
+    const RunOptions& options = run.plan.options;
+    const std::vector<std::string> columns =
+        options.trajectory_columns.empty() ? trajectory_columns() : options.trajectory_columns;
+    std::vector<std::unique_ptr<TrajectorySink>> sinks;
+    if (asked_for("fcd"))
+      sinks.push_back(std::make_unique<FcdSink>(options.output / "trajectories.fcd.xml.gz"));
+    if (asked_for("csv")) sinks.push_back(make_csv_tables(options.output, columns));
+    if (asked_for("parquet")) sinks.push_back(make_parquet_tables(options.output, columns));
+    writer_.add_sink(make_threaded(std::move(sinks)));
+  }
+  static bool is_wanted(const RunOptions& options) {
+    return options.trajectories != std::vector<std::string>{"none"};
+  }
   void add(std::vector<RunEvent>&) override {
     writer_.add(run_.sim.scene, run_.sim.model.types, [&](AgentId id) { return run_.name_of(id); });
   }
   void close() override { writer_.close(); }
 
  private:
+  bool asked_for(std::string_view format) const {
+    const std::vector<std::string>& formats = run_.plan.options.trajectories;
+    return std::find(formats.begin(), formats.end(), format) != formats.end();
+  }
+
   TrajectoryWriter writer_;
 };
 
@@ -272,9 +330,10 @@ std::unique_ptr<RunObserver> make(const WatchedRun& run) {
 }
 
 /// All there are. The replay comes behind those whose events it marks.
-constexpr Make kObservers[] = {make<Agents>, make<Coupling>,   make<Collisions>, make<Rules>,
-                               make<Flow>,   make<Smoothness>, make<Prediction>, make<Trajectories>,
-                               make<Replay>, make<SumoFiles>};
+constexpr Make kObservers[] = {make<Agents>,       make<Coupling>,   make<Collisions>,
+                               make<Conflicts>,    make<Rules>,      make<Flow>,
+                               make<Traffic>,      make<Smoothness>, make<Prediction>,
+                               make<Trajectories>, make<Replay>,     make<SumoFiles>};
 
 }  // namespace
 

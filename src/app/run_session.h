@@ -30,8 +30,16 @@ struct RunOptions {
   bool gui = false, replay = false;
   bool predict = false;  ///< predict everybody and score it against what then happens
   double trajectory_period = 0.5, replay_period = 0.1;  ///< [s]
+  std::vector<std::string> trajectories{"fcd"};         ///< formats: fcd, csv, parquet; none
+  std::vector<std::string> trajectory_columns;          ///< of tables; empty: all
+  double interval = 300;                                ///< of lanes.csv and traffic.csv [s]
   std::vector<std::string> fail_on;  ///< collision, deep-collision, red-light, stuck, removed
 };
+
+/// Options from words as they follow `run SCENARIO` on the command line. Throws Error naming
+/// `where` for those that `run` doesn't know.
+RunOptions parse_run_words(const std::string& where, const std::filesystem::path& scenario,
+                           const std::vector<std::string>& words);
 
 /// Runs a scenario to its end and writes everything into the output folder. Returns the exit code;
 /// throws Error for bad input and SumoError where SUMO failed, after the outputs were completed.

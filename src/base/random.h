@@ -22,6 +22,8 @@ enum class Draw : std::uint32_t {
   EgoStart,
   Futures,
   Scenario,
+  StudyDesign,
+  Bootstrap,
 };
 
 /// 64 well-mixed bits: a pure function of its arguments (splitmix64 finaliser, applied a word at a

@@ -57,12 +57,19 @@ struct Pipe {
 struct SpawnSetup {
   posix_spawn_file_actions_t actions{};
   posix_spawnattr_t attributes{};
-  SpawnSetup(const Pipe& out, const Pipe& err, const std::filesystem::path& folder) {
+  SpawnSetup(const Pipe& out, const Pipe& err, const ProcessRequest& request) {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, out.write_end, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, err.write_end, STDERR_FILENO);
-    if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+    if (request.log.empty()) {
+      posix_spawn_file_actions_adddup2(&actions, out.write_end, STDOUT_FILENO);
+      posix_spawn_file_actions_adddup2(&actions, err.write_end, STDERR_FILENO);
+    } else {
+      posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, request.log.c_str(),
+                                       O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0644);
+      posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    }
+    if (!request.folder.empty())
+      posix_spawn_file_actions_addchdir_np(&actions, request.folder.c_str());
     posix_spawnattr_init(&attributes);
     // own group, so that a child's children end with it; default signals, since ours ignores
     // SIGPIPE
@@ -108,7 +115,7 @@ std::vector<char*> c_strings(std::vector<std::string>& strings) {
 }
 
 pid_t spawn(const ProcessRequest& request, const Pipe& out, const Pipe& err) {
-  SpawnSetup setup(out, err, request.folder);
+  SpawnSetup setup(out, err, request);
   std::vector<std::string> arguments = request.arguments, environment = merged_environment(request);
   const std::vector<char*> argv = c_strings(arguments), envp = c_strings(environment);
   pid_t pid = -1;

@@ -13,6 +13,9 @@ struct ProcessRequest {
   std::vector<std::string> arguments;  ///< [0] is the program, looked up in PATH
   std::vector<std::pair<std::string, std::string>> environment;  ///< added to, or replacing, ours
   std::filesystem::path folder;                                  ///< to run in; empty: ours
+  /// Both streams go into this file, begun anew, instead of being gathered: it is complete also
+  /// where this process is killed, and the program isn't disturbed by that.
+  std::filesystem::path log{};
   double time_limit = 600.0;  ///< [s] of wall time, after which it is ended
   std::size_t output_limit =
       1 << 26;  ///< bytes kept of each stream; the rest is read and thrown away

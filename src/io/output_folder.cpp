@@ -18,9 +18,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kRunFiles[] = {
-    "results.json", "trajectories.fcd.xml.gz", "trips.csv",  "stuck.csv",  "held.csv",
-    "offences.csv", "collisions.csv",          "replay.bin", "replay.html"};
+constexpr const char* kRunFiles[] = {"results.json",     "trajectories.fcd.xml.gz",
+                                     "vehicles.csv.gz",  "persons.csv.gz",
+                                     "vehicles.parquet", "persons.parquet",
+                                     "trips.csv",        "stuck.csv",
+                                     "held.csv",         "offences.csv",
+                                     "collisions.csv",   "conflicts.csv",
+                                     "lanes.csv",        "traffic.csv",
+                                     "journeys.csv",     "replay.bin",
+                                     "replay.html"};
 
 }  // namespace
 
@@ -43,7 +49,9 @@ OutputFolder::OutputFolder(fs::path folder, bool force)
     // what this run may not write itself must not pass for its own; where a link leads is the
     // user's
     const std::string_view file = name;
-    const bool stale = file.rfind("replay", 0) == 0 || file == "results.json";
+    const bool table = file.ends_with(".csv.gz") || file.ends_with(".parquet");
+    const bool stale = file.rfind("replay", 0) == 0 || file.rfind("traj", 0) == 0 || table ||
+                       file == "results.json";
     if (stale && !fs::is_symlink(folder_ / name)) fs::remove(folder_ / name);
   }
 }
@@ -52,6 +60,25 @@ OutputFolder::~OutputFolder() {
   if (lock_ >= 0) close(lock_);
   std::error_code not_empty;
   if (!existed_) fs::remove(folder_, not_empty);
+}
+
+bool is_being_written(const fs::path& folder) {
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  // shared: two who only ask don't disturb each other
+  const bool locked = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(descriptor);
+  return locked;
+}
+
+FolderLock::FolderLock(const fs::path& folder)
+    : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  // where the file system knows no locks there is none
+  if (descriptor_ >= 0) flock(descriptor_, LOCK_EX);
+}
+
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) close(descriptor_);
 }
 
 void require_page_name(const fs::path& page) {

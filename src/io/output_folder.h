@@ -21,6 +21,21 @@ class OutputFolder {
   int lock_ = -1;
 };
 
+/// Does a run write into the folder now? False where it isn't there.
+bool is_being_written(const std::filesystem::path& folder);
+
+/// Holds a folder that is there against whoever else asks for it so, waiting until it is free.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
 /// Throws Error where a page would replace a file that is no page.
 void require_page_name(const std::filesystem::path& page);
 

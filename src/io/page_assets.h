@@ -9,5 +9,6 @@ extern const std::string_view kReplayPageHtml;
 extern const std::string_view kReplayPageCss;
 extern const std::string_view kReplayPageJs;
 extern const std::string_view kReportPageHtml;
+extern const std::string_view kStudyPageHtml;
 
 }  // namespace sumogamma

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/xml_text.h"
+#include "io/csv_text.h"
 #include "io/output_file.h"
 #include "io/page_assets.h"
 
@@ -66,13 +67,6 @@ std::string escape_html(const std::string& text) {
   std::string escaped;
   append_escaped(escaped, text);
   return escaped;
-}
-
-std::string escape_csv(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string escaped = "\"";
-  for (const char c : text) escaped += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return escaped + "\"";
 }
 
 std::string escape_markdown(std::string text) {
@@ -177,13 +171,13 @@ std::string report_markdown(std::span<const RunColumn> runs) {
 
 std::string report_csv(std::span<const RunColumn> runs) {
   std::string text = "key";
-  for (const RunColumn& run : runs) text += "," + escape_csv(run.name);
+  for (const RunColumn& run : runs) text += "," + csv_field(run.name);
   text += "\n";
   for (const std::string& key : all_keys(runs)) {
-    text += escape_csv(key);
+    text += csv_field(key);
     for (const RunColumn& run : runs) {
       const RunColumn::Value* value = find_value(run, key);
-      text += "," + (value ? escape_csv(value->text) : "");
+      text += "," + (value ? csv_field(value->text) : "");
     }
     text += "\n";
   }

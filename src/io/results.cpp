@@ -81,6 +81,26 @@ Json collisions_json(const CollisionResult& collisions) {
           {"agent_hours", collisions.agent_hours}};
 }
 
+Json safety_json(const SafetyResult& safety) {
+  const auto counts = [](const std::map<std::string, std::uint64_t>& by_name) {
+    Json json = Json::object();
+    for (const auto& [name, count] : by_name) json[name] = count;
+    return json;
+  };
+  return {{"conflicts_sumo", safety.conflicts_sumo},
+          {"conflicts_fhwa", safety.conflicts_fhwa},
+          {"conflicts_fhwa_per_100_km", safety.conflicts_fhwa_per_100_km},
+          {"near_misses", safety.near_misses},
+          {"ttc_below_1_5", safety.ttc_below_1_5},
+          {"pet_below_2", safety.pet_below_2},
+          {"drac_above_3", safety.drac_above_3},
+          {"mdrac_above_3", safety.mdrac_above_3},
+          {"time_exposed_s", safety.time_exposed_s},
+          {"least_gap_m", safety.least_gap_m},
+          {"by_kind", counts(safety.by_kind)},
+          {"by_types", counts(safety.by_types)}};
+}
+
 Json flow_json(const FlowResult& flow) {
   Json by_type = Json::object();
   for (const auto& [type, speed] : flow.mean_speed_by_type) by_type[type] = speed;
@@ -92,6 +112,19 @@ Json flow_json(const FlowResult& flow) {
           {"held_agents", flow.held_agents},
           {"longest_held_s", flow.longest_held_s},
           {"waiting_time_mean_s", flow.waiting_time_mean_s}};
+}
+
+Json traffic_json(const TrafficResult& traffic) {
+  const auto shares = [](const std::map<std::string, double>& by_type) {
+    Json json = Json::object();
+    for (const auto& [type, share] : by_type) json[type] = share;
+    return json;
+  };
+  return {{"interval_s", traffic.interval},
+          {"delay_mean_s", traffic.delay_mean},
+          {"delay_s_per_km", traffic.delay_per_km},
+          {"mode_share", shares(traffic.mode_share)},
+          {"distance_share", shares(traffic.distance_share)}};
 }
 
 Json rule_counts_json(const RuleCounts& counts) {
@@ -261,7 +294,9 @@ std::string results_json(const RunResults& results) {
                      {"agents", agents_json(results.agents)},
                      {"timing", timing_json(results.timing)},
                      {"collisions", collisions_json(results.collisions)},
+                     {"safety", safety_json(results.safety)},
                      {"flow", flow_json(results.flow)},
+                     {"traffic", traffic_json(results.traffic)},
                      {"rules", rules_json(results.rules)},
                      {"smoothness", smoothness_json(results.smoothness)},
                      {"prediction", prediction_json(results.prediction)},
@@ -283,6 +318,17 @@ void write_results(const std::filesystem::path& file, const RunResults& results)
 }
 
 namespace {
+void print_flow(Table& table, const RunResults& results) {
+  table.heading("flow");
+  table.number("mean speed", results.flow.mean_speed, "m/s");
+  table.number("distance", results.flow.distance_km, "km");
+  table.count("stuck agents", results.flow.stuck_agents);
+  table.number("longest standstill", results.flow.longest_standstill_s, "s", 1);
+  table.count("held within 4 m for 100 s", results.flow.held_agents);
+  table.number("mean waiting time", results.flow.waiting_time_mean_s, "s", 1);
+  table.number("mean delay", results.traffic.delay_mean, "s", 1);
+}
+
 void print_prediction(Table& table, const PredictionResult& prediction) {
   auto errors = [](double average, double final) {
     return fmt::format("{:.2f} / {:.2f} m", average, final);
@@ -331,13 +377,10 @@ void print_results_table(std::FILE* stream, const RunResults& results) {
     table.count(("  " + pair).c_str(), count);
   table.number("pairs per agent hour", results.collisions.unique_pairs_per_agent_hour, "", 3);
   table.number("worst penetration", results.collisions.worst_penetration_m, "m");
-  table.heading("flow");
-  table.number("mean speed", results.flow.mean_speed, "m/s");
-  table.number("distance", results.flow.distance_km, "km");
-  table.count("stuck agents", results.flow.stuck_agents);
-  table.number("longest standstill", results.flow.longest_standstill_s, "s", 1);
-  table.count("held within 4 m for 100 s", results.flow.held_agents);
-  table.number("mean waiting time", results.flow.waiting_time_mean_s, "s", 1);
+  table.heading("safety");
+  table.count("conflicts, TTC < 1.5 s", results.safety.conflicts_fhwa);
+  table.count("near misses, TTC < 1 s", results.safety.near_misses);
+  print_flow(table, results);
   table.heading("rules");
   table.text("red lights run", std::to_string(results.rules.all.red_light_crossings) + " of " +
                                    std::to_string(results.rules.all.signal_crossings) +

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -15,7 +16,9 @@
 #include "study/coupling_metrics.h"
 #include "study/flow_metrics.h"
 #include "study/rule_metrics.h"
+#include "study/safety/conflicts.h"
 #include "study/smoothness_metrics.h"
+#include "study/traffic_measures.h"
 #include "sumo/scenario_inventory.h"
 
 namespace sumogamma {
@@ -94,7 +97,9 @@ struct RunResults {
   AgentCounts agents;
   RunTiming timing;
   CollisionResult collisions;
+  SafetyResult safety;
   FlowResult flow;
+  TrafficResult traffic;
   RuleResult rules;
   SmoothnessResult smoothness;
   CouplingResult coupling;
@@ -129,6 +134,29 @@ std::string trips_csv(const std::vector<FinishedTrip>& trips, const AgentTypeTab
     text += fmt::format("{},{},{:.2f},{:.2f},{:.2f}\n", name_of(trip.id),
                         type_of(types, trip.type).name, trip.departed, trip.arrived,
                         trip.arrived - trip.departed);
+  return text;
+}
+
+/// conflicts.csv: one line an encounter. A measure that it never had is an empty field.
+template <typename NameOf>
+std::string conflicts_csv(const std::vector<Conflict>& conflicts, const AgentTypeTable& types,
+                          NameOf&& name_of) {
+  std::string text =
+      "time_s,x,y,agent,type,other,other_type,kind,since_s,until_s,ttc_s,pet_s,drac,mdrac,gap_m,"
+      "relative_speed,beyond_sumo,beyond_fhwa,near_miss,touched\n";
+  const auto number = [](double value) {
+    return std::isfinite(value) ? fmt::format("{:.3f}", value) : std::string();
+  };
+  for (const Conflict& one : conflicts)
+    text += fmt::format(
+        "{:.2f},{:.2f},{:.2f},{},{},{},{},{},{:.2f},{:.2f},{},{},{},{},{},{:.3f},"
+        "{:d},{:d},{:d},{:d}\n",
+        one.time, one.place.x(), one.place.y(), name_of(one.a), type_of(types, one.type_a).name,
+        name_of(one.b), type_of(types, one.type_b).name, sumogamma::name_of(one.kind), one.since,
+        one.until, number(one.time_to_collision), number(one.post_encroachment),
+        number(one.deceleration), number(one.modified_deceleration), number(one.gap),
+        one.relative_speed, one.is_beyond(kSumoThresholds), one.is_beyond(kFhwaThresholds),
+        one.is_near_miss(), one.touched);
   return text;
 }
 

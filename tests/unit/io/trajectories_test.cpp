@@ -61,7 +61,8 @@ class Trajectories : public ::testing::Test {
 
 TEST_F(Trajectories, SumoReferencePointsAndAngles) {
   {
-    TrajectoryWriter writer(file_, 0, kStep, net_, &locator_);
+    TrajectoryWriter writer(0, kStep, net_, &locator_);
+    writer.add_sink(std::make_unique<FcdSink>(file_));
     writer.add(scene_, types_, name_);
   }
   pugi::xml_document document;
@@ -82,7 +83,8 @@ TEST_F(Trajectories, SumoReferencePointsAndAngles) {
 
 TEST_F(Trajectories, RecordsOncePerPeriod) {
   {
-    TrajectoryWriter writer(file_, 0.5, kStep, net_);
+    TrajectoryWriter writer(0.5, kStep, net_);
+    writer.add_sink(std::make_unique<FcdSink>(file_));
     // after each tick
     for (int tick = 0; tick <= 40; ++tick) {
       scene_.time = (tick + 1) * kStep;
@@ -102,7 +104,8 @@ TEST_F(Trajectories, RecordsOncePerPeriod) {
 TEST_F(Trajectories, AStepIsNamedByItsBeginAndHoldsEverybodyAtItsEnd) {
   scene_.control[1] = Control::External;
   {
-    TrajectoryWriter writer(file_, 0, kStep, net_);
+    TrajectoryWriter writer(0, kStep, net_);
+    writer.add_sink(std::make_unique<FcdSink>(file_));
     for (int tick = 1; tick <= 3; ++tick) {
       scene_.tick = tick;
       scene_.time = 7.0 + tick * kStep;
@@ -129,16 +132,17 @@ TEST_F(Trajectories, AStepIsNamedByItsBeginAndHoldsEverybodyAtItsEnd) {
 }
 
 TEST_F(Trajectories, AnEmptyRunIsAValidDocument) {
-  { TrajectoryWriter writer(file_, 0.5, kStep, net_); }
+  { FcdSink sink(file_); }
   pugi::xml_document document;
   EXPECT_TRUE(document.load_string(inflate(file_).c_str()));
   EXPECT_TRUE(document.child("fcd-export"));
 }
 
 TEST_F(Trajectories, FullDiskAndUnwritableFolder) {
-  EXPECT_THROW(TrajectoryWriter("/dev/null/x.xml.gz", 0, kStep, net_), Error);
+  EXPECT_THROW(FcdSink("/dev/null/x.xml.gz"), Error);
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
-  TrajectoryWriter writer("/dev/full", 0, kStep, net_);
+  TrajectoryWriter writer(0, kStep, net_);
+  writer.add_sink(std::make_unique<FcdSink>("/dev/full"));
   try {
     for (int i = 0; i < 1000; ++i) writer.add(scene_, types_, name_);
     writer.close();

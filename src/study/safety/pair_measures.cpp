@@ -1,0 +1,122 @@
+#include "study/safety/pair_measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/heading.h"
+#include "geometry/rotation.h"
+#include "geometry/segment.h"
+
+namespace sumogamma {
+
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kStraight = 1e-3;  // slower turns are none [rad/s]
+constexpr double kTouch = 1e-3;     // [m]
+
+ConvexPolygon outline_of(const MovingBody& body) {
+  return place_polygon(body.footprint.outline(), rotation(body.heading));
+}
+
+PolygonDifference difference_of(const MovingBody& a, const MovingBody& b) {
+  return minkowski_difference(outline_of(b), outline_of(a), b.position - a.position);
+}
+
+/// Is the origin in the outline, its edge included?
+bool holds_origin(const PolygonDifference& polygon) {
+  if (polygon.count < 3) return false;
+  for (std::uint32_t k = 0; k < polygon.count; ++k)
+    if (polygon.normals[k].dot(polygon.vertices[k]) < 0.0) return false;
+  return true;
+}
+
+double distance_to_origin(const PolygonDifference& polygon) {
+  if (holds_origin(polygon)) return 0.0;
+  double least = kNever;
+  for (std::uint32_t k = 0; k < polygon.count; ++k)
+    least = std::min(
+        least, distance_to_segment(polygon.vertices[k], polygon.vertices[(k + 1) % polygon.count],
+                                   Vec2::Zero()));
+  return least;
+}
+
+/// When a point that sets out from the origin is in the outline first: clipped against the
+/// half-planes of its edges (Cyrus and Beck).
+double time_to_enter(const PolygonDifference& polygon, const Vec2& velocity) {
+  if (holds_origin(polygon)) return 0.0;
+  double enters = 0.0, leaves = kNever;
+  for (std::uint32_t k = 0; k < polygon.count; ++k) {
+    const double height = polygon.normals[k].dot(polygon.vertices[k]);
+    const double speed = polygon.normals[k].dot(velocity);
+    if (speed == 0.0) {
+      if (height < 0.0) return kNever;
+    } else if (speed < 0.0) {
+      enters = std::max(enters, height / speed);
+    } else {
+      leaves = std::min(leaves, height / speed);
+    }
+  }
+  return enters <= leaves ? enters : kNever;
+}
+
+double time_on_arcs(const MovingBody& a, const MovingBody& b, double horizon) {
+  const double closing = a.velocity.norm() + b.velocity.norm() +
+                         a.footprint.radius * std::abs(a.turn_rate) +
+                         b.footprint.radius * std::abs(b.turn_rate);
+  if (closing <= 0.0) return outline_gap(a, b) > 0.0 ? kNever : 0.0;
+  for (double time = 0; time <= horizon;) {
+    const double gap = outline_gap(moved(a, time), moved(b, time));
+    if (gap <= kTouch) return time;
+    time += gap / closing;
+  }
+  return kNever;
+}
+
+}  // namespace
+
+MovingBody moved(const MovingBody& body, double time) {
+  MovingBody later = body;
+  const double turn = body.turn_rate * time;
+  if (std::abs(body.turn_rate) < kStraight) {
+    later.position += time * body.velocity;
+    return later;
+  }
+  const Vec2 turned = rotation(turn);
+  later.heading += turn;
+  later.velocity = {turned.x() * body.velocity.x() - turned.y() * body.velocity.y(),
+                    turned.y() * body.velocity.x() + turned.x() * body.velocity.y()};
+  // integral of the turning velocity: its change, turned back by a right angle, over the rate
+  const Vec2 change = later.velocity - body.velocity;
+  later.position += Vec2(change.y(), -change.x()) / body.turn_rate;
+  return later;
+}
+
+double outline_gap(const MovingBody& a, const MovingBody& b) {
+  return distance_to_origin(difference_of(a, b));
+}
+
+double time_to_collision(const MovingBody& a, const MovingBody& b, double horizon) {
+  const double reach = a.footprint.radius + b.footprint.radius;
+  const double apart = (b.position - a.position).norm() - reach;
+  if (apart > horizon * (a.velocity.norm() + b.velocity.norm())) return kNever;
+  if (std::abs(a.turn_rate) >= kStraight || std::abs(b.turn_rate) >= kStraight)
+    return time_on_arcs(a, b, horizon);
+  // A moves against a B that stands
+  const double time = time_to_enter(difference_of(a, b), a.velocity - b.velocity);
+  return time <= horizon ? time : kNever;
+}
+
+double deceleration_to_avoid(double relative_speed, double time_to_collision) {
+  if (!std::isfinite(time_to_collision)) return 0.0;
+  return time_to_collision > 0.0 ? relative_speed / (2.0 * time_to_collision) : kNever;
+}
+
+double modified_deceleration_to_avoid(double relative_speed, double time_to_collision,
+                                      double reaction) {
+  if (!std::isfinite(time_to_collision)) return 0.0;
+  return deceleration_to_avoid(relative_speed, std::max(time_to_collision - reaction, 0.0));
+}
+
+}  // namespace sumogamma
