@@ -20,18 +20,25 @@ struct RunOptions {
   std::optional<std::string> backend;    ///< traci | libsumo
   std::optional<std::string> preset;     ///< compliant | observed
   std::string connect;                   ///< HOST:PORT of a SUMO that the user started
-  std::optional<int> client_order;       ///< our place among several TraCI clients
-  int clients = 1;                       ///< that a SUMO of ours waits for, us included
-  int remote_port = 0;                   ///< on which it listens, 0: any
-  bool convert = false;                  ///< leave out classes that this SUMO doesn't know
-  bool no_cache = false;                 ///< work out anew what follows from the network
-  bool force = false;                    ///< replace what another run left in the output folder
+  int socket = -1;  ///< not negative: an open TraCI connection whose owner makes SUMO's steps
+  std::optional<int> client_order;  ///< our place among several TraCI clients
+  int clients = 1;                  ///< that a SUMO of ours waits for, us included
+  int remote_port = 0;              ///< on which it listens, 0: any
+  bool convert = false;             ///< leave out classes that this SUMO doesn't know
+  bool no_cache = false;            ///< work out anew what follows from the network
+  bool force = false;               ///< replace what another run left in the output folder
   std::string sumo_options;
   bool gui = false, replay = false;
   bool predict = false;  ///< predict everybody and score it against what then happens
   double trajectory_period = 0.5, replay_period = 0.1;  ///< [s]
   std::vector<std::string> fail_on;  ///< collision, deep-collision, red-light, stuck, removed
+
+  /// Is it about a SUMO that the user started?
+  bool joins() const { return !connect.empty() || socket >= 0; }
 };
+
+/// Adds the command `run` with its options, which `options` then holds.
+CLI::App& add_run_options(CLI::App& parent, RunOptions& options);
 
 /// Runs a scenario to its end and writes everything into the output folder. Returns the exit code;
 /// throws Error for bad input and SumoError where SUMO failed, after the outputs were completed.

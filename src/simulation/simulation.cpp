@@ -79,32 +79,41 @@ void advance_and_record(Simulation& sim, World& world, const std::function<void(
   clock.end(sim.times.record);
 }
 
+TrafficTick traffic_tick(Simulation& sim) {
+  return {sim.model,
+          sim.geometry,
+          *sim.workers,
+          sim.dt,
+          sim.road,
+          sim.scene,
+          sim.traffic.state,
+          sim.traffic.approaches,
+          sim.traffic.perception,
+          sim.traffic.waits,
+          sim.traffic.parameters,
+          sim.traffic.code};
+}
+
 }  // namespace
 
-void tick(Simulation& sim, World& world, const std::function<void()>& record) {
+void observe(Simulation& sim, World& world) {
   PhaseClock clock;
   world.observe(sim.scene, sim.road);
   clock.end(sim.times.observe);
-
   const double cpu_before = cpu_seconds();
-  const std::size_t rows = sim.scene.size();
+  update_traffic(traffic_tick(sim), sim.traffic);
+  clock.end(sim.times.context);
+  sim.times.model_cpu += cpu_seconds() - cpu_before;
+}
+
+void move_everybody(Simulation& sim) {
+  PhaseClock clock;
+  const double cpu_before = cpu_seconds();
   Scene& scene = sim.scene;
+  const std::size_t rows = scene.size();
   sim.workspaces.resize(sim.workers->count());
   sim.commands.resize(rows);
-  const TrafficTick traffic{sim.model,
-                            sim.geometry,
-                            *sim.workers,
-                            sim.dt,
-                            sim.road,
-                            scene,
-                            sim.traffic.state,
-                            sim.traffic.approaches,
-                            sim.traffic.perception,
-                            sim.traffic.waits,
-                            sim.traffic.parameters,
-                            sim.traffic.code};
-  update_traffic(traffic, sim.traffic);
-  clock.end(sim.times.context);
+  const TrafficTick traffic = traffic_tick(sim);
 
   // everyone reads the same frozen scene and writes only its own command
   const TrafficView view = traffic.view();
@@ -134,7 +143,11 @@ void tick(Simulation& sim, World& world, const std::function<void()>& record) {
   scene.time += sim.dt;
   clock.end(sim.times.track);
   sim.times.model_cpu += cpu_seconds() - cpu_before;
+}
 
+void tick(Simulation& sim, World& world, const std::function<void()>& record) {
+  observe(sim, world);
+  move_everybody(sim);
   advance_and_record(sim, world, record);
 }
 
