@@ -17,6 +17,9 @@ build_packages+=(libosmium2-dev libprotozero-dev zlib1g-dev libbz2-dev libexpat1
 build_packages+=(libeigen3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
   libpugixml-dev)
 
+# the Python module
+build_packages+=(pybind11-dev python3-dev python3-numpy)
+
 # test and benchmark libraries, the second compiler with its linters and sanitizers, script checks, XML schemas
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev
   clang-14 clang-tidy-14 clang-format-14 libclang-rt-14-dev llvm-14 shellcheck git python3 libxml2-utils)
