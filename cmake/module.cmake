@@ -1,9 +1,16 @@
 # One static library a folder of src/ with its subfolders. Sources are globbed, so a new file needs no list to be edited.
 
+# the same objects go into the program and into libraries, so they are position-independent; hidden symbols that nobody can
+# interpose keep that from costing calls and inlining
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
 add_library(sumogamma_options INTERFACE)
 # -ffp-contract=off: the same bits with and without FMA hardware (house rule: determinism)
 target_compile_options(sumogamma_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic
-  -Wconversion -Wshadow -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion)
+  -Wconversion -Wshadow -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion
+  -fno-semantic-interposition)
 if(SUMOGAMMA_WARNINGS_AS_ERRORS)
   target_compile_options(sumogamma_options INTERFACE -Werror)
 endif()
@@ -36,7 +43,6 @@ function(sumogamma_program target folder)
   list(TRANSFORM ARG_DEPENDS PREPEND sumogamma_)
   add_executable(${target} ${sources})
   target_link_libraries(${target} PRIVATE sumogamma_options ${ARG_DEPENDS} ${SUMOGAMMA_LIBS_${folder}})
-  target_compile_definitions(${target} PRIVATE SUMOGAMMA_VERSION="${PROJECT_VERSION}")
 endfunction()
 
 # sumogamma_loadable(TARGET MODULE SOURCE WITH FILE... LIBRARIES LIBRARY...): a file of src/MODULE leaves its library and

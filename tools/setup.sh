@@ -19,6 +19,9 @@ build_packages+=(libeigen3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-d
 # studies: their results as a database, Student's t, compressed tables
 build_packages+=(libsqlite3-dev libboost-dev libzstd-dev)
 
+# the Python module
+build_packages+=(pybind11-dev python3-dev python3-numpy)
+
 # test and benchmark libraries, the second compiler with its linters and sanitizers, script checks, XML schemas
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev
   clang-14 clang-tidy-14 clang-format-14 libclang-rt-14-dev llvm-14 shellcheck git python3 libxml2-utils)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <functional>
 #include <string>
 
@@ -21,6 +22,7 @@ struct CommonOptions {
   bool quiet = false;
   std::string log_level = "warn";
   std::vector<std::string> set;  ///< key=value, overriding scenario.toml
+  std::FILE* out = stdout;       ///< results for people and pipes
 };
 
 /// Each command adds its sub-command to the parser and returns what to run when it was chosen. The

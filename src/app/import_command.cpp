@@ -81,30 +81,29 @@ osm::Side parse_side(const std::string& text) {
   return text == "left" ? osm::Side::Left : text == "right" ? osm::Side::Right : osm::Side::Auto;
 }
 
-void print_summary(const osm::BuildResult& built, const DemandReport& demand,
+void print_summary(std::FILE* out, const osm::BuildResult& built, const DemandReport& demand,
                    const std::string& folder) {
   const auto count = [&](const char* name) { return static_cast<long>(built.built.at(name)); };
-  print(stdout,
-        "{}: {} edges, {} lanes, {} signals, {} crossings, {} buildings, traffic on the {}\n",
+  print(out, "{}: {} edges, {} lanes, {} signals, {} crossings, {} buildings, traffic on the {}\n",
         folder, count("edges"), count("lanes"), count("signals"), count("crossings"),
         built.obstacles.at("buildings") + built.obstacles.at("buildings_cut"),
         built.left_hand ? "left" : "right");
   for (const DemandByType& type : demand.types) {
     if (type.problem.empty())
-      print(stdout, "  {:<12} {:5} departures, mean trip {:.0f} m, {:.0f} s\n", type.type,
+      print(out, "  {:<12} {:5} departures, mean trip {:.0f} m, {:.0f} s\n", type.type,
             type.departures, type.mean_length, type.mean_duration);
     else
-      print(stdout, "  {:<12} left out: {}\n", type.type, type.problem);
+      print(out, "  {:<12} left out: {}\n", type.type, type.problem);
   }
   if (demand.busiest_load > 1)
-    print(stdout,
+    print(out,
           "  warning: so many agents are more than these roads carry: {:.1f} times as many as lane "
           "{} "
           "lets out; expect queues, ask for fewer agents or import more of the city\n",
           demand.busiest_load, demand.busiest_lane);
   for (const auto& [kind, issue] : built.log.issues())
     if (issue.severity == osm::Severity::Warning)
-      print(stdout, "  warning: {} ({})\n", issue.what, issue.count);
+      print(out, "  warning: {} ({})\n", issue.what, issue.count);
 }
 
 /// Ends an import that was interrupted within two seconds, wherever it is: it looks for that itself
@@ -204,7 +203,7 @@ int run_import(const ImportOptions& options, const CommonOptions& common) {
   }
   if (!made) return kExitInterrupted;
   folder.commit();
-  print_summary(made->built, made->demand, options.folder);
+  print_summary(common.out, made->built, made->demand, options.folder);
   return kExitDone;
 }
 

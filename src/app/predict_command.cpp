@@ -229,7 +229,7 @@ int run(const PredictOptions& options, const CommonOptions& common) {
   PredictorParameters parameters = parameters_from(common);
   if (options.list_parameters) {
     for (const NamedParameter& parameter : named_parameters(parameters))
-      print(stdout, "predict.{}={:.10g}\n", parameter.name, *parameter.value);
+      print(common.out, "predict.{}={:.10g}\n", parameter.name, *parameter.value);
     return kExitDone;
   }
   if (options.files.empty())
@@ -258,7 +258,7 @@ int run(const PredictOptions& options, const CommonOptions& common) {
   exported.close();
   if (!options.plots.empty())
     for (const TrackSet& set : batch.sets) write_plots(options.plots, set, protocol, settings);
-  print(stdout, "{}", to_table(evaluations, protocol, common.seed));
+  print(common.out, "{}", to_table(evaluations, protocol, common.seed));
   if (!options.json.empty()) write_json(options, common, batch, evaluations);
   return batch.left_out.empty() ? kExitDone : kExitNotHeld;
 }

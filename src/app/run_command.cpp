@@ -137,13 +137,18 @@ RunOptions parse_run_words(const std::string& where, const std::filesystem::path
   return options;
 }
 
-CommandRunner add_run_command(CLI::App& parent) {
-  auto options = std::make_shared<RunOptions>();
+CLI::App& add_run_options(CLI::App& parent, RunOptions& options) {
   CLI::App* command =
       parent.add_subcommand("run", "drive a scenario: GAMMA moves the agents, SUMO does the rest");
-  add_scenario_options(*command, *options);
-  add_sumo_options(*command, *options);
-  add_output_options(*command, *options);
+  add_scenario_options(*command, options);
+  add_sumo_options(*command, options);
+  add_output_options(*command, options);
+  return *command;
+}
+
+CommandRunner add_run_command(CLI::App& parent) {
+  auto options = std::make_shared<RunOptions>();
+  add_run_options(parent, *options);
   return [options](const CommonOptions& common) { return run_session(*options, common); };
 }
 

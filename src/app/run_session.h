@@ -20,12 +20,13 @@ struct RunOptions {
   std::optional<std::string> backend;    ///< traci | libsumo
   std::optional<std::string> preset;     ///< compliant | observed
   std::string connect;                   ///< HOST:PORT of a SUMO that the user started
-  std::optional<int> client_order;       ///< our place among several TraCI clients
-  int clients = 1;                       ///< that a SUMO of ours waits for, us included
-  int remote_port = 0;                   ///< on which it listens, 0: any
-  bool convert = false;                  ///< leave out classes that this SUMO doesn't know
-  bool no_cache = false;                 ///< work out anew what follows from the network
-  bool force = false;                    ///< replace what another run left in the output folder
+  int socket = -1;  ///< not negative: an open TraCI connection whose owner makes SUMO's steps
+  std::optional<int> client_order;  ///< our place among several TraCI clients
+  int clients = 1;                  ///< that a SUMO of ours waits for, us included
+  int remote_port = 0;              ///< on which it listens, 0: any
+  bool convert = false;             ///< leave out classes that this SUMO doesn't know
+  bool no_cache = false;            ///< work out anew what follows from the network
+  bool force = false;               ///< replace what another run left in the output folder
   std::string sumo_options;
   bool gui = false, replay = false;
   bool predict = false;  ///< predict everybody and score it against what then happens
@@ -34,7 +35,13 @@ struct RunOptions {
   std::vector<std::string> trajectory_columns;          ///< of tables; empty: all
   double interval = 300;                                ///< of lanes.csv and traffic.csv [s]
   std::vector<std::string> fail_on;  ///< collision, deep-collision, red-light, stuck, removed
+
+  /// Is it about a SUMO that the user started?
+  bool joins() const { return !connect.empty() || socket >= 0; }
 };
+
+/// Adds the command `run` with its options, which `options` then holds.
+CLI::App& add_run_options(CLI::App& parent, RunOptions& options);
 
 /// Options from words as they follow `run SCENARIO` on the command line. Throws Error naming
 /// `where` for those that `run` doesn't know.

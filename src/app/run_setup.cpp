@@ -131,9 +131,10 @@ std::unique_ptr<SumoBackend> start_backend(const RunPlan& plan, const RoadNetwor
       print(stderr, "run: SUMO waits at 127.0.0.1:{} for {} more TraCI client{}\n", port,
             plan.options.clients - 1, plan.options.clients > 2 ? "s" : "");
   };
+  start.socket = plan.options.socket;
   const bool connects = !plan.options.connect.empty();
   if (connects) set_host_and_port(plan.options.connect, start);
-  name = plan.options.backend.value_or(plan.config.backend);
+  name = plan.options.socket >= 0 ? "traci" : plan.options.backend.value_or(plan.config.backend);
   std::unique_ptr<SumoBackend> backend;
   try {
     backend = name == "libsumo" ? start_libsumo_backend(start) : start_traci_backend(start);
@@ -142,9 +143,10 @@ std::unique_ptr<SumoBackend> start_backend(const RunPlan& plan, const RoadNetwor
   } catch (const Error& error) {
     explain_refusal(plan, error);
   }
-  if (!connects) return backend;
-  ConnectExpectation expected{plan.options.connect, &plan.input, &network, plan.clock.step, {}};
-  if (!plan.input.options.contains("load-state")) expected.begin = plan.clock.begin;
+  if (!plan.options.joins()) return backend;
+  const std::string where = connects ? "--connect " + plan.options.connect : "attached SUMO";
+  ConnectExpectation expected{where, &plan.input, &network, plan.clock.step, {}};
+  if (connects && !plan.input.options.contains("load-state")) expected.begin = plan.clock.begin;
   require_same_run(*backend, expected);
   return backend;
 }
@@ -157,7 +159,7 @@ SumoWorldOptions world_options_of(const RunPlan& plan) {
   options.dt = plan.clock.step;
   options.rerouter_edges = plan.inventory.rerouter_edges;
   options.sign_lanes = plan.inventory.sign_lanes;
-  options.others_steer = !plan.options.connect.empty() || plan.options.clients > 1;
+  options.others_steer = plan.options.joins() || plan.options.clients > 1;
   for (const auto& [key, where] : plan.config.given)
     if (key.rfind("types.", 0) == 0) options.type_keys.insert(key);
   return options;

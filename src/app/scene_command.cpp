@@ -73,7 +73,7 @@ int run(const SceneOptions& options, const CommonOptions& common) {
     recorder->close();
     write_replay_page(page, recording);
   }
-  print(stdout, "{}\n", to_json(file.name, report).dump(2));
+  print(common.out, "{}\n", to_json(file.name, report).dump(2));
   return kExitDone;
 }
 

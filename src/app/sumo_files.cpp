@@ -41,7 +41,7 @@ OutputRequest request_of(const RunPlan& plan) {
 HiddenOutputs::HiddenOutputs(RunPlan& plan) : plan_(plan) {
   if (plan.inventory.outputs.empty()) return;
   const AskedOutput& first = plan.inventory.outputs.front();
-  if (!plan.options.connect.empty())
+  if (plan.options.joins())
     throw Error(first.source,
                 first.what +
                     ": a SUMO that runs already writes it by itself, and "

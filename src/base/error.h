@@ -8,14 +8,13 @@ namespace sumogamma {
 
 /// The outside is wrong (a file, an option): one line "<file or id>: what, expected what". Exit
 /// code 2.
-class Error : public std::runtime_error {
- public:
-  Error(std::string_view where, std::string_view what)
-      : std::runtime_error(std::string(where) + ": " + std::string(what)) {}
+class [[gnu::visibility("default")]] Error : public std::runtime_error{
+  public : Error(std::string_view where, std::string_view what) :
+      std::runtime_error(std::string(where) + ": " + std::string(what)){}
 };
 
 /// SUMO failed or went away while it was needed. Exit code 3; outputs so far are complete.
-class SumoError : public Error {
+class [[gnu::visibility("default")]] SumoError : public Error {
  public:
   using Error::Error;
 };

@@ -23,6 +23,10 @@ void append_escaped(std::string& escaped, std::string_view text) {
     }
 }
 
+bool declares_entities(std::string_view document) {
+  return document.find("<!ENTITY") != std::string_view::npos;
+}
+
 std::vector<std::string> words_of(std::string_view text) {
   constexpr std::string_view kBetween = " \t\n,";
   std::vector<std::string> words;

@@ -73,6 +73,8 @@ Vec2 preferred_velocity(const Model& model, const Scene& scene, std::size_t row,
       const double speed = later.norm();
       return speed > type.max_speed ? Vec2(later * (type.max_speed / speed)) : later;
     }
+    case IntentionKind::Velocity:
+      return intention.goal;
     case IntentionKind::ConstantTurnRate:
     case IntentionKind::Stop:
       break;

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/xml_text.h"
 #include "road/inner_signals.h"
 #include "road/junction_room.h"
 #include "road/lane_crossings.h"
@@ -37,6 +38,8 @@ pugi::xml_node load_document(const std::filesystem::path& file, pugi::xml_docume
     throw Error(file.string(), std::string("not well-formed XML (") + parsed.description() +
                                    " at byte " + std::to_string(parsed.offset) +
                                    "), make or fetch the file again");
+  if (declares_entities(content))
+    throw Error(file.string(), "declares XML entities of its own, take them out");
   return document.document_element();
 }
 

@@ -20,11 +20,12 @@ enum class IntentionKind : std::uint8_t {
   KeepAcceleration,  ///< v_pref = current velocity + horizon-limited acceleration
   ConstantTurnRate,
   Stop,
+  Velocity,  ///< v_pref = `goal`, which then is a velocity [m/s]: somebody else has chosen
 };
 
 struct Intention {
   IntentionKind kind = IntentionKind::Goal;
-  Vec2 goal = Vec2::Zero();  ///< [m], for Goal
+  Vec2 goal = Vec2::Zero();  ///< [m], for Goal; [m/s], for Velocity
 };
 
 /// theta of III-E: the hidden state that the model is conditioned on.

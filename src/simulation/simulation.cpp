@@ -26,6 +26,8 @@ class PhaseClock {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+AdvanceOptions options_of(const Simulation& sim) { return {sim.dt, sim.rules, sim.rules}; }
+
 /// SUMO computes in a process of its own, for which we would only wait.
 void advance_and_record(Simulation& sim, World& world, const std::function<void()>& record) {
   PhaseClock clock;
@@ -50,22 +52,31 @@ Advance step_of(Simulation& sim) {
   return {sim.model, *sim.workers, sim.road, sim.scene, sim.traffic, sim.work};
 }
 
-void tick(Simulation& sim, World& world, const std::function<void()>& record) {
+void observe(Simulation& sim, World& world) {
   PhaseClock clock;
   world.observe(sim.scene, sim.road);
   clock.end(sim.times.observe);
+  const double cpu_before = cpu_seconds();
+  look_about(step_of(sim), options_of(sim));
+  clock.end(sim.times.context);
+  sim.times.model_cpu += cpu_seconds() - cpu_before;
+}
 
+void move_everybody(Simulation& sim) {
+  PhaseClock clock;
   const double cpu_before = cpu_seconds();
   const Advance step = step_of(sim);
-  const AdvanceOptions options{sim.dt, sim.rules, sim.rules};
-  look_about(step, options);
-  clock.end(sim.times.context);
+  const AdvanceOptions options = options_of(sim);
   choose_commands(step, options, sim.planned);
   clock.end(sim.times.model);
   sim.times.agent_steps += move_bodies(step, options);
   clock.end(sim.times.track);
   sim.times.model_cpu += cpu_seconds() - cpu_before;
+}
 
+void tick(Simulation& sim, World& world, const std::function<void()>& record) {
+  observe(sim, world);
+  move_everybody(sim);
   advance_and_record(sim, world, record);
 }
 

@@ -43,4 +43,10 @@ Advance step_of(Simulation& simulation);
 /// doesn't change in advance().
 void tick(Simulation& simulation, World& world, const std::function<void()>& record = {});
 
+/// The tick's first part, for loops that look or change something in between: the scene as the
+/// world has it, and what the road says about each agent (Scene::context).
+void observe(Simulation& simulation, World& world);
+/// Its second part: everybody that GAMMA drives moves by dt, in the scene alone.
+void move_everybody(Simulation& simulation);
+
 }  // namespace sumogamma

@@ -140,8 +140,15 @@ class SumoBackend {
   virtual std::vector<std::string> present_persons() = 0;
 
   /// Moves every ghost and advances one step. A ghost left out for one step is forgotten by SUMO.
-  virtual void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
-                    SumoStep& result) = 0;
+  void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
+            SumoStep& result) {
+    send(vehicles, persons);
+    receive(result);
+  }
+  /// The two halves of step(): where SUMO's own client makes its steps (SumoStart::socket), it does
+  /// so in between. The poses must stay where they are until then.
+  virtual void send(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons) = 0;
+  virtual void receive(SumoStep& result) = 0;
   /// Details of newcomers, in the order of ids.
   virtual std::vector<SumoAgentDetails> details(std::span<const std::string> vehicles,
                                                 std::span<const std::string> persons) = 0;
@@ -213,6 +220,8 @@ struct SumoStart {
   double step_timeout = 120;           ///< [s] for one exchange
   std::string connect_host;  ///< not empty: join a SUMO that the user started, instead of a child
   int connect_port = 0;
+  int socket = -1;  ///< not negative: an open TraCI connection of a client that makes the steps; it
+                    ///< stays that client's, and is used between its own exchanges alone
   std::optional<int> client_order;  ///< our place among several TraCI clients
   int clients = 1;  ///< of a child: how many it waits for, us included (its --num-clients)
   int port = 0;     ///< for a child to listen on; 0: any free one

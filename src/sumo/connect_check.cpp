@@ -21,8 +21,10 @@ std::string version_in(const std::string& text) {
 /// The command that starts a SUMO for this run.
 std::string command_for(const ConnectExpectation& expected) {
   const std::size_t colon = expected.where.rfind(':');
-  return "start it with: sumo -c " + expected.scenario->config.string() + " --remote-port " +
-         expected.where.substr(colon + 1) + " --step-length " + number_text(expected.step);
+  const std::string port =
+      colon == std::string::npos ? "" : " --remote-port " + expected.where.substr(colon + 1);
+  return "start it with: sumo -c " + expected.scenario->config.string() + port + " --step-length " +
+         number_text(expected.step);
 }
 
 /// Names an edge that one of the two networks has alone; empty where both have the same.
@@ -53,13 +55,12 @@ std::string installed_sumo_version() {
 
 void require_same_run(SumoBackend& backend, const ConnectExpectation& expected) {
   const auto refuse = [&](const std::string& what) {
-    throw Error("--connect " + expected.where, what + "; " + command_for(expected));
+    throw Error(expected.where, what + "; " + command_for(expected));
   };
   const std::string here = installed_sumo_version(), there = version_in(backend.version());
   if (!here.empty() && here != there)
-    throw Error("--connect " + expected.where,
-                "it is SUMO " + there + ", the one here is " + here +
-                    "; start that one, or set SUMO_HOME to the other");
+    throw Error(expected.where, "it is SUMO " + there + ", the one here is " + here +
+                                    "; start that one, or set SUMO_HOME to the other");
   const std::string step_text = backend.option("step-length");
   const std::optional<double> step = parse_time(step_text);
   if (!step || std::abs(*step - expected.step) > 1e-6)

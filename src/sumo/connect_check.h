@@ -11,7 +11,7 @@ namespace sumogamma {
 
 /// What the SUMO at the other end of --connect must be running.
 struct ConnectExpectation {
-  std::string where;  ///< "localhost:8813"
+  std::string where;  ///< "--connect localhost:8813", or what else it is called
   const ScenarioInput* scenario = nullptr;
   const RoadNetwork* network = nullptr;  ///< as read from the scenario's net file
   double step = 0.05;                    ///< [s]

@@ -14,11 +14,23 @@ namespace {
 
 constexpr const char* kFile = "sumo-gamma-libsumo.so";
 
-/// Beside the program; above it, where a build has its test programs; where a system keeps modules.
+/// The folder of the shared library that this code is in; else the program's.
+std::filesystem::path own_folder() {
+  Dl_info info{};
+  const void* const here = reinterpret_cast<const void*>(&own_folder);
+  const bool known = dladdr(here, &info) != 0 && info.dli_fname != nullptr;
+  const std::filesystem::path file = known ? info.dli_fname : "";
+  if (file.filename().string().find(".so") != std::string::npos) return file.parent_path();
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
+
+/// Beside the program or library; above it, where a build has its test programs; where a system
+/// keeps modules.
 std::filesystem::path find_module() {
-  const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  const std::filesystem::path here = own_folder();
   const std::array places{here / kFile, here.parent_path() / kFile,
-                          here.parent_path() / "lib" / "sumo-gamma" / kFile};
+                          here.parent_path() / "lib" / "sumo-gamma" / kFile,
+                          here / "sumo-gamma" / kFile, here.parent_path() / "sumo-gamma" / kFile};
   for (const std::filesystem::path& place : places)
     if (std::filesystem::exists(place)) return place;
   throw Error(places.front().string(),

@@ -6,6 +6,7 @@ namespace sumogamma {
 
 /// What start_libsumo_backend() finds in the module that it opens, by C's name: the back end, owned
 /// by the caller.
-extern "C" SumoBackend* sumogamma_start_libsumo(const SumoStart& start);
+extern "C" [[gnu::visibility("default")]] SumoBackend* sumogamma_start_libsumo(
+    const SumoStart& start);
 
 }  // namespace sumogamma

@@ -80,6 +80,8 @@ class Inventory {
     fs::path file;
     std::string name;
     int depth = 0;
+    bool has_entities = false;  ///< of its own
+    XML_Parser parser = nullptr;
   };
 
   void begin(Reading& reading, std::string_view element, const char** attributes);
@@ -242,7 +244,14 @@ void Inventory::read(const fs::path& file) {
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
       XML_ParserCreate(nullptr), &XML_ParserFree);
   Reading reading{this, file, file.filename().string()};
+  reading.parser = parser.get();
   XML_SetUserData(parser.get(), &reading);
+  XML_SetEntityDeclHandler(parser.get(), [](void* user, const char*, int, const char*, int,
+                                            const char*, const char*, const char*, const char*) {
+    auto* now = static_cast<Reading*>(user);
+    now->has_entities = true;
+    XML_StopParser(now->parser, XML_FALSE);
+  });
   XML_SetElementHandler(
       parser.get(),
       [](void* user, const char* element, const char** attributes) {
@@ -253,7 +262,9 @@ void Inventory::read(const fs::path& file) {
   std::array<char, 1 << 16> chunk{};
   int count = 0;
   while ((count = gzread(stream.get(), chunk.data(), static_cast<unsigned>(chunk.size()))) > 0)
-    if (XML_Parse(parser.get(), chunk.data(), count, 0) == XML_STATUS_ERROR) return;
+    if (XML_Parse(parser.get(), chunk.data(), count, 0) == XML_STATUS_ERROR) break;
+  if (reading.has_entities)
+    throw Error(file.string(), "declares XML entities of its own, take them out");
 }
 
 void Inventory::read_options(const ScenarioInput& input) {

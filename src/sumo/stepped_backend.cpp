@@ -4,24 +4,34 @@
 
 namespace sumogamma {
 
-void SteppedBackend::step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
-                          SumoStep& result) {
+void SteppedBackend::send(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons) {
   talk_to_sumo([&] {
     for (const std::span<const SumoPose> poses : {vehicles, persons})
       for (const SumoPose& pose : poses)
         require_finite_pose(*pose.id, pose.position, pose.angle, pose.speed);
+    sent_vehicles_ = vehicles;
+    sent_persons_ = persons;
+    sent_route_.clear();
+    if (vehicle_test_.pending() && !vehicles.empty()) sent_route_ = route_of(*vehicles.front().id);
+    lost_ahead_.clear();
+    move_ahead(vehicles, persons, lost_ahead_);
+  });
+}
+
+void SteppedBackend::receive(SumoStep& result) {
+  talk_to_sumo([&] {
     for (auto* const list : {&result.departed_vehicles, &result.departed_persons,
                              &result.arrived_vehicles, &result.arrived_persons, &result.lost})
       list->clear();
     result.gone.clear();
     result.signal_states.resize(signal_ids_.size());
-    std::vector<std::string> route;
-    if (vehicle_test_.pending() && !vehicles.empty()) route = route_of(*vehicles.front().id);
-    move_and_step(vehicles, persons, result);
+    move_and_step(sent_vehicles_, sent_persons_, result);
+    result.lost.insert(result.lost.end(), lost_ahead_.begin(), lost_ahead_.end());
     time_ = result.time;
     started_ = true;
-    finish_test(vehicle_test_, false, vehicles, result, route);
-    finish_test(person_test_, true, persons, result, {});
+    finish_test(vehicle_test_, false, sent_vehicles_, result, sent_route_);
+    finish_test(person_test_, true, sent_persons_, result, {});
+    sent_vehicles_ = sent_persons_ = {};
     for (const std::string& id : result.arrived_vehicles) unwatch(id, false);
     for (const std::string& id : result.arrived_persons) unwatch(id, true);
     std::vector<WatchList::Entry> gone;

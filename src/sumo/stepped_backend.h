@@ -19,8 +19,8 @@ class SteppedBackend : public SumoBackend {
   const std::vector<std::string>& signal_ids() const final { return signal_ids_; }
   const std::vector<Detector>& detectors() const final { return detectors_; }
   double time() const final { return time_; }
-  void step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
-            SumoStep& result) final;
+  void send(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons) final;
+  void receive(SumoStep& result) final;
   void watch(const std::string& id, bool is_person) final {
     if (watched_.add(id, is_person)) watch_changed_ = true;
   }
@@ -32,6 +32,10 @@ class SteppedBackend : public SumoBackend {
   /// Runs `talk` where SUMO is there to talk to; failures come out as SumoError, or Error for what
   /// the user gave.
   virtual void talk_to_sumo(const std::function<void()>& talk) = 0;
+  /// Moves the ghosts before another client makes the step; nothing where we make it. Whom SUMO
+  /// refuses is added to `lost`.
+  virtual void move_ahead(std::span<const SumoPose>, std::span<const SumoPose>,
+                          std::vector<std::string>&) {}
   /// Moves the ghosts as mode() says, makes the step and reads what happened into `result`, whose
   /// lists are empty. Whom SUMO refuses is in result.lost.
   virtual void move_and_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
@@ -59,6 +63,9 @@ class SteppedBackend : public SumoBackend {
                    const SumoStep& result, const std::vector<std::string>& route);
 
   WatchList watched_;
+  std::span<const SumoPose> sent_vehicles_, sent_persons_;  ///< of the last send()
+  std::vector<std::string> sent_route_;  ///< of its first vehicle, while that is tested
+  std::vector<std::string> lost_ahead_;
   GhostSelfTest vehicle_test_{false}, person_test_{true};
 };
 

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/time_text.h"
+#include "base/xml_text.h"
 #include "sumo/sumo_arguments.h"
 
 namespace sumogamma {
@@ -142,10 +143,14 @@ std::string long_option_name(std::string_view name) {
 
 SumoOptions read_sumo_configuration(const fs::path& config) {
   pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_file(config.c_str());
+  const pugi::xml_parse_result parsed =
+      document.load_file(config.c_str(), pugi::parse_default | pugi::parse_doctype);
   if (!parsed)
     throw Error(config.string(), std::string("not a SUMO configuration: ") + parsed.description() +
                                      " at byte " + std::to_string(parsed.offset));
+  for (const pugi::xml_node& node : document)
+    if (node.type() == pugi::node_doctype && declares_entities(node.value()))
+      throw Error(config.string(), "declares XML entities of its own, take them out");
   SumoOptions options;
   add_nodes(document.document_element(), config, options);
   return options;

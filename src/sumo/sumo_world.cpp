@@ -67,6 +67,11 @@ void SumoWorld::observe(Scene& scene, RoadState& road) {
 }
 
 void SumoWorld::advance(const Scene& scene) {
+  send(scene);
+  receive();
+}
+
+void SumoWorld::send(const Scene& scene) {
   if (options_.control.any()) {
     hold_drivers(scene);
     note_passages(scene, known_, time_, detectors_);
@@ -76,7 +81,11 @@ void SumoWorld::advance(const Scene& scene) {
   person_poses_.clear();
   collect_poses(scene);
   collect_waiting();
-  backend_.step(vehicle_poses_, person_poses_, step_);
+  backend_.send(vehicle_poses_, person_poses_);
+}
+
+void SumoWorld::receive() {
+  backend_.receive(step_);
   note_step();
   compare_poses();
 }

@@ -82,6 +82,9 @@ class SumoWorld : public World {
 
   void observe(Scene& scene, RoadState& road) override;
   void advance(const Scene& scene) override;
+  /// The two halves of advance(), where another client makes SUMO's step in between.
+  void send(const Scene& scene);
+  void receive();
   bool finished() const override;
 
   const LifeCycle& life_cycle() const { return life_cycle_; }

@@ -66,7 +66,10 @@ void append_ghost(TraciWriter& message, const SumoPose& pose, bool is_person, Gh
 class TraciBackend final : public SteppedBackend {
  public:
   explicit TraciBackend(const SumoStart& start) : start_(start) {
-    if (start.connect_host.empty()) {
+    if (start.socket >= 0) {
+      client_ = std::make_unique<TraciClient>(start.socket);
+      handshake(start.start_timeout);
+    } else if (start.connect_host.empty()) {
       spawn();
     } else {
       join();
@@ -134,6 +137,8 @@ class TraciBackend final : public SteppedBackend {
 
  protected:
   void talk_to_sumo(const std::function<void()>& talk) override { guarded(talk); }
+  void move_ahead(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
+                  std::vector<std::string>& lost) override;
   void move_and_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
                      SumoStep& result) override;
   std::vector<std::string> route_of(const std::string& vehicle) override;
@@ -161,8 +166,14 @@ class TraciBackend final : public SteppedBackend {
   void compose_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons);
   void read_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
                  SumoStep& result);
+  void read_moves(TraciReader& reply, std::span<const SumoPose> vehicles,
+                  std::span<const SumoPose> persons, std::vector<std::string>& lost);
+  /// What another client's step has brought: it has the answers to subscriptions.
+  void ask_step(SumoStep& result);
+  bool is_guest() const { return start_.socket >= 0; }
   void read_subscriptions(TraciReader& reply, SumoStep& result);
   void read_simulation(TraciReader& reply, int variables, SumoStep& result);
+  void read_simulation_value(TraciReader& reply, std::uint8_t variable, SumoStep& result);
   void compose_watch(const std::vector<WatchList::Entry>& entries);
   bool read_agent(TraciReader& reply, const WatchList::Entry& entry, SumoAgent& agent);
 
@@ -315,14 +326,18 @@ void TraciBackend::read_inventory() {
     message_.get(traci::kInductionLoop, traci::kLane, detector.id);
     message_.get(traci::kInductionLoop, traci::kPosition, detector.id);
   }
-  message_.subscribe(traci::kSimulation, "", kStepVariables);
-  for (const std::string& id : signal_ids_)
-    message_.subscribe(traci::kTrafficLight, id, std::span(&traci::kSignalState, 1));
+  if (!is_guest()) {
+    message_.subscribe(traci::kSimulation, "", kStepVariables);
+    for (const std::string& id : signal_ids_)
+      message_.subscribe(traci::kTrafficLight, id, std::span(&traci::kSignalState, 1));
+  }
+  if (message_.command_count() == 0) return;
   TraciReader reply = exchange(message_);
   for (Detector& detector : detectors_) {
     detector.lane = read_text(reply, traci::kInductionLoop, traci::kLane);
     detector.position = read_number(reply, traci::kInductionLoop, traci::kPosition, 0);
   }
+  if (is_guest()) return;
   SumoStep ignored;
   ignored.signal_states.resize(signal_ids_.size());
   for (std::size_t i = 0; i <= signal_ids_.size(); ++i) {
@@ -378,7 +393,42 @@ void TraciBackend::compose_step(std::span<const SumoPose> vehicles,
     message_.set_double(traci::kVehicle, traci::kSpeed, *pose.id, pose.speed);
   // last: SUMO does not process what stands behind it reliably. Among several clients alone, later:
   // SUMO gives what it has answered before a step to the client whose turn is next
-  if (!start_.client_order) message_.simulation_step();
+  if (!start_.client_order && !is_guest()) message_.simulation_step();
+}
+
+/// The answers to compose_step(), but for the step's own.
+void TraciBackend::read_moves(TraciReader& reply, std::span<const SumoPose> vehicles,
+                              std::span<const SumoPose> persons, std::vector<std::string>& lost) {
+  for (const std::span<const SumoPose> poses : {vehicles, persons})
+    for (const SumoPose& pose : poses)
+      if (!reply.status().ok()) lost.push_back(*pose.id);
+  // what was queued concerned agents that may have left meanwhile: a refusal means nothing
+  for (std::size_t left = queued_.command_count(); left > 0; --left) reply.status();
+  queued_.clear();
+  for (std::size_t left = vehicles.size(); left > 0; --left) reply.status();
+}
+
+void TraciBackend::move_ahead(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
+                              std::vector<std::string>& lost) {
+  if (!is_guest()) return;
+  compose_step(vehicles, persons);
+  if (message_.command_count() == 0) return;
+  TraciReader reply = exchange(message_);
+  read_moves(reply, vehicles, persons, lost);
+}
+
+void TraciBackend::ask_step(SumoStep& result) {
+  message_.clear();
+  for (const std::uint8_t variable : kStepVariables) message_.get(traci::kSimulation, variable, "");
+  for (const std::string& id : signal_ids_)
+    message_.get(traci::kTrafficLight, traci::kSignalState, id);
+  TraciReader reply = exchange(message_);
+  for (const std::uint8_t variable : kStepVariables) {
+    std::optional<TraciReader> value = read_answer(reply, traci::kSimulation, variable);
+    if (value) read_simulation_value(*value, variable, result);
+  }
+  for (std::string& state : result.signal_states)
+    state = read_text(reply, traci::kTrafficLight, traci::kSignalState);
 }
 
 void TraciBackend::read_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
@@ -386,13 +436,7 @@ void TraciBackend::read_step(std::span<const SumoPose> vehicles, std::span<const
   const bool apart = start_.client_order.has_value();
   TraciReader reply{std::span<const std::uint8_t>()};
   if (!apart || message_.command_count() > 0) reply = exchange(message_);
-  for (const std::span<const SumoPose> poses : {vehicles, persons})
-    for (const SumoPose& pose : poses)
-      if (!reply.status().ok()) result.lost.push_back(*pose.id);
-  // what was queued concerned agents that may have left meanwhile: a refusal means nothing
-  for (std::size_t left = queued_.command_count(); left > 0; --left) reply.status();
-  queued_.clear();
-  for (std::size_t left = vehicles.size(); left > 0; --left) reply.status();
+  read_moves(reply, vehicles, persons, result.lost);
   if (apart) {
     message_.clear();
     message_.simulation_step();
@@ -433,48 +477,58 @@ void TraciBackend::read_subscriptions(TraciReader& reply, SumoStep& result) {
 void TraciBackend::read_simulation(TraciReader& reply, int variables, SumoStep& result) {
   for (int i = 0; i < variables; ++i) {
     const std::uint8_t variable = reply.byte();
-    if (reply.byte() != traci::kOk) {
+    if (reply.byte() == traci::kOk)
+      read_simulation_value(reply, variable, result);
+    else
       reply.skip_value();
-      continue;
-    }
-    switch (variable) {
-      case traci::kTime:
-        result.time = reply.typed_double();
-        break;
-      case traci::kDepartedVehicles:
-        result.departed_vehicles = reply.typed_strings();
-        break;
-      case traci::kArrivedVehicles:
-        result.arrived_vehicles = reply.typed_strings();
-        break;
-      case traci::kDepartedPersons:
-        result.departed_persons = reply.typed_strings();
-        break;
-      case traci::kArrivedPersons:
-        result.arrived_persons = reply.typed_strings();
-        break;
-      case traci::kTeleportCount:
-        result.teleports = reply.typed_integer();
-        break;
-      case traci::kEmergencyStopCount:
-        result.emergency_stops = reply.typed_integer();
-        break;
-      case traci::kCollidingCount:
-        result.collisions = reply.typed_integer();
-        break;
-      case traci::kPendingVehicles:
-        result.waiting_to_insert = static_cast<int>(reply.typed_strings().size());
-        break;
-      default:
-        reply.skip_value();
-    }
+  }
+}
+
+void TraciBackend::read_simulation_value(TraciReader& reply, std::uint8_t variable,
+                                         SumoStep& result) {
+  switch (variable) {
+    case traci::kTime:
+      result.time = reply.typed_double();
+      break;
+    case traci::kDepartedVehicles:
+      result.departed_vehicles = reply.typed_strings();
+      break;
+    case traci::kArrivedVehicles:
+      result.arrived_vehicles = reply.typed_strings();
+      break;
+    case traci::kDepartedPersons:
+      result.departed_persons = reply.typed_strings();
+      break;
+    case traci::kArrivedPersons:
+      result.arrived_persons = reply.typed_strings();
+      break;
+    case traci::kTeleportCount:
+      result.teleports = reply.typed_integer();
+      break;
+    case traci::kEmergencyStopCount:
+      result.emergency_stops = reply.typed_integer();
+      break;
+    case traci::kCollidingCount:
+      result.collisions = reply.typed_integer();
+      break;
+    case traci::kPendingVehicles:
+      result.waiting_to_insert = static_cast<int>(reply.typed_strings().size());
+      break;
+    default:
+      reply.skip_value();
   }
 }
 
 void TraciBackend::move_and_step(std::span<const SumoPose> vehicles,
                                  std::span<const SumoPose> persons, SumoStep& result) {
-  compose_step(vehicles, persons);
-  read_step(vehicles, persons, result);
+  if (!is_guest()) {
+    compose_step(vehicles, persons);
+    read_step(vehicles, persons, result);
+    return;
+  }
+  result.time = std::nan("");
+  ask_step(result);
+  if (!std::isfinite(result.time)) throw SumoError("SUMO", "does not tell its time over TraCI");
 }
 
 std::vector<std::string> TraciBackend::route_of(const std::string& vehicle) {
@@ -768,8 +822,8 @@ void TraciBackend::close() {
       // what was queued (arrivals of the last tick) still counts in SUMO's own statistics
       message_.clear();
       message_.append(queued_);
-      message_.begin_command(traci::kClose, 0);
-      client_->exchange(message_, kCloseGrace);
+      if (!is_guest()) message_.begin_command(traci::kClose, 0);
+      if (message_.command_count() > 0) client_->exchange(message_, kCloseGrace);
     } catch (const SumoError&) {
       // it went away by itself: the process below tells
     }

@@ -101,7 +101,7 @@ TraciClient::TraciClient(const std::string& host, int port, double timeout, Sumo
 TraciClient::~TraciClient() { close(); }
 
 void TraciClient::close() {
-  if (fd_ >= 0) ::close(fd_);
+  if (fd_ >= 0 && owned_) ::close(fd_);
   fd_ = -1;
 }
 

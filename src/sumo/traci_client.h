@@ -17,6 +17,8 @@ class TraciClient {
   /// Connects within `timeout` seconds. Where nobody listens it keeps trying until the child ends;
   /// without one (null) it gives up within two seconds. Throws SumoError.
   TraciClient(const std::string& host, int port, double timeout, SumoProcess* child);
+  /// A connection that is open already and stays its owner's: it is left open.
+  explicit TraciClient(int socket) : fd_(socket), owned_(false), child_(nullptr) {}
   ~TraciClient();
   TraciClient(const TraciClient&) = delete;
   TraciClient& operator=(const TraciClient&) = delete;
@@ -39,6 +41,7 @@ class TraciClient {
   [[noreturn]] void fail(const std::string& what);
 
   int fd_ = -1;
+  bool owned_ = true;
   bool timed_out_ = false;
   std::string where_;
   SumoProcess* child_;

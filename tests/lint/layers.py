@@ -24,6 +24,8 @@ VERSION_FILE = "src/app/version_command.cpp"
 VERSION_HEADERS = {"osmium/version.hpp", "proj.h", "toml++/toml.h"}
 # results must not depend on the standard library's generators, which differ between libraries
 NOWHERE = {"random": "draws come from base/random.h"}
+# nothing from a scenario can reach a shell that nobody starts
+SHELL = re.compile(r"(?<![\w.>])(popen|system)\s*\(|/bin/(ba)?sh\b")
 # these have never heard of a file, a terminal, a thread or a clock
 PURE_MODULES = {"geometry", "scene", "model", "inference"}
 IMPURE = {"fstream", "filesystem", "iostream", "cstdio", "stdio.h", "chrono", "thread", "mutex", "atomic"}
@@ -85,6 +87,9 @@ def main(root):
             continue
         checked += 1
         for number, line in numbered_lines(root, path):
+            shell = SHELL.search(line.split("//")[0])
+            if shell:
+                complaints.append(f"{path}:{number}: no shell is started, see src/base/subprocess.h: {shell.group(0)}")
             match = re.match(r'\s*#\s*include\s*(["<])([^">]+)[">]', line)
             if not match:
                 continue

@@ -373,6 +373,59 @@ TEST_F(UserConfigTest, WhatIsNotFollowedIsSaid) {
   EXPECT_TRUE(results_in("plain")["not_followed"].empty());
 }
 
+// names that a shell would act on: one that ran would leave a file behind
+TEST_F(UserConfigTest, NamesNeverReachAShell) {
+  const std::string mark = "touched";
+  const std::string hostile = "x;touch " + mark + ";$(touch " + mark + ")`touch " + mark + "`";
+  std::string routes = content(folder_ / "own" / "demand.rou.xml");
+  // SUMO takes blanks and quotes in ids; those of its own reserved letters it refuses by itself
+  const std::size_t first = routes.find("<vehicle id=\"") + 13;
+  routes.insert(first, "$(touch " + mark + ")");
+  put("demand.rou.xml", routes);
+  const fs::path folder = folder_ / ("own " + hostile);
+  fs::copy(folder_ / "own", folder);
+  const std::string file = (folder / "mine.sumocfg").string();
+  std::ofstream(file) << "<configuration><input><net-file value=\"net.net.xml\"/><route-files "
+                         "value=\"demand.rou.xml\"/></input></configuration>";
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_);
+  const ProcessResult result = run(file, "out " + hostile, {"--duration", "20", "--replay"});
+  const ProcessResult options = run(file, "second",
+                                    {"--duration", "5", "--sumo-options",
+                                     "--tripinfo-output '" + mark + "2;touch " + mark + "'"});
+  const ProcessResult imported =
+      program({"import", hostile, "-o", (folder_ / hostile).string(), "--quiet"});
+  fs::current_path(before);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(options.exit_code, 0) << options.errors;
+  EXPECT_EQ(imported.exit_code, 2) << imported.errors;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_))
+    EXPECT_NE(entry.path().filename(), mark) << entry.path();
+}
+
+// a few lines that would become gigabytes, and a file of somebody else's
+TEST_F(UserConfigTest, XmlEntitiesAreRefused) {
+  const std::string bomb =
+      "<!DOCTYPE r [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;&a;&a;&a;&a;\">"
+      "<!ENTITY c SYSTEM \"file:///etc/passwd\">]>";
+  const std::string input =
+      "<input><net-file value=\"net.net.xml\"/><route-files "
+      "value=\"demand.rou.xml\"/></input>";
+  for (const char* name : {"net.net.xml", "demand.rou.xml"}) {
+    const std::string whole = content(folder_ / "own" / name);
+    std::string changed = whole;
+    const std::size_t head = changed.find("?>");
+    changed.insert(head == std::string::npos ? 0 : head + 2, bomb);
+    put(name, changed);
+    expect_refused(run(config(input), "out", {"--duration", "5"}), "declares XML entities");
+    put(name, whole);
+  }
+  std::ofstream(folder_ / "own" / "mine.sumocfg")
+      << bomb << "<configuration>" << input << "</configuration>";
+  expect_refused(run((folder_ / "own" / "mine.sumocfg").string(), "out", {"--duration", "5"}),
+                 "declares XML entities");
+}
+
 TEST_F(UserConfigTest, FoldersMayHaveCommasAndBlanks) {
   fs::rename(folder_ / "own", folder_ / "my own, really");
   const fs::path file = folder_ / "my own, really" / "mine.sumocfg";
