@@ -172,55 +172,5 @@ TEST_F(DrivingTest, BrakingNeverLengthensTheWay) {
   });
 }
 
-/// How far from the place where both would meet a plan first brakes [m], where the car from the
-/// west is as likely as that to go on instead of turning off. It doesn't give way.
-class TwoWays : public DrivingTest {
- protected:
-  double first_braking(double through) {
-    constexpr double kMeet = 200.0;  // along both paths
-    rules_ = false;
-    for (double away = 40; away > 2; away -= 1) {
-      here_.scene = {};
-      here_.road.paths.clear();
-      here_.traffic = {};
-      add_ego(kMeet - away, 6);
-      const std::size_t foe = here_.add("car", {"WC", "CE"}, kMeet - away, 6, 0, -1, "WC_0");
-      const std::size_t turns = here_.add("car", {"WC", "CS"}, kMeet - away, 6, 0, -1, "WC_0");
-      const auto off = here_.road.paths[static_cast<std::size_t>(here_.scene.path[turns])];
-      remove_agents(here_.scene, {false, false, true});
-      traffic_ = {};
-      const int action = with_view([&](const EgoView& seen) {
-        ForwardModel forward;
-        forward.follow(here_.model);
-        PlanRoot root = plan_root(seen, WayBeliefs(), true, 4);
-        const std::size_t row = find_row(root.fork.scene, here_.scene.id[foe]);
-        root.fork.road.paths.push_back(off);
-        root.choices[row].paths.push_back(static_cast<PathId>(root.fork.road.paths.size() - 1));
-        root.choices[row].weights = {through, 1 - through};
-        DrivingProblem problem(seen, root, OthersModel::ConstantSpeed, {}, forward);
-        std::vector<DrivingState> states(20);
-        for (std::uint32_t i = 0; i < 20; ++i)
-          draw_scenario(forward.model(), root, 3, i, 20, states[i]);
-        const std::vector<double> weights(20, 0.05);
-        BeliefTree<DrivingProblem> tree;
-        return tree
-            .search(problem, {states, weights, 3},
-                    {.depth = 12, .discount = 0.95, .gap_share = 0.97, .pruning = 0.001},
-                    {.steps = 20000})
-            .action;
-      });
-      if (action == 2) return away;
-    }
-    return 0;
-  }
-};
-
-TEST_F(TwoWays, TheLikelierItGoesOnTheEarlierTheEgoBrakes) {
-  std::vector<double> braking;
-  for (const double through : {0.0, 0.1, 0.5, 1.0}) braking.push_back(first_braking(through));
-  for (std::size_t i = 1; i < braking.size(); ++i) EXPECT_GE(braking[i], braking[i - 1]) << i;
-  EXPECT_GT(braking.back(), braking.front());
-}
-
 }  // namespace
 }  // namespace sumogamma

@@ -22,7 +22,7 @@ class WayBeliefsTest : public ::testing::Test {
     return network;
   }
   WayBeliefsTest() {
-    ego_ = here_.add("car", {"SC", "CN"}, 165, 0);
+    ego_ = here_.add("car", {"SC", "CN"}, 185, 0);
     here_.scene.control[ego_] = Control::Planned;
   }
   void look() {
@@ -66,7 +66,7 @@ class WayBeliefsTest : public ::testing::Test {
 };
 
 TEST_F(WayBeliefsTest, ConcentrateOnALeftTurnerBeforeTheJunction) {
-  const std::size_t foe = here_.add("car", {"WC", "CN"}, 150, 10, 0, -1, "WC_1");
+  const std::size_t foe = here_.add("car", {"WC", "CN"}, 158, 10, 0, -1, "WC_1");
   const double line = here_.path(foe).links.front().stop_line;
   look();
   const double begin = weight_of(foe, "CN");
@@ -87,7 +87,7 @@ TEST_F(WayBeliefsTest, ConcentrateOnALeftTurnerBeforeTheJunction) {
 }
 
 TEST_F(WayBeliefsTest, AreUniformAgainOnANewLane) {
-  const std::size_t foe = here_.add("car", {"WC", "CE"}, 150, 10, 0, -1, "WC_1");
+  const std::size_t foe = here_.add("car", {"WC", "CE"}, 158, 10, 0, -1, "WC_1");
   const LaneId begin = [&] {
     look();
     return beliefs_.of(here_.scene.id[foe])->lane;
