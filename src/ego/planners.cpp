@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "ego/futures.h"
+#include "ego/search_planners.h"
 #include "scene/extent.h"
 #include "traffic/longitudinal/car_following.h"
 
@@ -96,6 +97,16 @@ constexpr std::array kPlanners{
                  [] { return Planner(follow_road); }},
     PlannerEntry{"futures", "the fastest acceleration whose sampled futures meet nobody",
                  [] { return Planner(ByFutures()); }},
+    PlannerEntry{"pomdp-gamma", "belief tree search over what others may mean, by GAMMA",
+                 [] { return make_search_planner(SearchPlanner::PomdpGamma); }},
+    PlannerEntry{"rollout-gamma", "one acceleration, then a policy, in sampled worlds, by GAMMA",
+                 [] { return make_search_planner(SearchPlanner::RolloutGamma); }},
+    PlannerEntry{"pomdp-simple", "belief tree search, the others at constant speed",
+                 [] { return make_search_planner(SearchPlanner::PomdpSimple); }},
+    PlannerEntry{"policy", "by time to contact alone, without a search",
+                 [] { return make_search_planner(SearchPlanner::Policy); }},
+    PlannerEntry{"oracle", "pomdp-gamma that knows everybody's way",
+                 [] { return make_search_planner(SearchPlanner::Oracle); }},
 };
 
 }  // namespace

@@ -1,0 +1,58 @@
+#include "ego/search_planners.h"
+
+#include <memory>
+
+#include "base/random.h"
+
+namespace sumogamma {
+
+DrivingSearch::DrivingSearch(SearchPlanner kind, PlanSize size, DrivingParameters driving)
+    : kind_(kind),
+      size_(size),
+      driving_(driving),
+      others_(kind == SearchPlanner::PomdpSimple ? OthersModel::ConstantSpeed : OthersModel::Gamma),
+      beliefs_(others_) {
+  driving_.discount = size_.search.discount;
+}
+
+SearchDecision DrivingSearch::decide(const EgoView& view) {
+  const bool knows = kind_ == SearchPlanner::Oracle, rolls = kind_ == SearchPlanner::RolloutGamma;
+  forward_.follow(view.world.model);
+  // the default policy looks at where everybody is and how fast, whatever they mean
+  if (!knows && kind_ != SearchPlanner::Policy) beliefs_.observe(view, forward_);
+  const PlanRoot root = plan_root(view, beliefs_, knows, driving_.observed);
+  DrivingProblem problem(view, root, others_, driving_, forward_);
+
+  const std::uint32_t count = rolls ? size_.rollout_scenarios : size_.scenarios;
+  const std::uint64_t key =
+      random_bits(view.seed, 0, static_cast<std::uint64_t>(view.plan), Draw::Scenario);
+  states_.resize(count);
+  weights_.assign(count, 1.0 / count);
+  for (std::uint32_t i = 0; i < count; ++i)
+    draw_scenario(forward_.model(), root, key, i, count, states_[i]);
+  SearchParameters parameters = size_.search;
+  SearchBudget budget{.steps = size_.scene_steps};
+  if (rolls) {  // each action once, and what the default policy makes of it
+    parameters.pruning = 0;
+    budget = {.expansions = 1};
+  }
+  SearchResult found;
+  if (kind_ == SearchPlanner::Policy) {
+    const std::vector<SearchParticle> particle = {{1.0, 0, 0, 0}};
+    found.action = problem.default_action(ScenarioGroup<DrivingState>(particle, states_.data()));
+    found.statistics.by_default = true;
+  } else {
+    found = tree_.search(problem, {states_, weights_, key}, parameters, budget);
+  }
+  return {found.action, problem.acceleration_of(found.action), found.statistics};
+}
+
+Planner make_search_planner(SearchPlanner kind) {
+  return [search = std::make_shared<DrivingSearch>(kind)](const EgoView& view) {
+    EgoAction action;
+    action.acceleration = search->decide(view).acceleration;
+    return action;
+  };
+}
+
+}  // namespace sumogamma

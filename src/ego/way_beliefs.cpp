@@ -1,0 +1,176 @@
+#include "ego/way_beliefs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/behavior_draw.h"
+
+namespace sumogamma {
+
+namespace {
+constexpr std::uint64_t kStranger = 1;  // seed of what nobody knows of anybody
+}
+
+double likelihood(const Vec2& predicted, const Vec2& seen) {
+  constexpr double kTurn = 5.0 * M_PI / 180.0, kWay = 0.1, kFloor = 0.001;
+  constexpr double kStill = 0.05;  // shorter ways have no direction [m]
+  const double way = (seen.norm() - predicted.norm()) / kWay;
+  double turn = 0;
+  if (seen.norm() > kStill && predicted.norm() > kStill)
+    turn = std::atan2(cross(predicted, seen), predicted.dot(seen)) / kTurn;
+  return (std::exp(-0.5 * turn * turn) + kFloor) * (std::exp(-0.5 * way * way) + kFloor);
+}
+
+void advance_at_constant_speed(const RoadState& road, std::size_t ego, double dt, Scene& scene) {
+  for (std::size_t row = 0; row < scene.size(); ++row) {
+    if (row == ego) continue;
+    if (scene.behavior[row].intention.kind == IntentionKind::Stop) {
+      scene.speed[row] = 0;
+      scene.velocity[row] = Vec2::Zero();
+      continue;
+    }
+    const Path* path = road.path(scene.path[row]);
+    if (path == nullptr) {
+      scene.position[row] += dt * scene.velocity[row];
+      continue;
+    }
+    const double from = scene.path_along[row];
+    const double to = from + dt * scene.speed[row];
+    const Vec2 beside = left_of(path->line.direction_at(from));
+    const double aside = beside.dot(scene.position[row] - path->line.point_at(from));
+    const Vec2 direction = path->line.direction_at(to);
+    const double beyond = std::max(to - path->line.length(), 0.0);
+    scene.position[row] = path->line.point_at(to) + aside * left_of(direction) + beyond * direction;
+    scene.heading[row] = heading_of(direction);
+    scene.velocity[row] = scene.speed[row] * direction;
+    scene.path_along[row] = to;
+  }
+  scene.time += dt;
+}
+
+Fork seen_fork(const EgoView& view, std::size_t& ego) {
+  const Scene& scene = view.world.scene;
+  std::vector<std::size_t> rows = rows_about(view.world.model, scene, view.row, kSeen, kAgentsSeen);
+  rows.push_back(view.row);
+  Fork fork = fork_of(view.world, std::move(rows));
+  ego = find_row(fork.scene, scene.id[view.row]);
+  const auto own = view.world.scene.path[view.row] == kNoPath
+                       ? nullptr
+                       : view.world.road.paths[static_cast<std::size_t>(scene.path[view.row])];
+  fork.road.paths.assign(1, own);
+  for (std::size_t row = 0; row < fork.scene.size(); ++row) {
+    if (row == ego) {
+      fork.scene.control[row] = Control::Planned;
+      fork.scene.path[row] = own == nullptr ? kNoPath : PathId{0};
+      continue;
+    }
+    fork.scene.path[row] = kNoPath;
+    fork.scene.halt[row] = {};
+    const AgentType& type = type_of(view.world.model.types, fork.scene.type[row]);
+    // what is in its head isn't seen
+    fork.scene.behavior[row] = draw_behavior(type, kStranger, fork.scene.id[row].value);
+    fork.scene.behavior[row].intention.kind = IntentionKind::KeepVelocity;
+    fork.scene.manners[row] = draw_manners(type.compliance, kStranger, fork.scene.id[row].value);
+    fork.scene.preferred_speed[row] = std::max(fork.scene.speed[row], type.preferred_speed);
+  }
+  return fork;
+}
+
+void send_along(const std::shared_ptr<const Path>& way, std::size_t row, Fork& fork) {
+  if (way == nullptr) {
+    fork.scene.behavior[row].intention.kind = IntentionKind::Stop;
+    return;
+  }
+  fork.scene.path[row] = static_cast<PathId>(fork.road.paths.size());
+  fork.scene.path_along[row] = way->line.project(fork.scene.position[row]).along;
+  fork.scene.behavior[row].intention.kind = IntentionKind::Path;
+  fork.road.paths.push_back(way);
+}
+
+const WayBelief* WayBeliefs::of(AgentId id) const {
+  const auto found =
+      std::lower_bound(beliefs_.begin(), beliefs_.end(), id,
+                       [](const WayBelief& belief, AgentId other) { return belief.id < other; });
+  return found == beliefs_.end() || found->id != id ? nullptr : &*found;
+}
+
+void WayBeliefs::observe(const EgoView& view, ForwardModel& forward) {
+  forward.follow(view.world.model);
+  if (network_ != &view.world.model.road) {
+    network_ = &view.world.model.road;
+    candidates_ = std::make_unique<CandidateWays>(*network_);
+    beliefs_.clear();
+    before_ = {};
+  }
+  if (before_.scene.size() > 0) weigh(view, forward);
+  take_in(view);
+  before_ = seen_fork(view, before_ego_);
+}
+
+/// Eq. 8 for all rows at once, a scene-step for each number of a hypothesis.
+void WayBeliefs::weigh(const EgoView& view, ForwardModel& forward) {
+  constexpr double kLeast = 1e-4;  // of a weight: nobody is sure for ever
+  const Scene& now = view.world.scene;
+  const double elapsed = now.time - before_.scene.time;
+  std::size_t most = 0;
+  for (const WayBelief& belief : beliefs_) most = std::max(most, belief.weights.size());
+  for (std::size_t h = 0; h < most; ++h) {
+    trial_ = before_;
+    for (std::size_t row = 0; row < trial_.scene.size(); ++row) {
+      const WayBelief* belief = row == before_ego_ ? nullptr : of(trial_.scene.id[row]);
+      if (belief == nullptr || h >= belief->weights.size()) continue;
+      send_along(h < belief->ways.size() ? belief->ways[h] : nullptr, row, trial_);
+    }
+    if (model_ == OthersModel::Gamma) {
+      forward.advance(trial_, view.rules, [](const TrafficView& world, std::size_t row) {
+        return world.scene.velocity[row];
+      });
+    } else {
+      advance_at_constant_speed(trial_.road, before_ego_, ForwardModel::kStep, trial_.scene);
+    }
+    for (WayBelief& belief : beliefs_) {
+      const std::size_t then = find_row(before_.scene, belief.id), row = find_row(now, belief.id);
+      if (h >= belief.weights.size() || then == before_.scene.size() || row == now.size()) continue;
+      const Vec2 from = before_.scene.position[then];
+      const Vec2 predicted = elapsed / ForwardModel::kStep * (trial_.scene.position[then] - from);
+      belief.weights[h] *= likelihood(predicted, now.position[row] - from);
+    }
+  }
+  for (WayBelief& belief : beliefs_) {
+    double sum = 0;
+    for (const double weight : belief.weights) sum += weight;
+    double clipped = 0;
+    for (double& weight : belief.weights)
+      clipped += weight = std::max(sum > 0 ? weight / sum : 1.0, kLeast);
+    for (double& weight : belief.weights) weight /= clipped;
+  }
+}
+
+/// Who came, left, or is on another lane now.
+void WayBeliefs::take_in(const EgoView& view) {
+  constexpr double kForgotten = 2.0;  // [s]
+  const Scene& scene = view.world.scene;
+  std::vector<std::size_t> rows = rows_about(view.world.model, scene, view.row, kSeen, kAgentsSeen);
+  std::sort(rows.begin(), rows.end());
+  for (const std::size_t row : rows) {
+    const AgentId id = scene.id[row];
+    auto found =
+        std::lower_bound(beliefs_.begin(), beliefs_.end(), id,
+                         [](const WayBelief& belief, AgentId other) { return belief.id < other; });
+    const bool known = found != beliefs_.end() && found->id == id;
+    const LaneId lane = scene.lane[row].lane;
+    const bool on_junction = lane == kNoLane || network_->lane(lane).kind != LaneKind::Normal;
+    if (known) found->seen = scene.time;
+    if (known && (on_junction || lane == found->lane)) continue;
+    if (!known) found = beliefs_.insert(found, WayBelief{});
+    const auto ways =
+        candidates_->ways(type_of(view.world.model.types, scene.type[row]), scene.type[row], lane);
+    *found = {id, lane, {ways.begin(), ways.end()}, {}, scene.time};
+    if (!ways.empty())
+      found->weights.assign(ways.size() + 1, 1.0 / static_cast<double>(ways.size() + 1));
+  }
+  std::erase_if(beliefs_,
+                [&](const WayBelief& belief) { return scene.time - belief.seen > kForgotten; });
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,176 @@
+#include "ego/search_planners.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "scene/extent.h"
+#include "support/road_scene.h"
+
+namespace sumogamma {
+namespace {
+
+using testing::crossroads;
+using testing::read_plain_net;
+using testing::RoadScene;
+
+/// A scene on a crossroads that goes on by the one step, its ego by a planner.
+class DrivingTest : public ::testing::Test {
+ protected:
+  static const RoadNetwork& net() {
+    static const RoadNetwork network = read_plain_net(crossroads("traffic_light"));
+    return network;
+  }
+
+  DrivingTest() {
+    here_.road.signal_since.assign(here_.model.road.signals.size(), 0.0);
+    show('G');
+    settings_.goal_way = 1000;
+    goal_ = {Vec2(1e4, 1e4), Vec2(1, 0), 1000};  // never reached
+  }
+  void show(char letter) {
+    for (std::size_t i = 0; i < here_.road.signal_states.size(); ++i)
+      here_.road.signal_states[i] = std::string(here_.model.road.signals[i].size, letter);
+  }
+  /// The ego on the road from the south to the north.
+  void add_ego(double along, double speed) {
+    ego_ = here_.add("car", {"SC", "CN"}, along, speed);
+    here_.scene.control[ego_] = Control::Planned;
+  }
+  Advance world() { return {here_.model, workers_, here_.road, here_.scene, traffic_, work_}; }
+  TrafficView view() {
+    look_about(world(), {.rules = rules_});
+    return {here_.model,
+            here_.road,
+            here_.scene,
+            traffic_.state,
+            work_.geometry.grid,
+            traffic_.approaches,
+            traffic_.perception,
+            traffic_.waits,
+            traffic_.parameters,
+            traffic_.code,
+            rules_};
+  }
+  template <class Use>
+  auto with_view(Use use) {
+    const TrafficView traffic = view();
+    const EgoView seen{traffic, workers_,         ego_, settings_, goal_, 1,
+                       plan_,   here_.scene.time, 0.0,  rules_};
+    return use(seen);
+  }
+  SearchDecision decide(DrivingSearch& search) {
+    ++plan_;
+    return with_view([&](const EgoView& seen) { return search.decide(seen); });
+  }
+  void advance(double acceleration, double seconds = 0.35) {
+    EgoAction action;
+    action.acceleration = acceleration;
+    for (double time = 0; time < seconds - 1e-9; time += 0.05)
+      advance_rows(world(), {.rules = rules_}, [&](const TrafficView& now, std::size_t row) {
+        return velocity_of(action, now.model, now.scene, row, {settings_.max_speed, 0.0, 0.05});
+      });
+  }
+  void drive(DrivingSearch& search, int plans) {
+    for (int k = 0; k < plans; ++k) advance(decide(search).acceleration);
+  }
+  double speed() const { return here_.scene.speed[ego_]; }
+  double front() const { return here_.scene.path_along[ego_] + 2.25; }
+
+  RoadScene here_{net()};
+  Workers workers_{1};
+  Traffic traffic_;
+  AdvanceWork work_;
+  EgoSettings settings_;
+  EgoGoal goal_;
+  bool rules_ = true;
+  std::size_t ego_ = 0;
+  std::int64_t plan_ = -1;
+};
+
+class EveryPlanner : public DrivingTest, public ::testing::WithParamInterface<SearchPlanner> {};
+
+TEST_P(EveryPlanner, AcceleratesToItsTopSpeedWhereNobodyIs) {
+  add_ego(20, 0);
+  DrivingSearch search(GetParam());
+  drive(search, 9);
+  EXPECT_NEAR(speed(), settings_.max_speed, 0.3);
+  for (int k = 0; k < 12; ++k) {
+    drive(search, 1);
+    EXPECT_NEAR(speed(), settings_.max_speed, 0.3);
+  }
+}
+
+TEST_P(EveryPlanner, StandsBeforeWhatBlocksItsWay) {
+  add_ego(20, 4);
+  const std::size_t wall = here_.add("car", {"SC", "CN"}, 60, 0);
+  here_.scene.control[wall] = Control::Parked;
+  DrivingSearch search(GetParam());
+  drive(search, 40);
+  EXPECT_LT(speed(), 0.05);
+  const double gap = here_.scene.path_along[wall] - 2.25 - front();
+  EXPECT_GT(gap, 0.3);
+  EXPECT_LT(gap, 12.0);
+}
+
+TEST_P(EveryPlanner, StandsAtARedLine) {
+  show('r');
+  add_ego(120, 6);
+  DrivingSearch search(GetParam());
+  drive(search, 60);
+  const double line = here_.path(ego_).links.front().stop_line;
+  EXPECT_LT(speed(), 0.05);
+  EXPECT_LE(front(), line);
+  EXPECT_GT(front(), line - 6.0);
+  show('G');
+  drive(search, 10);
+  EXPECT_GT(speed(), 4.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryPlanner,
+                         ::testing::Values(SearchPlanner::PomdpGamma, SearchPlanner::RolloutGamma,
+                                           SearchPlanner::PomdpSimple, SearchPlanner::Policy,
+                                           SearchPlanner::Oracle));
+
+TEST_F(DrivingTest, APlanChangesNothingAndIsTheSameAgain) {
+  add_ego(150, 6);
+  here_.add("car", {"WC", "CE"}, 165, 8);
+  here_.add("car", {"EC", "CS"}, 150, 8);
+  view();
+  const std::uint64_t before = hash_state(here_.scene);
+  DrivingSearch one(SearchPlanner::PomdpGamma), other(SearchPlanner::PomdpGamma);
+  const SearchDecision first = decide(one);
+  EXPECT_EQ(hash_state(here_.scene), before);
+  --plan_;
+  const SearchDecision second = decide(other);
+  EXPECT_EQ(first.action, second.action);
+  EXPECT_EQ(first.statistics.nodes, second.statistics.nodes);
+  EXPECT_EQ(first.statistics.lower, second.statistics.lower);
+  EXPECT_EQ(first.statistics.upper, second.statistics.upper);
+  EXPECT_LE(first.statistics.lower, first.statistics.upper);
+}
+
+TEST_F(DrivingTest, BrakingNeverLengthensTheWay) {
+  add_ego(140, 5);
+  here_.add("car", {"WC", "CE"}, 160, 8);
+  with_view([&](const EgoView& seen) {
+    ForwardModel forward;
+    forward.follow(here_.model);
+    const PlanRoot root = plan_root(seen, WayBeliefs(), true, 4);
+    DrivingProblem problem(seen, root, OthersModel::Gamma, {}, forward);
+    std::vector<double> ways;
+    for (const int action : {2, 0, 1}) {  // brake, keep, accelerate
+      DrivingState state;
+      draw_scenario(forward.model(), root, 1, 0, 1, state);
+      for (int k = 0; k < 4; ++k) problem.step(state, action, 0.5);
+      ways.push_back(state.scene.path_along[root.ego]);
+    }
+    EXPECT_LT(ways[0], ways[1]);
+    EXPECT_LT(ways[1], ways[2]);
+  });
+}
+
+}  // namespace
+}  // namespace sumogamma

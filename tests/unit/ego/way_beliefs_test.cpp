@@ -1,0 +1,148 @@
+#include "ego/way_beliefs.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <vector>
+
+#include "support/road_scene.h"
+
+namespace sumogamma {
+namespace {
+
+using testing::crossroads;
+using testing::read_plain_net;
+using testing::RoadScene;
+
+/// An ego that stands and looks at somebody who drives by the one step.
+class WayBeliefsTest : public ::testing::Test {
+ protected:
+  static const RoadNetwork& net() {
+    static const RoadNetwork network = read_plain_net(crossroads("priority"));
+    return network;
+  }
+  WayBeliefsTest() {
+    ego_ = here_.add("car", {"SC", "CN"}, 185, 0);
+    here_.scene.control[ego_] = Control::Planned;
+  }
+  void look() {
+    const Advance world{here_.model, workers_, here_.road, here_.scene, traffic_, work_};
+    look_about(world, {});
+    const TrafficView view{here_.model,         here_.road,          here_.scene,
+                           traffic_.state,      work_.geometry.grid, traffic_.approaches,
+                           traffic_.perception, traffic_.waits,      traffic_.parameters,
+                           traffic_.code};
+    const EgoView seen{view,    workers_,         ego_, settings_, goal_, 1,
+                       plan_++, here_.scene.time, 0,    true};
+    beliefs_.observe(seen, forward_);
+  }
+  void advance() {
+    const Advance world{here_.model, workers_, here_.road, here_.scene, traffic_, work_};
+    for (int k = 0; k < 7; ++k) advance_rows(world, {});  // the ego brakes, and stands
+  }
+  /// What is believed of a row's way into an edge.
+  double weight_of(std::size_t row, const std::string& edge) const {
+    const WayBelief* belief = beliefs_.of(here_.scene.id[row]);
+    if (belief == nullptr) return -1;
+    double sum = 0;
+    for (std::size_t i = 0; i < belief->ways.size(); ++i)
+      for (const PathLink& link : belief->ways[i]->links) {
+        const LaneId to = net().connection(link.connection).to;
+        if (net().edge(net().lane(to).edge).name == edge) sum += belief->weights[i];
+      }
+    return sum;
+  }
+
+  RoadScene here_{net()};
+  Workers workers_{1};
+  Traffic traffic_;
+  AdvanceWork work_;
+  EgoSettings settings_;
+  EgoGoal goal_;
+  ForwardModel forward_;
+  WayBeliefs beliefs_;
+  std::size_t ego_ = 0;
+  std::int64_t plan_ = 0;
+};
+
+TEST_F(WayBeliefsTest, ConcentrateOnALeftTurnerBeforeTheJunction) {
+  const std::size_t foe = here_.add("car", {"WC", "CN"}, 158, 10, 0, -1, "WC_1");
+  const double line = here_.path(foe).links.front().stop_line;
+  look();
+  const double begin = weight_of(foe, "CN");
+  EXPECT_GT(begin, 0.1);
+  EXPECT_LT(begin, 0.6);
+  double before_line = begin;
+  for (int k = 0; k < 60; ++k) {
+    advance();
+    look();
+    const WayBelief* belief = beliefs_.of(here_.scene.id[foe]);
+    ASSERT_NE(belief, nullptr);
+    EXPECT_NEAR(std::accumulate(belief->weights.begin(), belief->weights.end(), 0.0), 1, 1e-12);
+    if (here_.scene.path_along[foe] + 2.25 < line) before_line = weight_of(foe, "CN");
+    if (here_.scene.path_along[foe] > line + 3) break;
+  }
+  EXPECT_GT(before_line, 0.6);
+  EXPECT_GT(weight_of(foe, "CN"), 0.9);
+}
+
+TEST_F(WayBeliefsTest, AreUniformAgainOnANewLane) {
+  const std::size_t foe = here_.add("car", {"WC", "CE"}, 158, 10, 0, -1, "WC_1");
+  const LaneId begin = [&] {
+    look();
+    return beliefs_.of(here_.scene.id[foe])->lane;
+  }();
+  bool moved = false;
+  for (int k = 0; k < 40 && !moved; ++k) {
+    advance();
+    look();
+    const WayBelief* belief = beliefs_.of(here_.scene.id[foe]);
+    ASSERT_NE(belief, nullptr);
+    if (belief->lane == begin) continue;
+    moved = true;
+    for (const double weight : belief->weights)
+      EXPECT_DOUBLE_EQ(weight, 1.0 / static_cast<double>(belief->weights.size()));
+  }
+  EXPECT_TRUE(moved);
+}
+
+TEST_F(WayBeliefsTest, OfWhoIsGoneAreForgotten) {
+  const std::size_t foe = here_.add("car", {"WC", "CE"}, 190, 10, 0, -1, "WC_1");
+  const AgentId id = here_.scene.id[foe];
+  look();
+  EXPECT_NE(beliefs_.of(id), nullptr);
+  remove_agents(here_.scene, {false, true});
+  for (int k = 0; k < 8; ++k) {
+    advance();
+    look();
+  }
+  EXPECT_EQ(beliefs_.of(id), nullptr);
+}
+
+TEST(Likelihood, FallsWithTurnAndWay) {
+  const Vec2 ahead(3, 0);
+  EXPECT_NEAR(likelihood(ahead, ahead), 1.001 * 1.001, 1e-12);
+  EXPECT_LT(likelihood(ahead, Vec2(3.2, 0)), 0.2);
+  EXPECT_LT(likelihood(ahead, 3 * direction_of(0.3)), 0.01);
+  EXPECT_NEAR(likelihood(Vec2(0, 0), Vec2(0, 0)), 1.001 * 1.001, 1e-12);
+  EXPECT_GT(likelihood(ahead, Vec2(0, 9)), 0);
+}
+
+TEST(CandidateWaysTest, LeadToEveryEdgeAtTheJunction) {
+  const RoadNetwork network = read_plain_net(crossroads("priority"));
+  CandidateWays ways(network);
+  const AgentTypeTable types = default_agent_types();
+  const AgentTypeId car = find_agent_type(types, "car");
+  const auto found = ways.ways(type_of(types, car), car, network.lane_by_name.at("WC_0"));
+  EXPECT_EQ(found.size(), 3u);
+  for (const auto& path : found) {
+    EXPECT_EQ(path->stretches.front().lane, network.lane_by_name.at("WC_0"));
+    EXPECT_GT(path->line.length(), 290);
+  }
+  const AgentTypeId walker = find_agent_type(types, "pedestrian");
+  EXPECT_TRUE(ways.ways(type_of(types, walker), walker, network.lane_by_name.at("WC_0")).empty());
+  EXPECT_TRUE(ways.ways(type_of(types, car), car, kNoLane).empty());
+}
+
+}  // namespace
+}  // namespace sumogamma
