@@ -93,6 +93,7 @@ void ExternalEgo::join() {
 }
 
 std::optional<std::uint64_t> ExternalEgo::next_episode(std::span<const std::uint64_t> left) {
+  hello_["seeds"] = std::vector<std::uint64_t>(left.begin(), left.end());
   failure_.clear();
   closed_ = false;
   plan_ = late_ = 0;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+#include <vector>
+
 #include "ego/ego_driver.h"
 #include "ego/episode.h"
 #include "model/tracking.h"
@@ -46,11 +49,13 @@ TEST_F(OnAPlain, KnowsHowTheEgoMetSomebody) {
 
 TEST_F(OnAPlain, AnswersForWhatItRanInto) {
   EgoContact contact;
-  for (const auto& [kind, in_lane, off_lane] : {std::tuple{ContactKind::Front, true, true},
-                                                {ContactKind::OtherStood, true, true},
-                                                {ContactKind::Side, false, true},
-                                                {ContactKind::FromBehind, false, false},
-                                                {ContactKind::Standing, false, false}}) {
+  using Case = std::tuple<ContactKind, bool, bool>;
+  for (const auto& [kind, in_lane, off_lane] :
+       std::vector<Case>{{ContactKind::Front, true, true},
+                         {ContactKind::OtherStood, true, true},
+                         {ContactKind::Side, false, true},
+                         {ContactKind::FromBehind, false, false},
+                         {ContactKind::Standing, false, false}}) {
     contact.kind = kind;
     contact.in_one_lane = true;
     EXPECT_EQ(is_at_fault(contact), in_lane);

@@ -45,7 +45,7 @@ TEST(EgoSettings, AnUnknownPlannerIsToldTheNearestOne) {
 TEST(EgoSettings, AWindowIsABox) {
   EgoSettings settings;
   for (const std::vector<double>& window :
-       {std::vector<double>{1}, {0, 0, 0, 5}, {5, 0, 0, 5}, {0, 0, 1, 1, 1}}) {
+       std::vector<std::vector<double>>{{1}, {0, 0, 0, 5}, {5, 0, 0, 5}, {0, 0, 1, 1, 1}}) {
     settings.window = window;
     EXPECT_NE(refusal(settings), "");
   }

@@ -57,7 +57,7 @@ TEST(PairedDifference, CoversADifferenceThatIsKnown) {
 
 TEST(Bootstrap, CoversAMeanThatIsKnown) {
   int covered = 0, rejected = 0;
-  constexpr int kRuns = 100;
+  constexpr int kRuns = 40;
   for (int run = 0; run < kRuns; ++run) {
     std::vector<double> values;
     for (std::uint64_t k = 0; k < 40; ++k)
@@ -66,8 +66,8 @@ TEST(Bootstrap, CoversAMeanThatIsKnown) {
     covered += mean.low <= 0.0 && 0.0 <= mean.high;
     rejected += bootstrap_p(values, 7) < 0.05;
   }
-  EXPECT_GE(covered, 86);  // 95 +- 4.4 two deviations
-  EXPECT_LE(rejected, 14);
+  EXPECT_GE(covered, 33);  // 38 of 40 are expected, with a deviation of 1.4
+  EXPECT_LE(rejected, 7);
 }
 
 TEST(Bootstrap, IsAFunctionOfItsKey) {
