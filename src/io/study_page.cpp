@@ -168,9 +168,14 @@ class StudyPage {
         "Mean</th><th class=\"n\">{}</th><th class=\"n\">Difference</th><th>95 % interval</th>"
         "<th></th><th></th></tr></thead><tbody>\n",
         escaped(baseline()));
+    std::string never;
     for (const std::string& key : study_.measures) {
       const SummaryRow* base = find(key, baseline(), over_);
       if (!base) continue;
+      if (is_all_zero(key)) {
+        never += (never.empty() ? "" : "; ") + escaped(measure_of(key).label);
+        continue;
+      }
       double reach = 0;
       for (const StudyVariant& variant : study_.variants)
         if (const SummaryRow* row = find(key, variant.name, over_);
@@ -184,7 +189,14 @@ class StudyPage {
         text += measure_row(key, *row, *base, reach > 0 ? reach : 1.0);
       }
     }
-    return text + "</tbody></table></div>\n";
+    text += "</tbody></table></div>\n";
+    if (!never.empty()) text += "<p class=\"how\">0 in every run: " + never + ".</p>\n";
+    return text;
+  }
+  bool is_all_zero(const std::string& measure) const {
+    return std::none_of(rows_.begin(), rows_.end(), [&](const SummaryRow& row) {
+      return row.measure == measure && (row.value.mean != 0.0 || row.value.deviation != 0.0);
+    });
   }
   static std::string measure_row(const std::string& key, const SummaryRow& row,
                                  const SummaryRow& base, double reach) {
@@ -288,7 +300,7 @@ class StudyPage {
     text += "</tr></thead><tbody>\n";
     for (const std::string& measure : study_.measures)
       for (const StudyScenario& scenario : study_.scenarios) {
-        if (!find(measure, baseline(), scenario.name)) continue;
+        if (!find(measure, baseline(), scenario.name) || is_all_zero(measure)) continue;
         text += fmt::format("<tr><th>{}</th><td>{}</td>", escaped(name_of(measure_of(measure))),
                             escaped(scenario.name));
         for (const std::size_t variant : pictured_)
