@@ -137,7 +137,8 @@ TEST_F(Batch, GivesTheSameBytesHoweverItWasRun) {
   EXPECT_THAT(read_file(folder_ / "apart/distances.csv"), HasSubstr("speed,"));
 
   const std::string cut = (folder_ / "cut.fcd.xml.gz").string();
-  write_file(cut, read_file(zebra + "/gamma/5/trajectories.fcd.xml.gz").substr(0, 2000));
+  const std::string recording = read_file(zebra + "/gamma/5/trajectories.fcd.xml.gz");
+  write_file(cut, recording.substr(0, recording.size() / 2));
   const ProcessResult refused_cut = program({"compare", cut, zebra + "/gamma"});
   EXPECT_EQ(refused_cut.exit_code, 2);
   EXPECT_THAT(refused_cut.errors, HasSubstr("it was cut off"));
