@@ -1,11 +1,15 @@
 #include "app/recorded_motion.h"
 
 #include <spdlog/spdlog.h>
+#include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -56,12 +60,22 @@ class FcdReader {
   FcdReader(const fs::path& file, MotionSampler& sampler) : file_(file), sampler_(sampler) {}
 
   void read() {
-    visit_lines(file_, [&](const XmlLine& line) {
-      if (line.element == "timestep")
-        begin_step(line.number("time", -1.0));
-      else if (line.element == "vehicle" || line.element == "person")
-        add(line);
-    });
+    const std::unique_ptr<gzFile_s, decltype(&gzclose)> stream(gzopen(file_.c_str(), "rb"),
+                                                               &gzclose);
+    if (!stream) throw Error(file_.string(), "can't be read");
+    bool ended = false;
+    std::string line;
+    std::array<char, 1 << 12> part{};
+    while (gzgets(stream.get(), part.data(), static_cast<int>(part.size()))) {
+      line += part.data();
+      if (line.back() != '\n') continue;
+      ended = ended || line.find("</fcd-export>") != std::string::npos;
+      look_at(parse_line(std::move(line)));
+      line.clear();
+    }
+    if (!ended && line.find("</fcd-export>") == std::string::npos)
+      throw Error(file_.string(),
+                  "has no end (</fcd-export>): it was cut off, or is none in SUMO's FCD schema");
     end_step();
     if (period_ <= 0.0)
       throw Error(file_.string(), "holds no two steps in SUMO's FCD schema, expected trajectories");
@@ -69,6 +83,13 @@ class FcdReader {
   }
 
  private:
+  void look_at(const XmlLine& line) {
+    if (line.element == "timestep")
+      begin_step(line.number("time", -1.0));
+    else if (line.element == "vehicle" || line.element == "person")
+      add(line);
+  }
+
   void begin_step(double time) {
     end_step();
     time_ = time;

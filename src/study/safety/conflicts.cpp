@@ -96,6 +96,12 @@ void ConflictMonitor::look_at_pairs(const Scene& scene) {
     for (std::size_t j = i + 1; j < reaches_.size() && reaches_[j].left < reaches_[i].right; ++j)
       look_at(scene, std::min(reaches_[i].row, reaches_[j].row),
               std::max(reaches_[i].row, reaches_[j].row));
+  // also of those who have stopped, or part again
+  for (auto& [pair, conflict] : open_) {
+    const std::size_t a = find_row(scene, conflict.a), b = find_row(scene, conflict.b);
+    if (a < scene.size() && b < scene.size())
+      conflict.gap = std::min(conflict.gap, outline_gap(bodies_[a], bodies_[b]));
+  }
 }
 
 void ConflictMonitor::look_at(const Scene& scene, std::uint32_t a, std::uint32_t b) {
@@ -105,24 +111,15 @@ void ConflictMonitor::look_at(const Scene& scene, std::uint32_t a, std::uint32_t
   const double distance = offset.norm(), circles = one.footprint.radius + other.footprint.radius;
   const double speeds = one.velocity.norm() + other.velocity.norm();
   if (distance - circles > kHorizon * speeds) return;
-  const auto running = open_.find({scene.id[a].value, scene.id[b].value});
   // who moves away, straight, doesn't meet
   const bool straight = one.turn_rate == 0.0 && other.turn_rate == 0.0;
-  const bool parts = straight && distance > circles && relative.dot(offset) <= 0.0;
-  if ((parts && running == open_.end()) || !counts(scene, a, b)) return;
-  const double time =
-      parts ? std::numeric_limits<double>::infinity() : time_to_collision(one, other, kHorizon);
-  const bool met = time < kHorizon;
-  if (!met && running == open_.end()) return;
-  const double gap = outline_gap(one, other);
-  if (!met) {
-    running->second.gap = std::min(running->second.gap, gap);
-    return;
-  }
+  if (straight && distance > circles && relative.dot(offset) <= 0.0) return;
+  if (!counts(scene, a, b)) return;
+  const double time = time_to_collision(one, other, kHorizon);
+  if (!(time < kHorizon)) return;
   Conflict& conflict = encounter(scene, a, b);
   conflict.until = scene.time;
-  conflict.gap = std::min(conflict.gap, gap);
-  conflict.touched = conflict.touched || gap <= 0.0;
+  conflict.touched = conflict.touched || time <= 0.0;
   if (time < kFhwaThresholds.time_to_collision) exposed_ += static_cast<double>(every_) * step_;
   // of two that touch the relative speed tells no deceleration that would have avoided it
   if (time > 0.0) {

@@ -136,6 +136,13 @@ TEST_F(Batch, GivesTheSameBytesHoweverItWasRun) {
   EXPECT_EQ(apart.exit_code, 0) << apart.errors;
   EXPECT_THAT(read_file(folder_ / "apart/distances.csv"), HasSubstr("speed,"));
 
+  const std::string cut = (folder_ / "cut.fcd.xml.gz").string();
+  const std::string recording = read_file(zebra + "/gamma/5/trajectories.fcd.xml.gz");
+  write_file(cut, recording.substr(0, recording.size() / 2));
+  const ProcessResult refused_cut = program({"compare", cut, zebra + "/gamma"});
+  EXPECT_EQ(refused_cut.exit_code, 2);
+  EXPECT_THAT(refused_cut.errors, HasSubstr("it was cut off"));
+
   // the same folder with other settings
   const std::string other = write_study("other", "seeds = 1\nagents = 7").string();
   const ProcessResult refused = run({other, "-o", whole.string()});

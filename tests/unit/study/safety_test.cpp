@@ -89,10 +89,11 @@ TEST(TimeToCollision, AgreesWithSteppingInTime) {
       if (outline_gap(moved(a, kStep * k), moved(b, kStep * k)) <= 0.0) stepped = kStep * k;
     const double time = time_to_collision(a, b, 3.0);
     // a graze of less than a step may be missed by stepping
-    if (std::isfinite(stepped))
+    if (std::isfinite(stepped)) {
       EXPECT_NEAR(time, stepped, kStep + 1e-3);
-    else if (std::isfinite(time))
+    } else if (std::isfinite(time)) {
       EXPECT_LT(outline_gap(moved(a, time), moved(b, time)), 2e-3);
+    }
   }
 }
 

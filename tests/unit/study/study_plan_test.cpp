@@ -75,9 +75,10 @@ TEST(Shards, ShareTheRunsOut) {
 TEST(FolderName, IsAFolderAndTellsTextsApart) {
   EXPECT_EQ(folder_name("monaco"), "monaco");
   std::set<std::string> names;
-  for (const std::string text :
-       {"", ".", "..", "a b", "a/b", "a_b", "x/../../y", std::string(500, 'x').c_str(),
-        std::string(501, 'x').c_str(), "ä"}) {
+  const std::vector<std::string> texts{
+      "", ".", "..", "a b", "a/b", "a_b", "x/../../y", std::string(500, 'x'), std::string(501, 'x'),
+      "ä"};
+  for (const std::string& text : texts) {
     const std::string name = folder_name(text);
     EXPECT_TRUE(names.insert(name).second) << text;
     EXPECT_EQ(name.find('/'), std::string::npos);
