@@ -1,7 +1,9 @@
 # Debian packages by CPack, one a component of cmake/install.cmake: tools/package.sh makes and checks them.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME sumo-gamma)
-set(CPACK_PACKAGE_CONTACT "sumo-gamma developers <sumo-gamma@localhost>")
+set(SUMOGAMMA_MAINTAINER "The sumo-gamma authors <sumo-gamma@users.noreply.github.com>" CACHE STRING
+  "Whom the packages name")
+set(CPACK_PACKAGE_CONTACT ${SUMOGAMMA_MAINTAINER})
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -11,6 +13,8 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
 set(CPACK_COMPONENTS_ALL program development)
 set(own_version "${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}")
 
@@ -19,17 +23,17 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "sumo (>= 1.15), sumo-tools (>= 1.15)")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/triggers)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "mixed urban traffic by the GAMMA motion model for Eclipse SUMO
- Cars, buses, lorries, motorcycles, bicycles and pedestrians on any
- OpenStreetMap city, driven by GAMMA beside or instead of SUMO's own models.
- SUMO inserts, routes, runs the signals and shows it.")
+Cars, buses, lorries, motorcycles, bicycles and pedestrians on any
+OpenStreetMap city, driven by GAMMA beside or instead of SUMO's own models.
+SUMO inserts, routes, runs the signals and shows it.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsumo-gamma-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "sumo-gamma (= ${own_version})")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "headers and CMake package of sumo-gamma
- For C++ programs whose own loop drives SUMO's traffic by the GAMMA motion
- model: observe, step, advance.")
+For C++ programs whose own loop drives SUMO's traffic by the GAMMA motion
+model: observe, step, advance.")
 
 if(TARGET sumo_gamma_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
@@ -39,8 +43,8 @@ if(TARGET sumo_gamma_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "sumo-gamma (= ${own_version}), python3-numpy, \
 python3 (>= 3.${SUMOGAMMA_PYTHON_MINOR}), python3 (<< 3.${next_python})")
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION "sumo-gamma for Python
- Hands the agents of a loop over TraCI to the GAMMA motion model in two lines,
- and has the program's commands as functions.")
+Hands the agents of a loop over TraCI to the GAMMA motion model in two lines,
+and has the program's commands as functions.")
 endif()
 
 # what Debian's policy asks of each package, and the program's man page and completion

@@ -8,6 +8,10 @@ import traci
 import sumo_gamma
 
 
+def vehicles_of(gamma):
+    return sum(driven and kind != "pedestrian" for driven, kind in zip(gamma.driven, gamma.types))
+
+
 def main(config):
     traci.start(["sumo", "-c", config, "--step-length", "0.1", "--no-step-log", "true"])
     gamma = sumo_gamma.attach(traci)  # <- hands the agents over
@@ -16,15 +20,15 @@ def main(config):
         gamma.drive()  # <- moves them
         traci.simulationStep()
         seen.update(traci.vehicle.getIDList())  # all of TraCI goes on as ever
-    driven = int(gamma.driven.sum())
-    gamma.release()  # all vehicles are SUMO's again, each as soon as SUMO can take it
+    before = vehicles_of(gamma)
+    gamma.release()  # takes all vehicles back, each as soon as SUMO can go on with it
     while traci.simulation.getTime() < 120:
         gamma.drive()
         traci.simulationStep()
-    handed_back = driven - int(gamma.driven.sum())
+    after = vehicles_of(gamma)
     gamma.close()
     traci.close()
-    print(f"{len(seen)} vehicles seen, {driven} agents driven at 60 s, {handed_back} fewer at 120 s")
+    print(f"{len(seen)} vehicles seen in 60 s; {before} of them GAMMA's then, {after} at 120 s")
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ __all__ = ["Error", "Session", "SumoError", "VelocitySpace", "attach", "import_m
            "scene", "__version__"]
 
 # given several times on the command line, where others take a list with commas
-_REPEATED = {"set", "take"}
+_REPEATED = {"method", "set", "take", "type"}
 
 
 def _words(options):
@@ -90,19 +90,28 @@ class Session(_Session):
 
     def __init__(self, scenario, *, socket=-1, **options):
         super().__init__([_os.fspath(scenario)] + _words(options), socket)
+        self._gives_all_back = False
 
     def drive(self, decide=None):
         """One step. `decide`, if given, is called with the session between observe() and step()."""
         self.observe()
+        if self._gives_all_back:
+            self._release_driven()
         if decide is not None:
             decide(self)
         self.step()
         self.advance()
 
     def release(self, vehicle=None):
-        """Hands a vehicle back to SUMO, all that GAMMA drives where none is given, as soon as SUMO can take it."""
+        """Hands a vehicle back to SUMO, as soon as SUMO can take it. Where none is given, all that GAMMA drives, and
+        by drive() whoever comes from then on."""
         if vehicle is not None:
-            return self._release(vehicle)
+            self._release(vehicle)
+            return
+        self._gives_all_back = True
+        self._release_driven()
+
+    def _release_driven(self):
         for identifier, driven, kind in zip(self.ids, self.driven, self.types):
             if driven and kind != "pedestrian":
                 self._release(identifier)

@@ -378,9 +378,8 @@ TEST_F(UserConfigTest, NamesNeverReachAShell) {
   const std::string mark = "touched";
   const std::string hostile = "x;touch " + mark + ";$(touch " + mark + ")`touch " + mark + "`";
   std::string routes = content(folder_ / "own" / "demand.rou.xml");
-  // SUMO takes blanks and quotes in ids; those of its own reserved letters it refuses by itself
-  const std::size_t first = routes.find("<vehicle id=\"") + 13;
-  routes.insert(first, "$(touch " + mark + ")");
+  // SUMO refuses ids with blanks and quotes by itself
+  routes.insert(routes.find("<vehicle id=\"") + 13, "$(touch${IFS}" + mark + ")");
   put("demand.rou.xml", routes);
   const fs::path folder = folder_ / ("own " + hostile);
   fs::copy(folder_ / "own", folder);
