@@ -58,7 +58,7 @@ class Episode {
         sim_(*drive.sim),
         seed_(seed),
         backend_(start(drive, seed)),
-        world_(sim_.model, *backend_, world_options_of(drive.plan)),
+        world_(sim_.model, *backend_, world_options()),
         ego_world_(world_, ego_id(),
                    [this](Scene& scene, const RoadState& road, std::size_t row) {
                      enter(scene, road, row);
@@ -110,6 +110,11 @@ class Episode {
     return start_backend(drive.plan, sim.model.road, name);
   }
 
+  SumoWorldOptions world_options() const {
+    SumoWorldOptions options = world_options_of(drive_.plan);
+    options.ego = ego_id();
+    return options;
+  }
   bool drawn() const { return drive_.settings.vehicle.empty(); }
   std::string ego_id() const { return drawn() ? kEgoId : drive_.settings.vehicle; }
   /// Is it moved along a planner's wish?
@@ -170,7 +175,7 @@ class Episode {
     for (std::uint64_t k = 0; k < kDraws && !is_placed_; ++k) {
       const auto start = draw.draw(seed_, draws_++);
       if (!start || !is_free(sim_.scene, *start, type, drive_.settings.clearance)) continue;
-      SumoBackend::NewVehicle vehicle{ego_id(), drive_.settings.type, {}, 0, start->front};
+      SumoBackend::NewVehicle vehicle{ego_id(), kEgoTypeId, {}, 0, start->front};
       for (const EdgeId edge : start->route)
         vehicle.route.push_back(sim_.model.road.edge(edge).name);
       vehicle.lane_index = sim_.model.road.lane(start->lane).index;

@@ -25,6 +25,8 @@ struct Drive {
 
 /// The id in SUMO of an ego that is no vehicle of the demand.
 inline constexpr const char* kEgoId = "sumo-gamma.ego";
+/// Of the vType of such an ego: its own, whatever the demand calls its types.
+inline constexpr const char* kEgoTypeId = "sumo-gamma.ego";
 
 /// One episode from the start of SUMO to its end; nothing where the user interrupted it. Throws
 /// SumoError where SUMO fails, and Error where no start has room or the ego can't be driven.

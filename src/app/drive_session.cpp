@@ -14,7 +14,6 @@
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/print.h"
-#include "base/xml_text.h"
 #include "io/episode_files.h"
 #include "io/output_file.h"
 
@@ -214,18 +213,17 @@ nlohmann::json hello_of(const Drive& drive, const Seeds& seeds) {
             {"accelerations", ego.accelerations}}}};
 }
 
-/// SUMO needs a vType of the ego's type: the demand's own, or one more.
+/// SUMO needs a vType of the ego whose start is drawn.
 void provide_type(Drive& drive, const std::filesystem::path& folder) {
   RunPlan& plan = drive.plan;
-  if (!drive.settings.vehicle.empty() || plan.inventory.types.contains(drive.settings.type)) return;
+  if (!drive.settings.vehicle.empty()) return;
   const AgentType& type =
       type_of(plan.config.types, find_agent_type(plan.config.types, drive.settings.type));
   const std::filesystem::path file = std::filesystem::absolute(folder / "ego.add.xml");
-  std::string name;
-  append_escaped(name, type.name);
-  write_file(file, fmt::format("<additional><vType id=\"{}\" vClass=\"{}\" length=\"{}\" "
-                               "width=\"{}\" maxSpeed=\"{}\" speedDev=\"0\"/></additional>\n",
-                               name, type.sumo_class, type.length, type.width, type.max_speed));
+  write_file(file,
+             fmt::format("<additional><vType id=\"{}\" vClass=\"{}\" length=\"{}\" "
+                         "width=\"{}\" maxSpeed=\"{}\" speedDev=\"0\"/></additional>\n",
+                         kEgoTypeId, type.sumo_class, type.length, type.width, type.max_speed));
   std::string files;
   for (const auto& one : plan.input.additional)
     files += std::filesystem::absolute(one).string() + ",";

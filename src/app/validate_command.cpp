@@ -162,7 +162,7 @@ int validate(const ValidateOptions& options, const CommonOptions& common) {
              outcomes_html(outcomes, SUMOGAMMA_VERSION));
   std::fputs(outcomes_markdown(outcomes).c_str(), stdout);
   const auto failed = std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& outcome) {
-    return outcome.verdict == Verdict::Fail;
+    return outcome.verdict == Judgement::Fail;
   });
   if (!common.quiet)
     fmt::print(stderr, "{} of {} figures fail; the page: {}\n", failed, outcomes.size(),

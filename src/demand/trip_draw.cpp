@@ -46,7 +46,7 @@ class TripDraw {
       add_origin(candidates[draws_.weighted(cumulative)], min_distance);
   }
   bool empty() const { return origins_.empty(); }
-  Trip draw() {
+  TripEnds draw() {
     const Origin& origin = origins_[draws_.index(origins_.size())];
     return {origin.edge, origin.targets[draws_.weighted(origin.cumulative)]};
   }
@@ -88,9 +88,9 @@ class TripDraw {
 
 /// A type's trips, as far apart as the map allows; within one edge only where there are no others,
 /// or the router refused all of them.
-std::vector<Trip> draw_type(const TypeDemand& demand, std::uint64_t seed, std::uint64_t stream,
-                            double min_distance, long count) {
-  std::vector<Trip> trips;
+std::vector<TripEnds> draw_type(const TypeDemand& demand, std::uint64_t seed, std::uint64_t stream,
+                                double min_distance, long count) {
+  std::vector<TripEnds> trips;
   const bool refused = demand.report.trips_drawn > 0 && demand.pool.trips.empty();
   for (double distance = min_distance; distance > 5.0; distance /= 2)
     for (const bool within_edge : {refused, true}) {

@@ -17,7 +17,7 @@ namespace {
 
 void append_trip(pugi::xml_node root, const RoadNetwork& road, const TypeDemand& demand,
                  std::size_t row) {
-  const Trip& trip = demand.drawn[row];
+  const TripEnds& trip = demand.drawn[row];
   const std::string id = demand.type->name + "." + std::to_string(row);
   pugi::xml_node element = root.append_child(demand.walks ? "person" : "trip");
   element.append_attribute("id") = id.c_str();

@@ -11,7 +11,7 @@
 namespace sumogamma {
 
 /// Edges between which somebody travels.
-struct Trip {
+struct TripEnds {
   std::size_t from = 0, to = 0;
 };
 
@@ -20,7 +20,7 @@ struct TypeDemand {
   const AgentType* type = nullptr;
   bool walks = false;
   ClassGraph graph;
-  std::vector<Trip> drawn;
+  std::vector<TripEnds> drawn;
   TripPool pool;  ///< of those that the router found ways for
   DemandByType report;
 };

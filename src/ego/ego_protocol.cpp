@@ -45,7 +45,7 @@ double finite(const json& value, const char* what) {
 
 json pair_of(const Vec2& place) { return json::array({place.x(), place.y()}); }
 
-json to_json(const SeenAgent& agent, const AgentTypeTable& types) {
+json to_json(const VisibleAgent& agent, const AgentTypeTable& types) {
   return {{"id", agent.id},
           {"type", type_of(types, agent.type).name},
           {"position", pair_of(agent.position)},
@@ -158,7 +158,7 @@ json to_json(const EgoObservation& observation, const AgentTypeTable& types) {
                {"to_goal", observation.to_goal}};
   message["ego"]["speed"] = observation.speed;
   message["ego"]["steering"] = observation.steering;
-  for (const SeenAgent& agent : observation.agents)
+  for (const VisibleAgent& agent : observation.agents)
     message["agents"].push_back(to_json(agent, types));
   for (const WayPoint& point : observation.way)
     message["way"].push_back({{"position", pair_of(point.position)},

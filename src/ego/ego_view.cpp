@@ -10,7 +10,7 @@ namespace sumogamma {
 
 namespace {
 
-SeenAgent seen(const Scene& scene, std::size_t row) {
+VisibleAgent seen(const Scene& scene, std::size_t row) {
   const OrientedBox box = box_of(scene, row);
   return {scene.id[row].value, scene.type[row],    scene.position[row], scene.heading[row],
           scene.velocity[row], 2.0 * box.half.x(), 2.0 * box.half.y()};

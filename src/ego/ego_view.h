@@ -46,7 +46,7 @@ inline constexpr std::size_t kAgentsSeen = 20;
 inline constexpr double kSeen = 50.0;
 
 /// An agent as it can be seen: no path, no intention.
-struct SeenAgent {
+struct VisibleAgent {
   std::uint32_t id = 0;
   AgentTypeId type{};
   Vec2 position = Vec2::Zero();
@@ -65,13 +65,13 @@ struct WayPoint {
 
 struct EgoObservation {
   double time = 0;  ///< since the episode's begin [s]
-  SeenAgent ego;
-  double speed = 0, steering = 0;  ///< along its heading [m/s], front wheels [rad]
-  std::vector<SeenAgent> agents;   ///< the nearest, nearest first
-  std::vector<WayPoint> way;       ///< every 2 m, over 50 m or up to its end
-  Light light = Light::None;       ///< of the next link of its way that has a signal
-  double to_light = 0;             ///< from its front to that stop line [m]; 0 where there is none
-  double to_goal = 0;              ///< straight [m]
+  VisibleAgent ego;
+  double speed = 0, steering = 0;    ///< along its heading [m/s], front wheels [rad]
+  std::vector<VisibleAgent> agents;  ///< the nearest, nearest first
+  std::vector<WayPoint> way;         ///< every 2 m, over 50 m or up to its end
+  Light light = Light::None;         ///< of the next link of its way that has a signal
+  double to_light = 0;  ///< from its front to that stop line [m]; 0 where there is none
+  double to_goal = 0;   ///< straight [m]
 };
 
 EgoObservation observe_ego(const Model& model, const RoadState& road, const Scene& scene,

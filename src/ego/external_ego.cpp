@@ -1,7 +1,6 @@
 #include "ego/external_ego.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -12,19 +11,9 @@ namespace sumogamma {
 namespace {
 
 using nlohmann::json;
-using Clock = std::chrono::steady_clock;
 
 constexpr double kSending = 10.0;       // for the other side to take a message [s]
 constexpr double kContactCost = 100.0;  // in the reward [m]
-
-double seconds_until(Clock::time_point end) {
-  return std::chrono::duration<double>(end - Clock::now()).count();
-}
-
-Clock::time_point after(double seconds) {
-  return Clock::now() +
-         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-}
 
 std::string type_of_message(const json& message) { return message["type"].get<std::string>(); }
 

@@ -76,7 +76,7 @@ double mcnemar_mid_p(const PairedCounts& counts) {
   return std::min(1.0, 2.0 * tail - std::exp(log_share(least)));
 }
 
-Estimate paired_difference(const PairedCounts& counts) {
+IntervalEstimate paired_difference(const PairedCounts& counts) {
   const std::size_t n = counts.both + counts.first + counts.second + counts.neither;
   if (n == 0) return {0.0, -1.0, 1.0};
   const double all = static_cast<double>(n);
@@ -96,7 +96,7 @@ Estimate paired_difference(const PairedCounts& counts) {
   return {p - q, p - q - side(p - one.low, two.high - q), p - q + side(one.high - p, q - two.low)};
 }
 
-Estimate bootstrap_mean(std::span<const double> values, std::uint64_t key) {
+IntervalEstimate bootstrap_mean(std::span<const double> values, std::uint64_t key) {
   const double mean = mean_of(values);
   if (values.size() < 2) return {mean, mean, mean};
   const std::vector<double> means = resampled_means(values, key);

@@ -115,7 +115,7 @@ void adjust(std::vector<DriveFigure>& figures) {
     for (double& p : figures[k].p) p = adjusted[next++];
 }
 
-std::string text_of(const Estimate& estimate) {
+std::string text_of(const IntervalEstimate& estimate) {
   return fmt::format("{:.4g} [{:.4g}, {:.4g}]", estimate.value, estimate.low, estimate.high);
 }
 
@@ -129,7 +129,7 @@ std::string escaped(const std::string& text) {
 std::string panel_of(const DriveFigure& figure, const std::vector<std::string>& names) {
   constexpr double kWidth = 300, kHeight = 220, kFoot = 40, kHead = 34;
   double most = 0;
-  for (const Estimate& one : figure.of) most = std::max(most, one.high);
+  for (const IntervalEstimate& one : figure.of) most = std::max(most, one.high);
   if (most <= 0.0) most = 1.0;
   const auto height = [&](double value) {
     return kHeight - kFoot - (kHeight - kFoot - kHead) * std::max(value, 0.0) / most;
@@ -142,7 +142,7 @@ std::string panel_of(const DriveFigure& figure, const std::vector<std::string>& 
       kWidth, kHeight, escaped(figure.what), figure.unit.empty() ? "" : " [" + figure.unit + "]",
       height(0), kWidth - 8, kHead + 4, most);
   for (std::size_t k = 0; k < figure.of.size(); ++k) {
-    const Estimate& one = figure.of[k];
+    const IntervalEstimate& one = figure.of[k];
     const double x =
         40 + (kWidth - 48) * (static_cast<double>(k) + 0.5) / static_cast<double>(names.size());
     svg += fmt::format(
@@ -206,7 +206,7 @@ std::string drive_report_markdown(const DriveReport& report) {
   text += "\n";
   for (const DriveFigure& figure : report.figures) {
     text += "| " + figure.what + (figure.unit.empty() ? "" : " [" + figure.unit + "]") + " |";
-    for (const Estimate& one : figure.of) text += " " + text_of(one) + " |";
+    for (const IntervalEstimate& one : figure.of) text += " " + text_of(one) + " |";
     for (std::size_t k = 0; k < figure.difference.size(); ++k)
       text += " " + text_of(figure.difference[k]) + fmt::format(" | {:.3g} |", figure.p[k]);
     text += "\n";
@@ -234,7 +234,7 @@ std::string drive_report_html(const DriveReport& report) {
   for (const DriveFigure& figure : report.figures) {
     page += "<tr><td>" + escaped(figure.what) +
             (figure.unit.empty() ? "" : " [" + figure.unit + "]") + "</td>";
-    for (const Estimate& one : figure.of) page += "<td>" + text_of(one) + "</td>";
+    for (const IntervalEstimate& one : figure.of) page += "<td>" + text_of(one) + "</td>";
     for (std::size_t k = 0; k < figure.difference.size(); ++k)
       page +=
           "<td>" + text_of(figure.difference[k]) + fmt::format("</td><td>{:.3g}</td>", figure.p[k]);

@@ -12,9 +12,10 @@ namespace sumogamma {
 /// A figure of drives side by side.
 struct DriveFigure {
   std::string key, unit, what;
-  std::vector<Estimate> of;          ///< by drive
-  std::vector<Estimate> difference;  ///< of each drive but the first from that, over paired seeds
-  std::vector<double> p;             ///< likewise, adjusted after Holm over the three main figures
+  std::vector<IntervalEstimate> of;  ///< by drive
+  std::vector<IntervalEstimate>
+      difference;         ///< of each drive but the first from that, over paired seeds
+  std::vector<double> p;  ///< likewise, adjusted after Holm over the three main figures
 };
 
 /// Drives side by side, on the seeds that all have done and on which none was locked up.

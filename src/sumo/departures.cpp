@@ -125,8 +125,8 @@ void SumoWorld::insert_pending(Scene& scene, RoadState& road) {
   for (auto pending = pending_.begin(); pending != pending_.end();) {
     // as SUMO's --max-num-vehicles, which holds back nobody who walks
     const bool is_person = pending->details.is_person;
-    const bool held_back =
-        options_.max_vehicles > 0 && !is_person && vehicles >= options_.max_vehicles;
+    const bool held_back = options_.max_vehicles > 0 && !is_person &&
+                           vehicles >= options_.max_vehicles && pending->details.id != options_.ego;
     const PathStretch& start = pending->entry.path->stretches.front();
     const double place_length = is_person ? 1.0 : 10.0;
     const std::pair place(start.lane, static_cast<int>(start.lane_from / place_length));

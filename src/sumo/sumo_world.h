@@ -32,6 +32,7 @@ namespace sumogamma {
 struct SumoWorldOptions {
   ControlChoice control = control_of_all();
   std::size_t max_vehicles = 0;  ///< cap on vehicles on the road at once, 0: none
+  std::string ego;               ///< vehicle that the cap doesn't hold back
   std::uint64_t seed = 1;
   double dt = 0.05;                         ///< [s]
   std::vector<std::string> rerouter_edges;  ///< on which SUMO's rerouters act

@@ -46,7 +46,7 @@ std::string escaped(const std::string& text) {
 
 Outcome judge(const Trial& trial, const Criterion& criterion, std::vector<double> values,
               std::vector<double> sumo) {
-  Outcome outcome{&trial, &criterion, std::move(values), std::move(sumo), {}, Verdict::Fail};
+  Outcome outcome{&trial, &criterion, std::move(values), std::move(sumo), {}, Judgement::Fail};
   outcome.estimate = estimate_mean(outcome.values);
   // a seed that gave nothing to measure is no seed to leave out
   const bool measured =
@@ -54,19 +54,19 @@ Outcome judge(const Trial& trial, const Criterion& criterion, std::vector<double
   const bool inside = measured && outcome.estimate.mean >= criterion.band.low &&
                       outcome.estimate.mean <= criterion.band.high;
   if (inside)
-    outcome.verdict = Verdict::Pass;
+    outcome.verdict = Judgement::Pass;
   else if (measured && criterion.empirical)
-    outcome.verdict = Verdict::Note;
+    outcome.verdict = Judgement::Note;
   return outcome;
 }
 
-std::string to_string(Verdict verdict) {
+std::string to_string(Judgement verdict) {
   switch (verdict) {
-    case Verdict::Pass:
+    case Judgement::Pass:
       return "PASS";
-    case Verdict::Note:
+    case Judgement::Note:
       return "NOTE";
-    case Verdict::Fail:
+    case Judgement::Fail:
       break;
   }
   return "FAIL";
@@ -161,9 +161,9 @@ std::string picture(const Outcome& outcome) {
 std::string row_html(const Outcome& outcome) {
   const Criterion& asked = *outcome.criterion;
   const std::string verdict = to_string(outcome.verdict);
-  const char* sign = outcome.verdict == Verdict::Pass   ? "✓"
-                     : outcome.verdict == Verdict::Note ? "•"
-                                                        : "✗";
+  const char* sign = outcome.verdict == Judgement::Pass   ? "✓"
+                     : outcome.verdict == Judgement::Note ? "•"
+                                                          : "✗";
   return fmt::format(
       "<tr class='{}'><td>{} {}</td><td>{}{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
       "<td class='source'>{}</td></tr>\n",
@@ -188,7 +188,7 @@ table{border-collapse:collapse;width:100%}td,th{text-align:left;padding:.25rem .
 }  // namespace
 
 std::string outcomes_html(const std::vector<Outcome>& outcomes, const std::string& version) {
-  const auto count = [&](Verdict verdict) {
+  const auto count = [&](Judgement verdict) {
     return std::count_if(outcomes.begin(), outcomes.end(),
                          [&](const Outcome& outcome) { return outcome.verdict == verdict; });
   };
@@ -200,12 +200,12 @@ std::string outcomes_html(const std::vector<Outcome>& outcomes, const std::strin
       "<h1>Validation of sumo-gamma {}</h1><p><b>{} of {}</b> figures lie in their bands, {} are "
       "off where the band is empirical only (NOTE), <b>{} fail</b>.</p><p>Blue bar: what is "
       "expected. Dots: seeds. Line: their mean. Hollow diamond: plain SUMO in the same case.</p>\n",
-      escaped(version), count(Verdict::Pass), outcomes.size(), count(Verdict::Note),
-      count(Verdict::Fail));
-  if (count(Verdict::Fail) > 0) {
+      escaped(version), count(Judgement::Pass), outcomes.size(), count(Judgement::Note),
+      count(Judgement::Fail));
+  if (count(Judgement::Fail) > 0) {
     page += "<h2>What fails</h2><table>" + heads;
     for (const Outcome& outcome : outcomes)
-      if (outcome.verdict == Verdict::Fail) page += row_html(outcome);
+      if (outcome.verdict == Judgement::Fail) page += row_html(outcome);
     page += "</table>\n";
   }
   const Trial* last = nullptr;

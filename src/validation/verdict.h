@@ -8,7 +8,7 @@
 
 namespace sumogamma {
 
-enum class Verdict : std::uint8_t {
+enum class Judgement : std::uint8_t {
   Pass,  ///< the mean over seeds lies in the band
   Note,  ///< outside a band that is empirical only
   Fail,  ///< outside, or there was nothing to measure
@@ -21,7 +21,7 @@ struct Outcome {
   std::vector<double> values;  ///< by seed
   std::vector<double> sumo;    ///< likewise where SUMO drives the same; empty: nothing to compare
   Estimate estimate;           ///< of `values`
-  Verdict verdict = Verdict::Fail;
+  Judgement verdict = Judgement::Fail;
 };
 
 /// Judges the values of one criterion.
@@ -29,7 +29,7 @@ Outcome judge(const Trial& trial, const Criterion& criterion, std::vector<double
               std::vector<double> sumo);
 
 /// "PASS", "NOTE", "FAIL".
-std::string to_string(Verdict verdict);
+std::string to_string(Judgement verdict);
 
 /// "1,700 to 2,000", "at most 0.05".
 std::string band_text(const Band& band);

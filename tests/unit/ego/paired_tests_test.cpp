@@ -18,8 +18,8 @@ TEST(McNemar, IsThatOfTheBooks) {
 }
 
 TEST(PairedDifference, TurnsItsSignWithItsSides) {
-  const Estimate one = paired_difference({20, 12, 2, 16}),
-                 other = paired_difference({20, 2, 12, 16});
+  const IntervalEstimate one = paired_difference({20, 12, 2, 16}),
+                         other = paired_difference({20, 2, 12, 16});
   EXPECT_NEAR(one.value, 0.2, 1e-12);
   EXPECT_NEAR(one.low, -other.high, 1e-12);
   EXPECT_NEAR(one.high, -other.low, 1e-12);
@@ -30,8 +30,8 @@ TEST(PairedDifference, TurnsItsSignWithItsSides) {
 
 TEST(PairedDifference, PairsThatGoTogetherTellMore) {
   // the same shares, 22 and 12 of 50, with hardly any and with all of the second within the first
-  const Estimate apart = paired_difference({5, 17, 7, 21}),
-                 together = paired_difference({12, 10, 0, 28});
+  const IntervalEstimate apart = paired_difference({5, 17, 7, 21}),
+                         together = paired_difference({12, 10, 0, 28});
   EXPECT_NEAR(apart.value, together.value, 1e-12);
   EXPECT_LT(together.high - together.low, apart.high - apart.low);
 }
@@ -49,7 +49,7 @@ TEST(PairedDifference, CoversADifferenceThatIsKnown) {
          : draw < kBoth + kFirst + kSecond ? counts.second
                                            : counts.neither);
     }
-    const Estimate difference = paired_difference(counts);
+    const IntervalEstimate difference = paired_difference(counts);
     covered += difference.low <= kFirst - kSecond && kFirst - kSecond <= difference.high;
   }
   EXPECT_GE(covered, 368);  // 95 % of 400, less three deviations
@@ -62,7 +62,7 @@ TEST(Bootstrap, CoversAMeanThatIsKnown) {
     std::vector<double> values;
     for (std::uint64_t k = 0; k < 40; ++k)
       values.push_back(random_normal(static_cast<std::uint64_t>(run), k, 0, Draw::ProcessNoise));
-    const Estimate mean = bootstrap_mean(values, 7);
+    const IntervalEstimate mean = bootstrap_mean(values, 7);
     covered += mean.low <= 0.0 && 0.0 <= mean.high;
     rejected += bootstrap_p(values, 7) < 0.05;
   }

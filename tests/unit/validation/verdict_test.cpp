@@ -17,29 +17,29 @@ Trial trial() {
           {}};
 }
 
-Verdict verdict_of(const Trial& trial, std::vector<double> values) {
+Judgement verdict_of(const Trial& trial, std::vector<double> values) {
   return judge(trial, trial.criteria.front(), std::move(values), {}).verdict;
 }
 
 TEST(Verdict, IsOfTheMeanOverSeeds) {
   const Trial case_ = trial();
-  EXPECT_EQ(verdict_of(case_, {1600, 1900}), Verdict::Pass);
-  EXPECT_EQ(verdict_of(case_, {1600, 1700}), Verdict::Fail);
-  EXPECT_EQ(verdict_of(case_, {2000, 2000}), Verdict::Pass) << "the band's ends belong to it";
-  EXPECT_EQ(verdict_of(case_, {2000, 2001}), Verdict::Fail);
+  EXPECT_EQ(verdict_of(case_, {1600, 1900}), Judgement::Pass);
+  EXPECT_EQ(verdict_of(case_, {1600, 1700}), Judgement::Fail);
+  EXPECT_EQ(verdict_of(case_, {2000, 2000}), Judgement::Pass) << "the band's ends belong to it";
+  EXPECT_EQ(verdict_of(case_, {2000, 2001}), Judgement::Fail);
 }
 
 TEST(Verdict, OutsideABandThatIsEmpiricalOnlyIsANote) {
   Trial case_ = trial();
   case_.criteria.front().empirical = true;
-  EXPECT_EQ(verdict_of(case_, {1500, 1500}), Verdict::Note);
+  EXPECT_EQ(verdict_of(case_, {1500, 1500}), Judgement::Note);
 }
 
 TEST(Verdict, ASeedWithNothingToMeasureFails) {
   Trial case_ = trial();
   case_.criteria.front().empirical = true;
-  EXPECT_EQ(verdict_of(case_, {1800, std::nan("")}), Verdict::Fail);
-  EXPECT_EQ(verdict_of(case_, {}), Verdict::Fail);
+  EXPECT_EQ(verdict_of(case_, {1800, std::nan("")}), Judgement::Fail);
+  EXPECT_EQ(verdict_of(case_, {}), Judgement::Fail);
 }
 
 TEST(Verdict, BandsAreTold) {
