@@ -43,7 +43,7 @@ TEST_F(OnAPlain, KnowsHowTheEgoMetSomebody) {
   const std::size_t stands = add({3.95, 0.5}, kNorth, 0.0);
   EXPECT_EQ(contact_kind(scene_, ego, stands), ContactKind::OtherStood);
   EXPECT_EQ(contact_kind(scene_, stands, ego), ContactKind::Standing);
-  const std::size_t beside = add({0.3, 1.95}, kEast, 3.0);
+  const std::size_t beside = add({0.3, 1.97}, kEast, 3.0);
   EXPECT_EQ(contact_kind(scene_, ego, beside), ContactKind::Side);
 }
 
@@ -103,11 +103,12 @@ TEST_F(OnAPlain, ASteeringAngleIsReachedExactly) {
     EgoAction action;
     action.acceleration = 0.0;
     action.steering = angle;
-    scene_.steering[ego] = angle;  // no further turning of the wheel is needed
-    const Vec2 wish = velocity_of(action, model_, scene_, ego, {20.0, 0.0, 0.05});
-    const BodyState next = track_velocity(model_, scene_, ego, wish, 0.05);
     const double grip = 1.6 * type.max_lateral_acceleration * type.wheelbase / 36.0;
     const double allowed = std::min(std::abs(angle), std::atan(grip));
+    // no further turning of the wheel is needed
+    scene_.steering[ego] = std::copysign(allowed, angle);
+    const Vec2 wish = velocity_of(action, model_, scene_, ego, {20.0, 0.0, 0.05});
+    const BodyState next = track_velocity(model_, scene_, ego, wish, 0.05);
     EXPECT_NEAR(std::abs(next.steering), allowed, 1e-9);
     EXPECT_NEAR(next.speed, 6.0, 1e-9);
   }
