@@ -148,12 +148,15 @@ Table read_table(const fs::path& path) {
       const std::vector<std::string> fields = split(line, delimiter);
       double first = 0;
       if (line.front() != '{' && !parse(fields.empty() ? "" : fields.front(), first) &&
-          fields.size() > 1 && std::isalpha(static_cast<unsigned char>(fields.front().front()))) {
+          fields.size() > 1 && !fields.front().empty() &&
+          std::isalpha(static_cast<unsigned char>(fields.front().front()))) {
         table.names = fields;
         continue;
       }
     }
-    table.rows.push_back(split(line, delimiter));
+    std::vector<std::string> row = split(line, delimiter);
+    if (row.empty()) continue;
+    table.rows.push_back(std::move(row));
     table.lines.push_back(count);
   }
   if (table.rows.empty()) throw Error(path.string(), "holds no observations");

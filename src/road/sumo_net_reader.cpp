@@ -456,6 +456,9 @@ class NetBuilder {
     }
     net_.lower_corner = lower;
     net_.upper_corner = upper;
+    constexpr double kWidest = 5e6;  // [m]; grids over the network have cells by its size
+    if (!net_.lanes.empty() && !((upper - lower).maxCoeff() < kWidest))
+      fail("reaches over more than 5,000 km: the shape of a lane is damaged");
   }
 
   std::string file_;
