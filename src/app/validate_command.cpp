@@ -155,11 +155,12 @@ int validate(const ValidateOptions& options, const CommonOptions& common) {
     if (!trial.walk && !options.no_sumo) sumo = values_of(trial, options, "none", data, workers);
     for (std::size_t k = 0; k < trial.criteria.size(); ++k)
       outcomes.push_back(judge(trial, trial.criteria[k], std::move(ours[k]), std::move(sumo[k])));
+    // what is known so far isn't lost where a later trial is interrupted
+    write_file(fs::path(options.output) / "validate.json",
+               outcomes_json(outcomes, SUMOGAMMA_VERSION));
+    write_file(fs::path(options.output) / "validate.html",
+               outcomes_html(outcomes, SUMOGAMMA_VERSION));
   }
-  write_file(fs::path(options.output) / "validate.json",
-             outcomes_json(outcomes, SUMOGAMMA_VERSION));
-  write_file(fs::path(options.output) / "validate.html",
-             outcomes_html(outcomes, SUMOGAMMA_VERSION));
   std::fputs(outcomes_markdown(outcomes).c_str(), stdout);
   const auto failed = std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& outcome) {
     return outcome.verdict == Judgement::Fail;

@@ -175,7 +175,7 @@ double time_out_of_hall(bool four, std::uint64_t seed, Workers& workers) {
     const double from = walker.position.x() < 15.0 ? doors[0].first : doors[1].first;
     walker.gates = {up ? Gate{{from + 1, 20}, {from, 20}} : Gate{{from, 0}, {from + 1, 0}}};
   }
-  return last_passing(walk(room, 1200.0, workers), 0);
+  return last_passing(walk(room, 600.0, workers), 0);
 }
 
 std::vector<double> exits(std::uint64_t seed, Workers& workers) {
@@ -219,7 +219,7 @@ std::vector<double> bottleneck(std::uint64_t seed, Workers& workers) {
     add_wall({20, 0}, {20, 8}, {{low, low + width}}, room);
     room.walkers = people_in({4, 0.4}, {19, 7.6}, 200, seed);
     for (Walker& walker : room.walkers) walker.gates = {{{20, low}, {20, low + width}}};
-    values.push_back(flow_of(passings(walk(room, 400.0, workers), 0)) / width);
+    values.push_back(flow_of(passings(walk(room, 150.0, workers), 0)) / width);
   }
   values.push_back((values[3] * kWidths[3]) / (values[0] * kWidths[0]));
   return values;
