@@ -128,9 +128,11 @@ std::vector<double> reaction_times(std::uint64_t seed, Workers& workers) {
   add_wall({0, 0}, {0, 5}, {}, room);
   add_wall({8, 0}, {8, 5}, {{2.0, 3.0}}, room);
   room.walkers = people_in({0.5, 0.5}, {7, 4.5}, 10, seed);
+  // nearest to the door first: nobody has to get past anybody who stands
+  std::sort(room.walkers.begin(), room.walkers.end(),
+            [](const Walker& a, const Walker& b) { return a.position.x() > b.position.x(); });
   for (std::size_t k = 0; k < room.walkers.size(); ++k) {
-    // the lattice fills away from the door: nobody has to get past anybody who stands
-    room.walkers[k].starts_at = 10.0 * static_cast<double>(room.walkers.size() - k);
+    room.walkers[k].starts_at = 10.0 * static_cast<double>(k + 1);
     room.walkers[k].gates = {{{8, 2}, {8, 3}}};
   }
   const std::vector<Walked> walked = walk(room, 130.0, workers);
