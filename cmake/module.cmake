@@ -27,6 +27,7 @@ target_link_libraries(sumogamma_options INTERFACE Eigen3::Eigen Threads::Threads
 function(sumogamma_module name)
   cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  set_property(GLOBAL APPEND PROPERTY SUMOGAMMA_MODULES ${name})
   list(TRANSFORM ARG_DEPENDS PREPEND sumogamma_)
   if(sources)
     add_library(sumogamma_${name} STATIC ${sources})

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds and tests sumo-gamma; installs what that takes.
-#   tools/test.sh          every test and every lint, the golden bits with clang, a minute of each fuzz target
+#   tools/test.sh          every test and every lint, the golden bits with clang, some seconds of each fuzz target
 #   tools/test.sh quick    build, unit and property tests
-#   tools/test.sh deep     the same under the sanitizers, more of it with clang, clang-tidy on what changed
+#   tools/test.sh deep     the same under the sanitizers, more of it with clang, a minute of each fuzz target, clang-tidy on what changed
 #   tools/test.sh tidy     clang-tidy on every source (slow)
 # The last line adds it all up; the exit code is 0 only where nothing failed.
 set -euo pipefail
@@ -80,7 +80,8 @@ case "$mode" in
   deep)
     test_stage dev '.'
     test_stage asan '^(unit|property|golden)$' tests_unit tests_property tests_golden
-    test_stage clang '^(unit|property|golden|fuzz)$' tests_unit tests_property tests_golden golden_roads tests_fuzz
+    test_stage clang '^(unit|property|golden)$' tests_unit tests_property tests_golden golden_roads
+    test_stage fuzz '^fuzz$' tests_fuzz
     # g++ 12's thread sanitizer cannot place its memory where the kernel randomises addresses a lot
     setarch "$(uname -m)" -R true 2> /dev/null && runner=(setarch "$(uname -m)" -R)
     test_stage tsan '^(unit|property)$' tests_unit tests_property

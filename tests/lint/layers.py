@@ -1,5 +1,9 @@
 """Checks every #include of src/ against the modules' DEPENDS in CMakeLists.txt, and that the edges stay thin.
 
+A source includes its own header first, so that compiling it shows that the header stands alone.
+
+A source includes its own header first, so that compiling it shows that the header needs no other before it.
+
 usage: layers.py PROJECT_FOLDER
 """
 import os
@@ -26,6 +30,7 @@ VERSION_HEADERS = {"osmium/version.hpp", "proj.h", "toml++/toml.h"}
 NOWHERE = {"random": "draws come from base/random.h"}
 # nothing from a scenario can reach a shell that nobody starts
 SHELL = re.compile(r"(?<![\w.>])(popen|system)\s*\(|/bin/(ba)?sh\b")
+INCLUDE = re.compile(r'\s*#\s*include\s*(["<])([^">]+)[">]')
 # these have never heard of a file, a terminal, a thread or a clock
 PURE_MODULES = {"geometry", "scene", "model", "inference"}
 IMPURE = {"fstream", "filesystem", "iostream", "cstdio", "stdio.h", "chrono", "thread", "mutex", "atomic"}
@@ -74,6 +79,18 @@ def check_include(path, module, allowed, header):
     return None
 
 
+def check_order(root, path):
+    """What is wrong with the head of the file, or None."""
+    lines = [line for _, line in numbered_lines(root, path)]
+    if path.endswith(".h"):
+        return None if "#pragma once" in lines else "a header begins with #pragma once"
+    own = path.removesuffix(".cpp") + ".h"
+    first = next((found.group(2) for found in map(INCLUDE.match, lines) if found), None)
+    if os.path.isfile(os.path.join(root, own)) and "src/" + str(first) != own:
+        return f"its own header {os.path.basename(own)} comes first, to show that it stands alone"
+    return None
+
+
 def main(root):
     allowed, complaints = declared_modules(root)
     checked = 0
@@ -86,11 +103,14 @@ def main(root):
             complaints.append(f"{path}: folder {module} is no module of CMakeLists.txt")
             continue
         checked += 1
+        wrong = check_order(root, path)
+        if wrong:
+            complaints.append(f"{path}: {wrong}")
         for number, line in numbered_lines(root, path):
             shell = SHELL.search(line.split("//")[0])
             if shell:
                 complaints.append(f"{path}:{number}: no shell is started, see src/base/subprocess.h: {shell.group(0)}")
-            match = re.match(r'\s*#\s*include\s*(["<])([^">]+)[">]', line)
+            match = INCLUDE.match(line)
             if not match:
                 continue
             header = match.group(2)

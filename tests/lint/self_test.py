@@ -23,7 +23,8 @@ sumogamma_embed(io kReplayPageJs replay/a.js replay/b.js)
 UNFINISHED = "TO" + "DO"
 MACHINE = "/wo" + "rk/main"
 # what the rules of the road remember, a rule that reads it and one that writes it
-STATE = """struct TrafficState {
+STATE = """#pragma once
+struct TrafficState {
   std::vector<double> wait;  ///< [s]
   std::vector<LanePosition> aim;
 };
@@ -47,8 +48,8 @@ GOOD = {
     "src/app/main.cpp": '#include "base/units.h"\n#include "geometry/vec2.h"\n\nint main() { return 0; }\n',
     "src/model/model.cpp": '#include "geometry/vec2.h"\n',
     "src/traffic/traffic_state.h": STATE,
-    "src/traffic/traffic_state.cpp": "void append(TrafficState& state) { state.wait.push_back(0.0); }\n",
-    "src/traffic/parameters.h": "inline constexpr double kGap = 4.0;  ///< [s]\n",
+    "src/traffic/traffic_state.cpp": '#include "traffic/traffic_state.h"\nvoid append(TrafficState& state) { state.wait.push_back(0.0); }\n',
+    "src/traffic/parameters.h": "#pragma once\ninline constexpr double kGap = 4.0;  ///< [s]\n",
     "src/traffic/patience.cpp": READER + WRITER,
     "src/traffic/rules/gaps.cpp": READER,
     "src/io/replay/a.js": "const one = await 1;\nif (!one) return;\n",
@@ -73,6 +74,9 @@ FAULTS = [
     ("layers", "src/base/run.cpp", "coordinate_system(name); a.system(b);\n", None),
     ("layers", "src/extra/new.cpp", "int x;\n", "folder extra is no module"),
     ("layers", "src/base/lost.cpp", '#include "lost.h"\n', '"lost.h" is no file under src/'),
+    ("layers", "src/base/units.h", "int unit();\n", "src/base/units.h: a header begins with #pragma once"),
+    ("layers", "src/base/units.cpp", '#include <string>\n#include "base/units.h"\n', "src/base/units.cpp: its own header units.h comes first"),
+    ("layers", "src/base/units.cpp", '#include "base/units.h"\n#include <string>\n', None),
     ("layers", "CMakeLists.txt", "sumogamma_module(base DEPENDS geometry)\n" + MODULES, "which is not declared above it"),
     ("layers", "src/model/model.cpp", '#include "traffic/parameters.h"\n', "src/model/model.cpp:1: module model may not know traffic"),
     ("functions", "src/base/units.h", "void f() {\n" + 60 * BODY + "}\n", "src/base/units.h:1: f has 61 lines"),
@@ -92,7 +96,7 @@ FAULTS = [
     ("traffic", "src/traffic/patience.cpp", READER + WRITER + "bool f(const V& v) { return v.waiting_time[1] > 3.0; }\n", None),
     ("traffic", "src/traffic/traffic_state.h", "struct Other {\n};\n", "no struct TrafficState"),
     *[("traffic", "src/traffic/rules/gaps.cpp", READER + f"void g(TrafficState& state, std::size_t row) {{ {change} }}\n",
-       "src/traffic/traffic_state.h:2: wait has 2 writers, one at the most: src/traffic/patience, src/traffic/rules/gaps")
+       "src/traffic/traffic_state.h:3: wait has 2 writers, one at the most: src/traffic/patience, src/traffic/rules/gaps")
       for change in ("state.wait[row] = 2.0;", "state.wait[other[row]] += dt;", "++state.wait[row];", "state.wait[row]--;", "double& w = state.wait[row];",
                      "state.wait.assign(3, 0.0);", "auto* w = &state.wait;", "for (double& w : state.wait) w = 0.0;", "auto& [w] = state.wait[row];",
                      "view.state->wait.back() = 0.0;", "std::vector<double>& all = state.wait;")],
