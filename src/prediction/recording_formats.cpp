@@ -182,9 +182,11 @@ class Names {
   std::map<std::string, std::uint32_t> known_;
 };
 
-bool is_count(const std::string& field) {
+bool is_whole(double value) { return std::abs(value) < 2e9 && value == std::floor(value); }
+
+bool is_whole(const std::string& field) {
   double value = 0;
-  return parse(field, value) && value >= 0 && value < 2e9 && value == std::floor(value);
+  return parse(field, value) && is_whole(value);
 }
 
 AgentTypeId type_of_name(const Place& place, const std::string& name, const ReadOptions& options,
@@ -393,7 +395,9 @@ void read_ndjson(const Table& table, const AgentTypeTable& types, RawRecording& 
       if (json.contains("scene")) rate = json["scene"].value("fps", rate);
       if (!json.contains("track")) continue;
       const auto& track = json["track"];
-      RawPoint point{track.at("f").get<double>(), track.at("p").get<std::uint32_t>(), walker,
+      const auto id = track.at("p").get<double>();
+      if (!is_whole(id) || id < 0) throw Error(place.text(), "p must be a whole number from 0");
+      RawPoint point{track.at("f").get<double>(), static_cast<std::uint32_t>(id), walker,
                      Vec2(track.at("x").get<double>(), track.at("y").get<double>()), kUnknown};
       if (!(point.position.cwiseAbs().maxCoeff() < kFarthest))
         throw Error(place.text(), "x or y is no metre of one place");
@@ -449,8 +453,7 @@ RawRecording read_raw_recording(const fs::path& path, const ReadOptions& options
     const bool numeric = other.empty() && layout.most() < static_cast<int>(table.rows[0].size()) &&
                          std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
                            return static_cast<int>(row.size()) > layout.id &&
-                                  (is_count(row[static_cast<std::size_t>(layout.id)]) ||
-                                   row[static_cast<std::size_t>(layout.id)].starts_with("-"));
+                                  is_whole(row[static_cast<std::size_t>(layout.id)]);
                          });
     Names names(numeric);
     append_points(table, layout, options, types, names, raw);

@@ -1,6 +1,7 @@
 #include "road/lane_locator.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/units.h"
@@ -40,10 +41,13 @@ LaneLocator::LaneLocator(const RoadNetwork& network) : network_(&network) {
   if (network.lanes.empty()) return;
   origin_ = network.lower_corner;
   const Vec2 size = network.upper_corner - network.lower_corner;
-  // cells of about a lane's reach, but never so many that a whole country's grid outweighs its
-  // lanes
-  constexpr double kCell = 12.0, kMostCells = 4e6;
-  cell_ = std::max(kCell, std::sqrt(size.x() * size.y() / kMostCells));
+  // cells of about a lane's reach, but never so many that the grid outweighs the lanes
+  constexpr double kCell = 12.0, kFewCells = 1e5, kMostCells = 4e6, kCellsAPoint = 100.0;
+  double points = 0;
+  for (const Lane& lane : network.lanes)
+    points += static_cast<double>(lane.centerline.points().size());
+  const double cells = std::clamp(kCellsAPoint * points, kFewCells, kMostCells);
+  cell_ = std::max({kCell, std::sqrt(size.x() * size.y() / cells), size.maxCoeff() / cells});
   columns_ = static_cast<std::size_t>(size.x() / cell_) + 1;
   lines_ = static_cast<std::size_t>(size.y() / cell_) + 1;
 
@@ -98,10 +102,7 @@ void LaneLocator::rasterize(AddEntry&& add_entry, AddJunction&& add_junction) co
     }
     return std::pair<Vec2, Vec2>(lower - Vec2(margin, margin), upper + Vec2(margin, margin));
   };
-  const auto strip = [&](const Lane& lane, std::size_t first, std::size_t count) {
-    return bounds(std::span(lane.centerline.points()).subspan(first, count),
-                  0.5 * lane.width + kEndTolerance);
-  };
+  const auto reach = [](const Lane& lane) { return 0.5 * lane.width + kEndTolerance; };
   std::vector<std::pair<std::size_t, std::uint32_t>> touched;  // (cell, segment)
   for (std::size_t index = 0; index < network_->lanes.size(); ++index) {
     const Lane& lane = network_->lanes[index];
@@ -115,15 +116,23 @@ void LaneLocator::rasterize(AddEntry&& add_entry, AddJunction&& add_junction) co
     }
     touched.clear();
     for (std::uint32_t segment = 0; segment + 1 < points.size(); ++segment) {
-      const auto [lower, upper] = strip(lane, segment, 2);
-      visit_cells(lower, upper, [&](std::size_t cell) { touched.emplace_back(cell, segment); });
+      // piece by piece: a long diagonal touches few of the cells that lie in the box about it
+      const Vec2 &begin = points[segment], along = points[segment + 1] - begin;
+      const double pieces = std::max(1.0, std::ceil(along.norm() / cell_));
+      for (double piece = 0; piece < pieces; ++piece) {
+        const std::array<Vec2, 2> ends{begin + (piece / pieces) * along,
+                                       begin + ((piece + 1) / pieces) * along};
+        const auto [lower, upper] = bounds(ends, reach(lane));
+        visit_cells(lower, upper, [&](std::size_t cell) { touched.emplace_back(cell, segment); });
+      }
     }
     std::sort(touched.begin(), touched.end());
     for (std::size_t i = 0; i < touched.size();) {
       std::size_t end = i;
       while (end < touched.size() && touched[end].first == touched[i].first) ++end;
       const std::uint32_t first = touched[i].second, last = touched[end - 1].second;
-      const auto [lower, upper] = strip(lane, first, last + 2 - first);
+      const auto [lower, upper] =
+          bounds(std::span(points).subspan(first, last + 2 - first), reach(lane));
       add_entry(touched[i].first, Entry{id, first, last, box_about(lower, upper)});
       i = end;
     }

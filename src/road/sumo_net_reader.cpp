@@ -167,6 +167,15 @@ class NetBuilder {
     return value;
   }
 
+  int required_whole(pugi::xml_node node, const char* attribute) const {
+    constexpr double kMost = 1e6;
+    const double value = required_number(node, attribute);
+    if (value != std::floor(value) || std::abs(value) > kMost)
+      fail("attribute " + std::string(attribute) + "=\"" + node.attribute(attribute).value() +
+           "\" of <" + node.name() + "> is no whole number to count by");
+    return static_cast<int>(value);
+  }
+
   Shape shape_of(pugi::xml_node node, const char* attribute) const {
     Shape shape;
     if (!parse_shape(node.attribute(attribute).value(), shape))
@@ -343,7 +352,7 @@ class NetBuilder {
     const auto edge = net_.edge_by_name.find(std::string(edge_name));
     if (edge == net_.edge_by_name.end())
       fail("a connection names the unknown edge '" + std::string(edge_name) + "'");
-    const int index = static_cast<int>(required_number(node, lane_attribute));
+    const int index = required_whole(node, lane_attribute);
     const std::vector<LaneId>& lanes = net_.edge(edge->second).lanes;
     if (index < 0 || index >= static_cast<int>(lanes.size()))
       fail("a connection names lane " + std::to_string(index) + " of edge '" +
@@ -365,9 +374,10 @@ class NetBuilder {
     connection.junction = from.kind == LaneKind::Normal ? net_.edge(from.edge).to : from.junction;
     // linkIndex -1: a link at a signalled junction that no signal controls
     const pugi::xml_attribute signal = node.attribute("tl");
-    if (signal && required_number(node, "linkIndex") >= 0) {
+    const int link = signal ? required_whole(node, "linkIndex") : -1;
+    if (link >= 0) {
       connection.signal = signal_named(signal.value());
-      connection.signal_link = static_cast<int>(required_number(node, "linkIndex"));
+      connection.signal_link = link;
       grow_signal(connection.signal, static_cast<std::size_t>(connection.signal_link) + 1);
     }
     const std::string_view direction = node.attribute("dir").value(),
