@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <deque>
@@ -26,6 +25,7 @@
 #include "io/study_page.h"
 #include "io/study_plan_file.h"
 #include "io/study_results.h"
+#include "study/shard.h"
 #include "sumo/scenario_input.h"
 
 namespace sumogamma {
@@ -230,23 +230,6 @@ class Pool {
   std::exception_ptr failure_;
 };
 
-struct Shard {
-  std::size_t part = 1, parts = 1;
-};
-
-Shard parse_shard(const std::string& text) {
-  Shard shard;
-  if (text.empty()) return shard;
-  const char *const begin = text.data(), *const end = begin + text.size();
-  const auto part = std::from_chars(begin, end, shard.part);
-  const bool slash = part.ec == std::errc() && part.ptr != end && *part.ptr == '/';
-  const auto parts = std::from_chars(slash ? part.ptr + 1 : end, end, shard.parts);
-  if (!slash || parts.ec != std::errc() || parts.ptr != end || shard.part < 1 ||
-      shard.part > shard.parts || shard.parts > 1000000)
-    throw Error("--shard " + text.substr(0, 60), "must be I/N, part I of N: 1/4, 2/4, 3/4, 4/4");
-  return shard;
-}
-
 /// Adds runs of other folders: copied under another name first, so that a whole run is there or
 /// none.
 void gather_shards(const BatchOptions& options, const Study& study,
@@ -325,7 +308,7 @@ std::vector<StudyRun> run_seeds(const Study& study, const BatchOptions& options,
   Pool pool(study, options.output, options.jobs > 0 ? options.jobs : processors, quiet);
   for (;;) {
     const std::vector<StudyRun> runs = runs_of(study, seeds);
-    pool.run_all(shard_of(runs, shard.part, shard.parts));
+    pool.run_all(shard_of(runs, shard));
     if (!study.until || interrupted()) return runs;
     const StudyUntil& until = *study.until;
     const std::vector<StudyRunResult> results = read_study_runs(options.output, study, runs);
@@ -374,7 +357,7 @@ int run_batch(const BatchOptions& options, const CommonOptions& common) {
   }
   if (is_part) {
     const std::vector<StudyRunResult> results =
-        read_study_runs(options.output, study, shard_of(runs, shard.part, shard.parts));
+        read_study_runs(options.output, study, shard_of(runs, shard));
     const auto failed = std::count_if(
         results.begin(), results.end(),
         [](const StudyRunResult& result) { return result.status == RunStatus::Failed; });

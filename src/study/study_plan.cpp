@@ -73,13 +73,6 @@ std::vector<StudyRun> runs_of(const Study& study, std::span<const std::uint64_t>
   return runs;
 }
 
-std::vector<StudyRun> shard_of(std::span<const StudyRun> runs, std::size_t part,
-                               std::size_t parts) {
-  std::vector<StudyRun> shard;
-  for (std::size_t i = part - 1; i < runs.size(); i += parts) shard.push_back(runs[i]);
-  return shard;
-}
-
 std::string folder_name(const std::string& text) {
   constexpr std::size_t kLongest = 60;
   std::string name;

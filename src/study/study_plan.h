@@ -84,10 +84,6 @@ std::vector<std::vector<StudySetting>> latin_hypercube(std::span<const Parameter
 /// whole pairs.
 std::vector<StudyRun> runs_of(const Study& study, std::span<const std::uint64_t> seeds);
 
-/// Part i of n (1 <= i <= n) of the runs: each run is in exactly one part, whole numbers of them as
-/// even as possible.
-std::vector<StudyRun> shard_of(std::span<const StudyRun> runs, std::size_t part, std::size_t parts);
-
 /// A text as the name of a folder: letters, digits and "-_.=+", others as "_"; never empty, at the
 /// most 80 bytes, and different for different texts.
 std::string folder_name(const std::string& text);
