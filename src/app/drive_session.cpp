@@ -1,7 +1,4 @@
-#include <fcntl.h>
 #include <spdlog/spdlog.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -11,11 +8,13 @@
 #include "app/drive_episode.h"
 #include "app/drive_options.h"
 #include "app/progress.h"
+#include "app/scenario_hash.h"
 #include "base/error.h"
-#include "base/hash.h"
 #include "base/print.h"
 #include "io/episode_files.h"
 #include "io/output_file.h"
+#include "io/output_folder.h"
+#include "study/shard.h"
 
 namespace sumogamma {
 
@@ -34,38 +33,6 @@ std::uint64_t parse_whole(const std::string& option, std::string_view text) {
                             "' is no whole number; expected such as 7, 1..200 or 1..10,20");
   return value;
 }
-
-/// The i-th of n parts, seeds by turns.
-Seeds shard_of(const Seeds& seeds, const std::string& shard) {
-  if (shard.empty()) return seeds;
-  const std::size_t slash = shard.find('/');
-  if (slash == std::string::npos) throw Error("--shard " + shard, "expected i/n such as 1/4");
-  const std::uint64_t part = parse_whole("--shard", std::string_view(shard).substr(0, slash));
-  const std::uint64_t parts = parse_whole("--shard", std::string_view(shard).substr(slash + 1));
-  if (part < 1 || part > parts) throw Error("--shard " + shard, "i must be from 1 to n");
-  Seeds mine;
-  for (std::size_t k = part - 1; k < seeds.size(); k += parts) mine.push_back(seeds[k]);
-  return mine;
-}
-
-/// One drive at a time writes into a folder.
-class FolderLock {
- public:
-  explicit FolderLock(const std::filesystem::path& folder)
-      : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-    close(descriptor_);
-    throw Error(folder.string(), "another drive writes into it, choose another folder");
-  }
-  ~FolderLock() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int descriptor_;
-};
 
 /// [ego] with the options over it.
 EgoSettings settings_of(const DriveOptions& options, const ScenarioConfig& config) {
@@ -88,24 +55,12 @@ EgoSettings settings_of(const DriveOptions& options, const ScenarioConfig& confi
   return settings;
 }
 
-std::string hash_of_files(const RunPlan& plan) {
-  std::uint64_t hash = kFnvBasis;
-  const auto add = [&](const std::filesystem::path& file) {
-    hash = (hash ^ hash_of_bytes(read_file(file))) * 0x100000001b3ULL;
-  };
-  add(plan.input.network);
-  for (const auto& file : plan.input.routes) add(file);
-  for (const auto& file : plan.input.additional) add(file);
-  if (!plan.input.settings.empty()) add(plan.input.settings);
-  return hash_text(hash);
-}
-
 /// All that decides on what an episode is. Folders with the same may be merged.
 Json settings_json(const Drive& drive, const CommonOptions& common) {
   const EgoSettings& ego = drive.settings;
   return {{"version", SUMOGAMMA_VERSION},
           {"scenario", drive.plan.input.name},
-          {"files", hash_of_files(drive.plan)},
+          {"files", hash_of_files(drive.plan.input)},
           {"step", drive.plan.clock.step},
           {"vehicles", drive.plan.vehicles},
           {"control", drive.plan.control_text},
@@ -352,11 +307,12 @@ Seeds parse_seeds(const std::string& option, const std::string& text) {
 }
 
 int drive_session(const DriveOptions& options, const CommonOptions& common) {
-  const Seeds seeds = shard_of(parse_seeds("--seeds", options.seeds), options.shard);
+  const Shard shard = parse_shard(options.shard);
+  const Seeds seeds = shard_of(parse_seeds("--seeds", options.seeds), shard);
   Drive drive = make_drive(options, common);
   const std::filesystem::path& folder = options.run.output;
   make_output_folder(folder);
-  const FolderLock lock(folder);
+  const FolderLock lock(folder, "drive");
   const Json settings = settings_json(drive, common);
   claim(folder, settings);
   for (const auto& from : options.merge) merge_from(from, folder, settings, seeds);

@@ -117,15 +117,19 @@ void add_output_options(CLI::App& command, RunOptions& options) {
       ->check(CLI::IsMember({"collision", "deep-collision", "red-light", "stuck", "removed"}));
 }
 
+void add_all_options(CLI::App& command, RunOptions& options) {
+  add_scenario_options(command, options);
+  add_sumo_options(command, options);
+  add_output_options(command, options);
+}
+
 }  // namespace
 
 RunOptions parse_run_words(const std::string& where, const std::filesystem::path& scenario,
                            const std::vector<std::string>& words) {
   CLI::App parser;
   RunOptions options;
-  add_scenario_options(parser, options);
-  add_sumo_options(parser, options);
-  add_output_options(parser, options);
+  add_all_options(parser, options);
   std::vector<std::string> all{scenario.string(), "--output", "."};
   all.insert(all.end(), words.begin(), words.end());
   std::reverse(all.begin(), all.end());
@@ -140,9 +144,7 @@ RunOptions parse_run_words(const std::string& where, const std::filesystem::path
 CLI::App& add_run_options(CLI::App& parent, RunOptions& options) {
   CLI::App* command =
       parent.add_subcommand("run", "drive a scenario: GAMMA moves the agents, SUMO does the rest");
-  add_scenario_options(*command, options);
-  add_sumo_options(*command, options);
-  add_output_options(*command, options);
+  add_all_options(*command, options);
   return *command;
 }
 

@@ -4,11 +4,12 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "app/scenario_hash.h"
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/subprocess.h"
 #include "io/output_file.h"
 #include "io/output_folder.h"
-#include "sumo/scenario_input.h"
 
 namespace sumogamma {
 
@@ -19,24 +20,13 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kStudyFile = "study.json";
 
-/// Of all files that a scenario names.
-std::string hash_of_scenario(const StudyScenario& scenario) {
-  const ScenarioInput input = find_scenario(scenario.path);
-  std::vector<fs::path> files{input.config, input.settings, input.network};
-  files.insert(files.end(), input.routes.begin(), input.routes.end());
-  files.insert(files.end(), input.additional.begin(), input.additional.end());
-  std::uint64_t hash = kFnvBasis;
-  for (const fs::path& file : files) {
-    const std::string content = file.empty() ? std::string() : read_file(file);
-    hash = fnv1a(hash_text(hash) + hash_text(hash_of_bytes(content)));
-  }
-  return hash_text(hash);
-}
-
+/// What decides the outcome of a study's runs: options, this program, and by name scenarios (hash
+/// of their files) and variants. Seeds, measures and questions may change: the runs stay what they
+/// are.
 Json identity_json(const Study& study) {
   Json scenarios = Json::object(), variants = Json::object();
   for (const StudyScenario& scenario : study.scenarios)
-    scenarios[scenario.name] = hash_of_scenario(scenario);
+    scenarios[scenario.name] = hash_of_files(find_scenario(scenario.path));
   for (const StudyVariant& variant : study.variants) {
     Json set = Json::array();
     for (const StudySetting& setting : variant.set)
@@ -81,10 +71,6 @@ void require_no_contradiction(const fs::path& folder, const Json& old, const Jso
 }
 
 }  // namespace
-
-fs::path own_program() { return fs::read_symlink("/proc/self/exe"); }
-
-std::string identity_of(const Study& study) { return identity_json(study).dump(2) + "\n"; }
 
 void claim_study_folder(const fs::path& folder, const Study& study) {
   Json now = identity_json(study);

@@ -34,9 +34,6 @@ struct ValidateOptions {
   std::vector<std::string> only;
 };
 
-/// This program's own file.
-fs::path own_program() { return fs::read_symlink("/proc/self/exe"); }
-
 /// The folder with `sumo_scenarios` and `tools`: above the program in a build tree, or where the
 /// project was installed.
 fs::path data_folder(const std::string& given) {

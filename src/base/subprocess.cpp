@@ -241,6 +241,8 @@ std::string describe_end(const ProcessResult& result, double time_limit) {
   return "exit code " + std::to_string(result.exit_code);
 }
 
+std::filesystem::path own_program() { return std::filesystem::read_symlink("/proc/self/exe"); }
+
 std::filesystem::path find_program(const std::string& name) {
   std::vector<std::filesystem::path> folders;
   if (const char* home = std::getenv("SUMO_HOME"); home != nullptr && *home != '\0')

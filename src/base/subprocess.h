@@ -47,6 +47,9 @@ void kill_running_processes() noexcept;
 /// "exit code 3", "killed by signal 11 (Segmentation fault)", "no end after 600 s": for messages.
 std::string describe_end(const ProcessResult& result, double time_limit);
 
+/// This program's own file.
+std::filesystem::path own_program();
+
 /// Full path of a program in $SUMO_HOME/bin or PATH; empty where there is none.
 std::filesystem::path find_program(const std::string& name);
 

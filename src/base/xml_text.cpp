@@ -4,27 +4,33 @@
 
 namespace sumogamma {
 
-void append_escaped(std::string& escaped, std::string_view text) {
+void append_escaped(std::string& to, std::string_view text) {
   for (const char c : text) switch (c) {
       case '&':
-        escaped += "&amp;";
+        to += "&amp;";
         break;
       case '<':
-        escaped += "&lt;";
+        to += "&lt;";
         break;
       case '>':
-        escaped += "&gt;";
+        to += "&gt;";
         break;
       case '"':
-        escaped += "&quot;";
+        to += "&quot;";
         break;
       default:
-        escaped += c;
+        to += c;
     }
 }
 
 bool declares_entities(std::string_view document) {
   return document.find("<!ENTITY") != std::string_view::npos;
+}
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  append_escaped(result, text);
+  return result;
 }
 
 std::vector<std::string> words_of(std::string_view text) {

@@ -119,12 +119,6 @@ std::string text_of(const IntervalEstimate& estimate) {
   return fmt::format("{:.4g} [{:.4g}, {:.4g}]", estimate.value, estimate.low, estimate.high);
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  append_escaped(result, text);
-  return result;
-}
-
 /// One panel: a point and its interval for each drive.
 std::string panel_of(const DriveFigure& figure, const std::vector<std::string>& names) {
   constexpr double kWidth = 300, kHeight = 220, kFoot = 40, kHead = 34;

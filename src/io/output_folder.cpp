@@ -28,24 +28,50 @@ constexpr const char* kRunFiles[] = {"results.json",     "trajectories.fcd.xml.g
                                      "journeys.csv",     "replay.bin",
                                      "replay.html"};
 
+int open_folder(const fs::path& folder) {
+  return open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+}
+
+/// Does somebody else hold the folder? Else it is ours now, in this way (LOCK_EX, LOCK_SH).
+bool is_held(int descriptor, int way) {
+  return descriptor >= 0 && flock(descriptor, way | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
 }  // namespace
+
+FolderLock::FolderLock(const fs::path& folder) : descriptor_(open_folder(folder)) {
+  if (descriptor_ >= 0) flock(descriptor_, LOCK_EX);
+}
+
+FolderLock::FolderLock(const fs::path& folder, std::string_view who)
+    : descriptor_(open_folder(folder)) {
+  if (!is_held(descriptor_, LOCK_EX)) return;
+  close(descriptor_);
+  throw Error(folder.string(),
+              "another " + std::string(who) + " writes into it, choose another folder");
+}
+
+FolderLock::~FolderLock() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+bool is_being_written(const fs::path& folder) {
+  const int descriptor = open_folder(folder);
+  // shared: two who only ask don't disturb each other
+  const bool held = is_held(descriptor, LOCK_SH);
+  if (descriptor >= 0) close(descriptor);
+  return held;
+}
 
 OutputFolder::OutputFolder(fs::path folder, bool force)
     : folder_(std::move(folder)), existed_(fs::exists(folder_)) {
   make_output_folder(folder_);
-  // on the folder itself: a lock file would be left behind by who is killed
-  lock_ = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    close(lock_);
-    throw Error(folder_.string(), "another run writes into it, choose another folder");
-  }
+  lock_.emplace(folder_, "run");
   for (const char* name : kRunFiles) {
     if (!fs::exists(fs::symlink_status(folder_ / name))) continue;
-    if (!force) {
-      if (lock_ >= 0) close(lock_);
+    if (!force)
       throw Error(folder_.string(), "holds another run's " + std::string(name) +
                                         ", choose another folder or replace it with --force");
-    }
     // what this run may not write itself must not pass for its own; where a link leads is the
     // user's
     const std::string_view file = name;
@@ -57,28 +83,9 @@ OutputFolder::OutputFolder(fs::path folder, bool force)
 }
 
 OutputFolder::~OutputFolder() {
-  if (lock_ >= 0) close(lock_);
+  lock_.reset();
   std::error_code not_empty;
   if (!existed_) fs::remove(folder_, not_empty);
-}
-
-bool is_being_written(const fs::path& folder) {
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  // shared: two who only ask don't disturb each other
-  const bool locked = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  close(descriptor);
-  return locked;
-}
-
-FolderLock::FolderLock(const fs::path& folder)
-    : descriptor_(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  // where the file system knows no locks there is none
-  if (descriptor_ >= 0) flock(descriptor_, LOCK_EX);
-}
-
-FolderLock::~FolderLock() {
-  if (descriptor_ >= 0) close(descriptor_);
 }
 
 void require_page_name(const fs::path& page) {

@@ -1,8 +1,26 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string_view>
 
 namespace sumogamma {
+
+/// Holds a folder that is there against whoever else asks for it so; where the file system knows no
+/// locks there is none. On the folder itself: a lock file would be left behind by who is killed.
+class FolderLock {
+ public:
+  /// Waits until it is free.
+  explicit FolderLock(const std::filesystem::path& folder);
+  /// Throws Error where another `who` holds it.
+  FolderLock(const std::filesystem::path& folder, std::string_view who);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
 
 /// The folder that a run writes into, its own for as long as this lives. Taken away again where the
 /// run ends before it wrote anything.
@@ -18,23 +36,11 @@ class OutputFolder {
  private:
   std::filesystem::path folder_;
   bool existed_;
-  int lock_ = -1;
+  std::optional<FolderLock> lock_;
 };
 
 /// Does a run write into the folder now? False where it isn't there.
 bool is_being_written(const std::filesystem::path& folder);
-
-/// Holds a folder that is there against whoever else asks for it so, waiting until it is free.
-class FolderLock {
- public:
-  explicit FolderLock(const std::filesystem::path& folder);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int descriptor_ = -1;
-};
 
 /// Throws Error where a page would replace a file that is no page.
 void require_page_name(const std::filesystem::path& page);

@@ -63,12 +63,6 @@ const RunColumn::Value* find_value(const RunColumn& run, const std::string& key)
   return found == run.values.end() ? nullptr : &*found;
 }
 
-std::string escape_html(const std::string& text) {
-  std::string escaped;
-  append_escaped(escaped, text);
-  return escaped;
-}
-
 std::string escape_markdown(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
     text.replace(at, 1, "\\|");
@@ -84,7 +78,7 @@ std::string number_cell(const RunColumn::Value& value, double largest,
                   R"(width="90" height="10" rx="2"/>)"
                   R"(<rect class="bar" width="{:.1f}" height="10" rx="2"/></svg>)",
                   90.0 * share);
-  std::string cell = "<td class=\"number\">" + escape_html(value.text);
+  std::string cell = "<td class=\"number\">" + escaped(value.text);
   if (first && first->is_number && first->number != 0.0 && value.number != first->number) {
     const double percent = 100.0 * (value.number - first->number) / std::abs(first->number);
     cell += fmt::format("<small>{:+.{}f} %</small>", percent, std::abs(percent) < 10 ? 1 : 0);
@@ -101,7 +95,7 @@ std::string html_row(std::span<const RunColumn> runs, const std::string& key,
   const RunColumn::Value* first = find_value(runs.front(), key);
   // seed, step and the like are settings: nothing to compare
   const bool compared = key.find('.') != std::string::npos;
-  std::string row = "<tr><th title=\"" + escape_html(key) + "\">" + escape_html(label) + "</th>";
+  std::string row = "<tr><th title=\"" + escaped(key) + "\">" + escaped(label) + "</th>";
   for (const RunColumn& run : runs) {
     const RunColumn::Value* value = find_value(run, key);
     if (!value)
@@ -109,7 +103,7 @@ std::string html_row(std::span<const RunColumn> runs, const std::string& key,
     else if (value->is_number && compared)
       row += number_cell(*value, largest, value == first ? nullptr : first);
     else
-      row += R"(<td class="text" colspan="2">)" + escape_html(value->text) + "</td>";
+      row += R"(<td class="text" colspan="2">)" + escaped(value->text) + "</td>";
   }
   return row + "</tr>\n";
 }
@@ -188,14 +182,13 @@ std::string report_html(std::span<const RunColumn> runs) {
   std::string columns = "<col class=\"key\">";
   for (std::size_t i = 0; i < runs.size(); ++i) columns += "<col><col class=\"bars\">";
   std::string head = "<tr><th></th>";
-  for (const RunColumn& run : runs) head += "<th colspan=\"2\">" + escape_html(run.name) + "</th>";
+  for (const RunColumn& run : runs) head += "<th colspan=\"2\">" + escaped(run.name) + "</th>";
   head += "</tr>\n";
   std::string sections, section = "run", rows;
   auto close_section = [&] {
     if (!rows.empty())
-      sections += "<section>\n<h2>" + escape_html(section) + "</h2>\n<table>\n" + columns +
-                  "<thead>" + head + "</thead>\n<tbody>\n" + rows +
-                  "</tbody>\n</table>\n</section>\n";
+      sections += "<section>\n<h2>" + escaped(section) + "</h2>\n<table>\n" + columns + "<thead>" +
+                  head + "</thead>\n<tbody>\n" + rows + "</tbody>\n</table>\n</section>\n";
     rows.clear();
   };
   for (const std::string& key : all_keys(runs)) {

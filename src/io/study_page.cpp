@@ -25,12 +25,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostPictured = 3;   // variants beside the baseline in one picture
 constexpr std::size_t kMostPoints = 2000;  // of one series in one picture
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  append_escaped(result, text);
-  return result;
-}
-
 std::string number(double value) {
   const double size = std::abs(value);
   if (size >= 1000) return fmt::format("{:.0f}", value);

@@ -17,12 +17,6 @@ constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", 
 
 const char* colour_of(std::size_t series) { return kColours[series % std::size(kColours)]; }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  append_escaped(result, text);
-  return result;
-}
-
 struct Axis {
   double low = 0, high = 1;
 

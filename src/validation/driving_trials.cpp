@@ -1,12 +1,9 @@
-#include <limits>
-
 #include "validation/trial.h"
 
 namespace sumogamma {
 
 namespace {
 
-constexpr double kAny = std::numeric_limits<double>::infinity();
 constexpr const char* kHcm = "Highway Capacity Manual, 7th edition";
 constexpr const char* kProject = "this project's";
 

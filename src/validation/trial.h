@@ -10,10 +10,11 @@
 
 namespace sumogamma {
 
+inline constexpr double kAny = std::numeric_limits<double>::infinity();
+
 /// What a figure should be; infinite where it may be anything.
 struct Band {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
+  double low = -kAny, high = kAny;
 };
 
 /// One figure of a trial, and what is expected of it.

@@ -36,12 +36,6 @@ std::string interval_text(const Estimate& estimate) {
                      number_text(estimate.high));
 }
 
-std::string escaped(const std::string& text) {
-  std::string safe;
-  append_escaped(safe, text);
-  return safe;
-}
-
 }  // namespace
 
 Outcome judge(const Trial& trial, const Criterion& criterion, std::vector<double> values,

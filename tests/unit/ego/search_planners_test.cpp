@@ -7,24 +7,24 @@
 #include <vector>
 
 #include "scene/extent.h"
-#include "support/road_scene.h"
+#include "support/ego_scene.h"
 
 namespace sumogamma {
 namespace {
 
 using testing::crossroads;
 using testing::read_plain_net;
-using testing::RoadScene;
 
 /// A scene on a crossroads that goes on by the one step, its ego by a planner.
-class DrivingTest : public ::testing::Test {
+class DrivingTest : public ::testing::Test, protected testing::EgoScene {
  protected:
   static const RoadNetwork& net() {
     static const RoadNetwork network = read_plain_net(crossroads("traffic_light"));
     return network;
   }
 
-  DrivingTest() {
+  DrivingTest() : EgoScene(net()) {
+    plan_ = -1;
     here_.road.signal_since.assign(here_.model.road.signals.size(), 0.0);
     show('G');
     settings_.goal_way = 1000;
@@ -38,28 +38,6 @@ class DrivingTest : public ::testing::Test {
   void add_ego(double along, double speed) {
     ego_ = here_.add("car", {"SC", "CN"}, along, speed);
     here_.scene.control[ego_] = Control::Planned;
-  }
-  Advance world() { return {here_.model, workers_, here_.road, here_.scene, traffic_, work_}; }
-  TrafficView view() {
-    look_about(world(), {.rules = rules_});
-    return {here_.model,
-            here_.road,
-            here_.scene,
-            traffic_.state,
-            work_.geometry.grid,
-            traffic_.approaches,
-            traffic_.perception,
-            traffic_.waits,
-            traffic_.parameters,
-            traffic_.code,
-            rules_};
-  }
-  template <class Use>
-  auto with_view(Use use) {
-    const TrafficView traffic = view();
-    const EgoView seen{traffic, workers_,         ego_, settings_, goal_, 1,
-                       plan_,   here_.scene.time, 0.0,  rules_};
-    return use(seen);
   }
   SearchDecision decide(DrivingSearch& search) {
     ++plan_;
@@ -78,16 +56,6 @@ class DrivingTest : public ::testing::Test {
   }
   double speed() const { return here_.scene.speed[ego_]; }
   double front() const { return here_.scene.path_along[ego_] + 2.25; }
-
-  RoadScene here_{net()};
-  Workers workers_{1};
-  Traffic traffic_;
-  AdvanceWork work_;
-  EgoSettings settings_;
-  EgoGoal goal_;
-  bool rules_ = true;
-  std::size_t ego_ = 0;
-  std::int64_t plan_ = -1;
 };
 
 class EveryPlanner : public DrivingTest, public ::testing::WithParamInterface<SearchPlanner> {};
@@ -138,7 +106,7 @@ TEST_F(DrivingTest, APlanChangesNothingAndIsTheSameAgain) {
   add_ego(150, 6);
   here_.add("car", {"WC", "CE"}, 165, 8);
   here_.add("car", {"EC", "CS"}, 150, 8);
-  view();
+  look_about(world(), {.rules = rules_});
   const std::uint64_t before = hash_state(here_.scene);
   DrivingSearch one(SearchPlanner::PomdpGamma), other(SearchPlanner::PomdpGamma);
   const SearchDecision first = decide(one);

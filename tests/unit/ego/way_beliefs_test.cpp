@@ -5,40 +5,31 @@
 #include <numeric>
 #include <vector>
 
-#include "support/road_scene.h"
+#include "support/ego_scene.h"
 
 namespace sumogamma {
 namespace {
 
 using testing::crossroads;
 using testing::read_plain_net;
-using testing::RoadScene;
 
 /// An ego that stands and looks at somebody who drives by the one step.
-class WayBeliefsTest : public ::testing::Test {
+class WayBeliefsTest : public ::testing::Test, protected testing::EgoScene {
  protected:
   static const RoadNetwork& net() {
     static const RoadNetwork network = read_plain_net(crossroads("priority"));
     return network;
   }
-  WayBeliefsTest() {
+  WayBeliefsTest() : EgoScene(net()) {
     ego_ = here_.add("car", {"SC", "CN"}, 185, 0);
     here_.scene.control[ego_] = Control::Planned;
   }
   void look() {
-    const Advance world{here_.model, workers_, here_.road, here_.scene, traffic_, work_};
-    look_about(world, {});
-    const TrafficView view{here_.model,         here_.road,          here_.scene,
-                           traffic_.state,      work_.geometry.grid, traffic_.approaches,
-                           traffic_.perception, traffic_.waits,      traffic_.parameters,
-                           traffic_.code};
-    const EgoView seen{view,    workers_,         ego_, settings_, goal_, 1,
-                       plan_++, here_.scene.time, 0,    true};
-    beliefs_.observe(seen, forward_);
+    with_view([&](const EgoView& seen) { beliefs_.observe(seen, forward_); });
+    ++plan_;
   }
   void advance() {
-    const Advance world{here_.model, workers_, here_.road, here_.scene, traffic_, work_};
-    for (int k = 0; k < 7; ++k) advance_rows(world, {});  // the ego brakes, and stands
+    for (int k = 0; k < 7; ++k) advance_rows(world(), {});  // the ego brakes, and stands
   }
   /// What is believed of a row's way into an edge.
   double weight_of(std::size_t row, const std::string& edge) const {
@@ -53,16 +44,8 @@ class WayBeliefsTest : public ::testing::Test {
     return sum;
   }
 
-  RoadScene here_{net()};
-  Workers workers_{1};
-  Traffic traffic_;
-  AdvanceWork work_;
-  EgoSettings settings_;
-  EgoGoal goal_;
   ForwardModel forward_;
   WayBeliefs beliefs_;
-  std::size_t ego_ = 0;
-  std::int64_t plan_ = 0;
 };
 
 TEST_F(WayBeliefsTest, ConcentrateOnALeftTurnerBeforeTheJunction) {
