@@ -8,9 +8,9 @@ namespace sumogamma {
 
 /// The outside is wrong (a file, an option): one line "<file or id>: what, expected what". Exit
 /// code 2.
-class [[gnu::visibility("default")]] Error : public std::runtime_error{
-  public : Error(std::string_view where, std::string_view what) :
-      std::runtime_error(std::string(where) + ": " + std::string(what)){}
+class [[gnu::visibility("default")]] Error : public std::runtime_error {
+ public:
+  Error(std::string_view where, std::string_view what);
 };
 
 /// SUMO failed or went away while it was needed. Exit code 3; outputs so far are complete.

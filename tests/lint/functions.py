@@ -10,7 +10,7 @@ from project import finish, numbered_lines, project_files
 
 MOST_LINES, MOST_PARAMETERS = 60, 6
 # by module, how many functions are still over it: a number that only gets smaller
-STILL = {"model": 6, "prediction": 1, "road": 3, "scene": 1, "simulation": 2, "traffic": 0}
+STILL = {"model": 6, "prediction": 1, "scene": 1, "simulation": 2, "traffic": 0}
 
 
 def without_texts(line):

@@ -24,5 +24,11 @@ TEST(Error, SumosFailureIsAnErrorOfItsOwnKind) {
   }
 }
 
+TEST(Error, IsOneLineWhateverItQuotes) {
+  EXPECT_STREQ(Error("a\nb.toml:3", "'\x1b[31m\r\t\x7f' is no number").what(),
+               "a b.toml:3: ' [31m   ' is no number");
+  EXPECT_STREQ(Error("Straße.toml", "is empty").what(), "Straße.toml: is empty");
+}
+
 }  // namespace
 }  // namespace sumogamma
