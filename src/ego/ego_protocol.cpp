@@ -190,7 +190,7 @@ json to_json(const Futures& futures) {
           {"step", futures.step},
           {"agents", futures.agents},
           {"samples", std::move(samples)},
-          {"from", "true paths, hidden draws"}};
+          {"from", "beliefs over ways, hidden draws"}};
 }
 
 }  // namespace sumogamma

@@ -89,6 +89,7 @@ std::optional<std::uint64_t> ExternalEgo::next_episode(std::span<const std::uint
   late_in_a_row_ = 0;
   owes_answer_ = false;
   progress_shown_ = 0;
+  beliefs_ = WayBeliefs();
   while (!(stop_ && stop_())) {
     if (!connection_) join();
     if (!connection_) {
@@ -152,7 +153,7 @@ std::optional<EgoAction> ExternalEgo::answer(const EgoView& view, const json& me
   if (type == "futures") {
     FuturesRequest request = futures_request_of(message);
     request.key = random_bits(view.seed, static_cast<std::uint64_t>(plan_), 0, Draw::Futures);
-    json reply = to_json(sample_futures(view, request, forward_));
+    json reply = to_json(sample_futures(view, request, beliefs_, forward_));
     send(reply);
     return std::nullopt;
   }
@@ -176,6 +177,7 @@ std::optional<EgoAction> ExternalEgo::answer(const EgoView& view, const json& me
 EgoAction ExternalEgo::decide(const EgoView& view) {
   constexpr int kMostQuestions = 1000;  // a plan
   plan_ = view.plan;
+  if (connection_) beliefs_.observe(view, forward_);
   const Scene& scene = view.world.scene;
   const AgentType& type = type_of(view.world.model.types, scene.type[view.row]);
   for (int k = 0; k < kMostQuestions && connection_; ++k) {

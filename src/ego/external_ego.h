@@ -9,6 +9,7 @@
 
 #include "ego/ego_protocol.h"
 #include "ego/ego_socket.h"
+#include "ego/way_beliefs.h"
 
 namespace sumogamma {
 
@@ -77,6 +78,7 @@ class ExternalEgo {
   std::uint64_t seed_ = 0;
   std::int64_t plan_ = 0, late_ = 0;
   int late_in_a_row_ = 0;
+  WayBeliefs beliefs_;
   bool owes_answer_ = false;  ///< it has been shown something, and has not answered yet
   double progress_shown_ = 0;
   std::string failure_;

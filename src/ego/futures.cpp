@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "base/random.h"
+#include "ego/driving_problem.h"
 #include "ego/ego_action.h"
-#include "scene/behavior_draw.h"
 #include "scene/extent.h"
 
 namespace sumogamma {
@@ -14,21 +14,6 @@ namespace sumogamma {
 namespace {
 
 constexpr double kHorizon = 4.0;  // [s]
-
-/// Everybody but the ego as one of the many that it might be.
-void draw_hidden(const Model& model, AgentId ego, std::uint64_t key, Scene& scene) {
-  for (std::size_t row = 0; row < scene.size(); ++row) {
-    if (scene.id[row] == ego) continue;
-    const AgentType& type = type_of(model.types, scene.type[row]);
-    const IntentionKind intention = scene.behavior[row].intention.kind;
-    const double offset = scene.manners[row].path_offset;
-    scene.behavior[row] = draw_behavior(type, key, scene.id[row].value);
-    scene.behavior[row].intention.kind = intention;
-    scene.manners[row] = draw_manners(type.compliance, key, scene.id[row].value);
-    scene.manners[row].path_offset = offset;
-    scene.preferred_speed[row] = std::max(scene.preferred_speed[row], scene.speed[row]);
-  }
-}
 
 double acceleration_at(const std::vector<double>& plan, double rate, double time) {
   if (plan.empty()) return 0.0;
@@ -48,7 +33,8 @@ void append_state(const Scene& scene, const std::vector<std::size_t>& rows, Futu
 
 }  // namespace
 
-Futures sample_futures(const EgoView& view, const FuturesRequest& request, ForwardModel& forward) {
+Futures sample_futures(const EgoView& view, const FuturesRequest& request,
+                       const WayBeliefs& beliefs, ForwardModel& forward) {
   const Scene& scene = view.world.scene;
   forward.follow(view.world.model);
   std::vector<std::size_t> seen = rows_about(view.world.model, scene, view.row, kSeen, kAgentsSeen);
@@ -56,16 +42,19 @@ Futures sample_futures(const EgoView& view, const FuturesRequest& request, Forwa
   Futures futures;
   futures.steps = static_cast<std::size_t>(std::lround(kHorizon / ForwardModel::kStep));
   for (const std::size_t row : seen) futures.agents.push_back(scene.id[row].value);
-  Fork root = fork_of(view.world, seen);
-  root.scene.control[find_row(root.scene, scene.id[view.row])] = Control::Planned;
+  const PlanRoot root = plan_root(view, beliefs, false, 0);
   std::vector<std::size_t> rows;  // of the fork, in the order of `agents`
-  for (const std::uint32_t id : futures.agents) rows.push_back(find_row(root.scene, AgentId{id}));
-  Fork fork;
-  for (int sample = 0; sample < request.samples; ++sample) {
-    fork = root;
-    const std::uint64_t key =
-        random_bits(request.key, static_cast<std::uint64_t>(sample), 0, Draw::Futures);
-    draw_hidden(forward.model(), scene.id[view.row], key, fork.scene);
+  for (const std::uint32_t id : futures.agents)
+    rows.push_back(find_row(root.fork.scene, AgentId{id}));
+  Fork fork = root.fork;
+  DrivingState state;
+  const auto samples = static_cast<std::uint32_t>(request.samples);
+  const std::uint64_t key = random_bits(request.key, 0, 0, Draw::Futures);
+  for (std::uint32_t sample = 0; sample < samples; ++sample) {
+    draw_scenario(forward.model(), root, key, sample, samples, state);
+    fork.scene = state.scene;
+    fork.road = state.road;
+    fork.traffic.state = state.traffic;
     for (std::size_t step = 0; step < futures.steps; ++step) {
       const double time = static_cast<double>(step) * ForwardModel::kStep;
       EgoAction action;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ego/forward_model.h"
+#include "ego/way_beliefs.h"
 
 namespace sumogamma {
 
@@ -29,9 +29,10 @@ struct Futures {
 };
 
 /// `samples` futures over 4 s of the ego and the kAgentsSeen nearest, given the ego's plan along
-/// its way. Paths are everybody's true ones; what is hidden in people (responsibility, attention,
-/// headway, whether they keep a rule) is drawn anew in each sample, from `key` alone. Forgets
-/// nothing and changes nothing in the world.
-Futures sample_futures(const EgoView& view, const FuturesRequest& request, ForwardModel& forward);
+/// its way. Everybody takes one of the ways of its belief in each sample, by turns as often as it
+/// is believed; what is hidden in people (responsibility, attention, headway, whether they keep a
+/// rule) is drawn anew, from `key` alone. Changes nothing in the world.
+Futures sample_futures(const EgoView& view, const FuturesRequest& request,
+                       const WayBeliefs& beliefs, ForwardModel& forward);
 
 }  // namespace sumogamma

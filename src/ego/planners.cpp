@@ -69,12 +69,13 @@ class ByFutures {
     std::vector<double> choices = view.settings.accelerations;
     std::sort(choices.begin(), choices.end(), std::greater<>());
     EgoAction action;
+    mind_->beliefs.observe(view, mind_->forward);
     for (const double acceleration : choices) {
       action.acceleration = acceleration;
       FuturesRequest request{{acceleration, acceleration, choices.back()},
                              9,
                              view.seed * 1000003u + static_cast<std::uint64_t>(view.plan)};
-      const Futures futures = sample_futures(view, request, *forward_);
+      const Futures futures = sample_futures(view, request, mind_->beliefs, mind_->forward);
       int meet = 0;
       for (int sample = 0; sample < request.samples; ++sample) {
         const auto begin =
@@ -88,7 +89,11 @@ class ByFutures {
   }
 
  private:
-  std::shared_ptr<ForwardModel> forward_ = std::make_shared<ForwardModel>();
+  struct Mind {
+    ForwardModel forward;
+    WayBeliefs beliefs;
+  };
+  std::shared_ptr<Mind> mind_ = std::make_shared<Mind>();
 };
 
 constexpr std::array kPlanners{

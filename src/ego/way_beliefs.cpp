@@ -71,7 +71,13 @@ Fork seen_fork(const EgoView& view, std::size_t& ego) {
     fork.scene.behavior[row] = draw_behavior(type, kStranger, fork.scene.id[row].value);
     fork.scene.behavior[row].intention.kind = IntentionKind::KeepVelocity;
     fork.scene.manners[row] = draw_manners(type.compliance, kStranger, fork.scene.id[row].value);
-    fork.scene.preferred_speed[row] = std::max(fork.scene.speed[row], type.preferred_speed);
+    // who is under way and doesn't speed up drives as fast as it wants to, for all that one sees
+    constexpr double kUnderWay = 2.0, kSpeedsUp = 0.3;  // [m/s], [m/s^2]
+    const double speed = fork.scene.speed[row];
+    const double speeds_up =
+        fork.scene.acceleration[row].dot(direction_of(fork.scene.heading[row]));
+    const bool steady = speed > kUnderWay && speeds_up < kSpeedsUp;
+    fork.scene.preferred_speed[row] = steady ? speed : std::max(speed, type.preferred_speed);
   }
   return fork;
 }
