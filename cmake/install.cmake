@@ -5,8 +5,9 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# one shared library of everything, with the symbols of src/sumo_gamma alone: users need none of what it is made of
-add_library(sumo_gamma SHARED $<TARGET_OBJECTS:sumogamma_sumo_gamma>)
+# one shared library of everything, with the symbols of src/sumo_gamma and of the errors that it throws alone: users need
+# none of what it is made of
+add_library(sumo_gamma SHARED $<TARGET_OBJECTS:sumogamma_sumo_gamma> src/base/error.cpp)
 target_link_libraries(sumo_gamma PRIVATE sumogamma_app)
 target_link_options(sumo_gamma PRIVATE -Wl,--no-undefined -Wl,--exclude-libs,ALL)
 # no promise about the binary interface before 1.0: each minor version has a name of its own
