@@ -47,7 +47,8 @@ double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& 
 void take_path(Path path, double along, std::size_t row, RoadState& road, Scene& scene) {
   const Path* old = road.path(scene.path[row]);
   scene.halt[row].next = old ? next_stop_on(path, *old, scene.halt[row].next) : 0;
-  road.paths[scene.id[row].value] = std::make_shared<const Path>(std::move(path));
+  road.paths[static_cast<std::size_t>(scene.path[row])] =
+      std::make_shared<const Path>(std::move(path));
   scene.path_along[row] = along;
 }
 

@@ -12,7 +12,8 @@ namespace sumogamma {
 double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& scene,
                       std::size_t row);
 
-/// Goes on by another path on which the row is `along` [m]; the halts ahead are its first ones.
+/// Goes on by another path, in place of the one that it has, on which the row is `along` [m]; the
+/// halts ahead are its first ones.
 void take_path(Path path, double along, std::size_t row, RoadState& road, Scene& scene);
 
 }  // namespace sumogamma

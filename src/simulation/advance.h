@@ -16,7 +16,7 @@ struct AdvanceOptions {
   double dt = 0.05;   ///< [s]; the guard reckons with ModelOptions::step, which should be the same
   bool rules = true;  ///< right of way, signals, leaders, courtesy, lanes as borders; without them
                       ///< a path is the way that somebody means to take, and nothing more
-  bool lanes = true;  ///< lane choice, places in the lane, detours, ways back
+  bool lanes = true;  ///< lane choice, places in the lane, detours
 };
 
 /// Scratch of a step: means nothing between steps.

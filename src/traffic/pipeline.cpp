@@ -50,9 +50,7 @@ void update_traffic(const TrafficTick& tick, Traffic& traffic) {
       note_progress(tick.parameters, before, tick.dt, scene, tick.traffic, row);
     }
   });
-  // a way of one's own lies at one's id: in a forecast, whose ways are its own, nobody takes
-  // another
-  if (tick.lanes) find_ways_back(tick);
+  find_ways_back(tick);
   prepare_tick(tick.model, scene, tick.workers, tick.geometry);
   perceive_all(tick);
   if (tick.lanes) choose_lanes(tick, traffic.lanes);

@@ -76,7 +76,7 @@ void match_rows(const Scene& scene, const RoadState& road, TrafficState& traffic
 void change_path(Path path, double along, std::size_t row, RoadState& road, Scene& scene,
                  TrafficState& traffic) {
   take_path(std::move(path), along, row, road, scene);
-  traffic.path[row] = road.paths[scene.id[row].value];
+  traffic.path[row] = road.paths[static_cast<std::size_t>(scene.path[row])];
   traffic.gate[row] = kNever;
 }
 

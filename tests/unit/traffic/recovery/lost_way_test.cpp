@@ -26,6 +26,15 @@ void drive_straight_on(RoadScene& here, std::size_t row, double way) {
   }
 }
 
+/// Puts `own` on the way of `other`, though its path leads another way.
+void lead_astray(RoadScene& here, std::size_t own, std::size_t other) {
+  const Path& path = here.path(other);
+  const double place = path.links.front().end + 2.0;
+  here.scene.path_along[own] = here.path(own).links.front().stop_line;
+  here.scene.position[own] = path.line.point_at(place);
+  here.scene.heading[own] = heading_of(path.line.direction_at(place));
+}
+
 // In Volgograd a car was carried past the turn of its path, which led backwards, and drove on for
 // 159 m against the traffic and over grass: its place on the path stood still.
 TEST(LostWay, WhoseWayLedWhereItCouldNotGoTakesAnotherFromTheLaneThatItIsOn) {
@@ -33,11 +42,7 @@ TEST(LostWay, WhoseWayLedWhereItCouldNotGoTakesAnotherFromTheLaneThatItIsOn) {
   const std::size_t own = here.add("car", {"IA", "AN", "ND", "DO"}, 0, 10);
   const std::size_t other = here.add("car", {"IA", "AS", "SD", "DO"}, 0, 10);
   // it comes onto the road to the south, though it meant to go by the north
-  const Path& south = here.path(other);
-  const double place = south.links.front().end + 2.0;
-  here.scene.path_along[own] = here.path(own).links.front().stop_line;
-  here.scene.position[own] = south.line.point_at(place);
-  here.scene.heading[own] = heading_of(south.line.direction_at(place));
+  lead_astray(here, own, other);
   const auto name_at = [&] { return here.model.road.lane(here.scene.lane[own].lane).name; };
   drive_straight_on(here, own, 8.0);
   EXPECT_NE(name_at(), "AS_0") << "it hasn't driven far";
@@ -46,6 +51,22 @@ TEST(LostWay, WhoseWayLedWhereItCouldNotGoTakesAnotherFromTheLaneThatItIsOn) {
   const Path& path = here.path(own);
   EXPECT_EQ(here.model.road.edge(path.trip->route.back()).name, "DO") << "the same destination";
   EXPECT_LT(here.traffic.strayed[own], 6.0);
+}
+
+// in a forecast paths don't lie in order of ids
+TEST(LostWay, ANewWayLiesWhereTheOldOneLayAndNowhereElse) {
+  RoadScene here(read_plain_net(two_ways(false)));
+  const std::size_t own = here.add("car", {"IA", "AN", "ND", "DO"}, 0, 10);
+  const std::size_t other = here.add("car", {"IA", "AS", "SD", "DO"}, 0, 10);
+  std::swap(here.road.paths[static_cast<std::size_t>(here.scene.path[own])],
+            here.road.paths[static_cast<std::size_t>(here.scene.path[other])]);
+  std::swap(here.scene.path[own], here.scene.path[other]);
+  const Path* const meant = here.road.path(here.scene.path[own]);
+  const Path* const theirs = here.road.path(here.scene.path[other]);
+  lead_astray(here, own, other);
+  drive_straight_on(here, own, 20.0);
+  EXPECT_NE(here.road.path(here.scene.path[own]), meant);
+  EXPECT_EQ(here.road.path(here.scene.path[other]), theirs);
 }
 
 TEST(LostWay, WhoIsOnItsOwnPathFurtherOnGoesOnFromThere) {
