@@ -1,6 +1,8 @@
 #pragma once
 
-#include "ego/ego_view.h"
+#include <gtest/gtest.h>
+
+#include "ego/way_beliefs.h"
 #include "simulation/advance.h"
 #include "support/road_scene.h"
 
@@ -40,6 +42,30 @@ class EgoScene {
   bool rules_ = true;
   std::size_t ego_ = 0;
   std::int64_t plan_ = 0;
+};
+
+/// An ego that stands before a crossroads without signals, and looks at others.
+class LookingEgo : public ::testing::Test, protected EgoScene {
+ protected:
+  static const RoadNetwork& net() {
+    static const RoadNetwork network = read_plain_net(crossroads("priority"));
+    return network;
+  }
+  LookingEgo() : EgoScene(net()) {
+    ego_ = here_.add("car", {"SC", "CN"}, 185, 0);
+    here_.scene.control[ego_] = Control::Planned;
+  }
+  void look() {
+    with_view([&](const EgoView& seen) { beliefs_.observe(seen, forward_); });
+    ++plan_;
+  }
+  /// The time between two looks.
+  void advance() {
+    for (int k = 0; k < 7; ++k) advance_rows(world(), {});  // the ego brakes, and stands
+  }
+
+  ForwardModel forward_;
+  WayBeliefs beliefs_;
 };
 
 }  // namespace sumogamma::testing

@@ -9,25 +9,12 @@
 namespace sumogamma {
 namespace {
 
-using testing::crossroads;
-using testing::read_plain_net;
-
-/// An ego that stands, sees, and asks.
-class FuturesTest : public ::testing::Test, protected testing::EgoScene {
+class FuturesTest : public testing::LookingEgo {
  protected:
-  static const RoadNetwork& net() {
-    static const RoadNetwork network = read_plain_net(crossroads("priority"));
-    return network;
-  }
-  FuturesTest() : EgoScene(net()) {
-    ego_ = here_.add("car", {"SC", "CN"}, 185, 0);
-    here_.scene.control[ego_] = Control::Planned;
-  }
-  void look(int times) {
-    for (int k = 0; k < times; ++k) {
-      with_view([&](const EgoView& seen) { beliefs_.observe(seen, forward_); });
-      ++plan_;
-      for (int tick = 0; tick < 7; ++tick) advance_rows(world(), {});  // the ego stands
+  void watch(int looks) {
+    for (int k = 0; k < looks; ++k) {
+      look();
+      advance();
     }
   }
   Futures ask(int samples) {
@@ -43,15 +30,12 @@ class FuturesTest : public ::testing::Test, protected testing::EgoScene {
       found.push_back((futures.poses[sample * futures.steps * 2 - 1].position - from).norm());
     return found;
   }
-
-  ForwardModel forward_;
-  WayBeliefs beliefs_;
 };
 
 TEST_F(FuturesTest, OfWhoIsKeptStandingBySomethingUnseenStands) {
   const std::size_t foe = here_.add("car", {"WC", "CE"}, 165, 0, 0, -1, "WC_1");
   here_.scene.control[foe] = Control::Parked;  // for a reason that the ego can't know
-  look(8);
+  watch(8);
   const Futures futures = ask(20);
   ASSERT_EQ(futures.agents.size(), 2u);
   int set_off = 0;
@@ -62,7 +46,7 @@ TEST_F(FuturesTest, OfWhoIsKeptStandingBySomethingUnseenStands) {
 TEST_F(FuturesTest, OfWhoDrivesFreelyGoOnAtItsSpeed) {
   const std::size_t foe = here_.add("car", {"WC", "CE"}, 158, 8, 0, -1, "WC_1");
   here_.scene.preferred_speed[foe] = 8;  // well under what a car's driver mostly wants
-  look(3);
+  watch(3);
   const Futures futures = ask(8);
   ASSERT_EQ(futures.agents.size(), 2u);
   for (const double way : ways(futures, here_.scene.position[foe])) EXPECT_LT(way, 8 * 4 + 1.0);
@@ -70,7 +54,7 @@ TEST_F(FuturesTest, OfWhoDrivesFreelyGoOnAtItsSpeed) {
 
 TEST_F(FuturesTest, TakeEachWayAsOftenAsItIsBelieved) {
   const std::size_t foe = here_.add("car", {"WC", "CE"}, 176, 10, 0, -1, "WC_1");
-  look(1);
+  watch(1);
   const WayBelief* belief = beliefs_.of(here_.scene.id[foe]);
   ASSERT_NE(belief, nullptr);
   ASSERT_GT(belief->weights.size(), 2u);
@@ -82,7 +66,7 @@ TEST_F(FuturesTest, TakeEachWayAsOftenAsItIsBelieved) {
 
 TEST_F(FuturesTest, ChangeNothingAndAreTheSameAgain) {
   here_.add("car", {"WC", "CE"}, 176, 10, 0, -1, "WC_1");
-  look(1);
+  watch(1);
   const auto before = hash_state(here_.scene);
   const Futures once = ask(5), again = ask(5);
   EXPECT_EQ(hash_state(here_.scene), before);

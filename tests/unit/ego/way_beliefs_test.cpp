@@ -13,24 +13,8 @@ namespace {
 using testing::crossroads;
 using testing::read_plain_net;
 
-/// An ego that stands and looks at somebody who drives by the one step.
-class WayBeliefsTest : public ::testing::Test, protected testing::EgoScene {
+class WayBeliefsTest : public testing::LookingEgo {
  protected:
-  static const RoadNetwork& net() {
-    static const RoadNetwork network = read_plain_net(crossroads("priority"));
-    return network;
-  }
-  WayBeliefsTest() : EgoScene(net()) {
-    ego_ = here_.add("car", {"SC", "CN"}, 185, 0);
-    here_.scene.control[ego_] = Control::Planned;
-  }
-  void look() {
-    with_view([&](const EgoView& seen) { beliefs_.observe(seen, forward_); });
-    ++plan_;
-  }
-  void advance() {
-    for (int k = 0; k < 7; ++k) advance_rows(world(), {});  // the ego brakes, and stands
-  }
   /// What is believed of a row's way into an edge.
   double weight_of(std::size_t row, const std::string& edge) const {
     const WayBelief* belief = beliefs_.of(here_.scene.id[row]);
@@ -43,9 +27,6 @@ class WayBeliefsTest : public ::testing::Test, protected testing::EgoScene {
       }
     return sum;
   }
-
-  ForwardModel forward_;
-  WayBeliefs beliefs_;
 };
 
 TEST_F(WayBeliefsTest, ConcentrateOnALeftTurnerBeforeTheJunction) {
