@@ -47,8 +47,8 @@ function(sumogamma_program target folder)
 endfunction()
 
 # sumogamma_loadable(TARGET MODULE SOURCE WITH FILE... LIBRARIES LIBRARY...): a file of src/MODULE leaves its library and
-# becomes TARGET.so beside the program, which the library opens by itself. It has copies of its own of the files of src/ that
-# it needs: those of the libraries aren't position-independent, and code that is costs all others inlining.
+# becomes TARGET.so beside the program, which the library opens by itself. It has copies of its own of those files of src/
+# that it needs from the library which opens it, and of what it takes from libraries below that.
 function(sumogamma_loadable target module source)
   cmake_parse_arguments(ARG "" "" "WITH;LIBRARIES" ${ARGN})
   set(own ${PROJECT_SOURCE_DIR}/src/${module}/${source})

@@ -2,8 +2,6 @@
 
 A source includes its own header first, so that compiling it shows that the header stands alone.
 
-A source includes its own header first, so that compiling it shows that the header needs no other before it.
-
 usage: layers.py PROJECT_FOLDER
 """
 import os
