@@ -75,6 +75,10 @@ void add_ego_options(CLI::App& command, DriveOptions& options) {
       ->check(finite_number());
   command.add_option("--max-speed", options.max_speed, "of the ego [m/s]")
       ->check(finite_number(0.1, 100.0));
+  command
+      .add_option("--deadline", options.deadline,
+                  "of a search on the clock [s]: plans that it cuts short can't be repeated")
+      ->check(finite_number(0.001, 1e6));
   command.add_flag("--untrusted", options.untrusted,
                    "others don't count on the ego to do its share");
   command.add_flag("--emergency-brake", options.emergency_brake,

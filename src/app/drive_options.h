@@ -22,7 +22,7 @@ struct DriveOptions {
   bool anywhere = false;
   ExternalLimits limits;
   std::optional<std::string> planner, vehicle, type, goal_edge;
-  std::optional<double> goal_way, max_speed;
+  std::optional<double> goal_way, max_speed, deadline;
   std::vector<double> window;
   bool untrusted = false, emergency_brake = false;
 };

@@ -49,6 +49,7 @@ EgoSettings settings_of(const DriveOptions& options, const ScenarioConfig& confi
   if (options.goal_edge) settings.goal_edge = *options.goal_edge;
   if (options.goal_way) settings.goal_way = *options.goal_way;
   if (options.max_speed) settings.max_speed = *options.max_speed;
+  if (options.deadline) settings.deadline = *options.deadline;
   if (!options.window.empty()) settings.window = options.window;
   if (options.untrusted) settings.trusted = false;
   if (options.emergency_brake) settings.emergency_brake = true;
@@ -76,6 +77,11 @@ Json settings_json(const Drive& drive, const CommonOptions& common) {
           {"max_speed", ego.max_speed},
           {"accelerations", ego.accelerations},
           {"rate", ego.rate},
+          {"agents_seen", ego.agents_seen},
+          {"scenarios", ego.scenarios},
+          {"depth", ego.depth},
+          {"scene_steps", ego.scene_steps},
+          {"deadline", ego.deadline},
           {"trusted", ego.trusted},
           {"emergency_brake", ego.emergency_brake},
           {"warm_up", ego.warm_up},
@@ -262,12 +268,19 @@ Ended drive_episodes(Drive& drive, const DriveOptions& options, const Seeds& see
 
 void print_summary(const std::filesystem::path& folder, const std::vector<Json>& episodes) {
   std::map<std::string, std::size_t> outcomes;
-  for (const Json& episode : episodes) ++outcomes[episode["episode"]["outcome"].get<std::string>()];
+  std::size_t cut = 0;
+  for (const Json& episode : episodes) {
+    ++outcomes[episode["episode"]["outcome"].get<std::string>()];
+    cut += episode["episode"].value("cut", std::size_t{0});
+  }
   std::string text;
   for (const auto& [name, count] : outcomes)
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
   print(stdout, "{} episodes: {}; tables in {}\n", episodes.size(), text.empty() ? "none" : text,
         folder.string());
+  if (cut > 0)
+    print(stderr,
+          "sumo-gamma: --deadline cut {} plans short: this drive can't be repeated exactly\n", cut);
 }
 
 int exit_code(const Drive& drive, const Ended& ended, std::size_t done, std::size_t wanted) {

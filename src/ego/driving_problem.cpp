@@ -35,22 +35,20 @@ PlanRoot plan_root(const EgoView& view, const WayBeliefs& beliefs, bool knows,
   const Scene& world = view.world.scene;
   for (std::size_t row = 0; row < scene.size(); ++row) {
     if (row == root.ego) continue;
-    PlanRoot::Choice& choice = root.choices[row];
-    const auto add = [&](const std::shared_ptr<const Path>& path, double weight) {
-      choice.paths.push_back(path ? static_cast<PathId>(root.fork.road.paths.size()) : kNoPath);
-      choice.weights.push_back(weight);
-      if (path) root.fork.road.paths.push_back(path);
+    const auto add = [&](const WayOn& way, double weight) {
+      const auto place = static_cast<PathId>(root.fork.road.paths.size());
+      root.choices[row].push_back({way.path ? place : kNoPath, way.intention, weight});
+      if (way.path) root.fork.road.paths.push_back(way.path);
     };
     if (knows) {
       const PathId own = world.path[find_row(world, scene.id[row])];
       if (view.world.road.path(own) != nullptr)
-        add(view.world.road.paths[static_cast<std::size_t>(own)], 1.0);
+        add({view.world.road.paths[static_cast<std::size_t>(own)]}, 1.0);
       continue;
     }
     const WayBelief* belief = beliefs.of(scene.id[row]);
-    if (belief == nullptr || belief->ways.empty()) continue;
+    if (belief == nullptr) continue;
     for (std::size_t i = 0; i < belief->ways.size(); ++i) add(belief->ways[i], belief->weights[i]);
-    add(nullptr, belief->weights.back());
   }
   for (const std::size_t row : rows_about(view.world.model, world, view.row, kSeen, observed)) {
     const std::size_t own = find_row(scene, world.id[row]);
@@ -74,8 +72,8 @@ void draw_scenario(const Model& model, const PlanRoot& root, std::uint64_t key, 
     scene.behavior[row] = draw_behavior(type, own, id);
     scene.behavior[row].intention.kind = intention;
     scene.manners[row] = draw_manners(type.compliance, own, id);
-    const PlanRoot::Choice& choice = root.choices[row];
-    if (choice.weights.empty()) continue;
+    const std::vector<PlanRoot::Choice>& choices = root.choices[row];
+    if (choices.empty()) continue;
     // a tooth of the agent's own comb: which one is a matter of rank among random numbers
     std::uint32_t tooth = 0;
     const std::uint64_t rank = random_bits(key, id, index, Draw::Intention);
@@ -83,11 +81,11 @@ void draw_scenario(const Model& model, const PlanRoot& root, std::uint64_t key, 
       tooth += random_bits(key, id, other, Draw::Intention) < rank ? 1u : 0u;
     const double place = (tooth + random_uniform(key, id, count, Draw::Intention)) / count;
     std::size_t chosen = 0;
-    for (double up_to = choice.weights[0]; place >= up_to && chosen + 1 < choice.weights.size();)
-      up_to += choice.weights[++chosen];
-    const PathId path = choice.paths[chosen];
+    for (double up_to = choices[0].weight; place >= up_to && chosen + 1 < choices.size();)
+      up_to += choices[++chosen].weight;
+    const PathId path = choices[chosen].path;
     if (path == kNoPath) {
-      scene.behavior[row].intention.kind = IntentionKind::Stop;
+      scene.behavior[row].intention = choices[chosen].intention;
       continue;
     }
     scene.path[row] = path;

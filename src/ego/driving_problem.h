@@ -38,11 +38,12 @@ struct PlanRoot {
   Fork fork;            ///< its paths are the ego's and the candidates'
   std::size_t ego = 0;  ///< row
   struct Choice {
-    std::vector<PathId> paths;    ///< kNoPath stands for stopping
-    std::vector<double> weights;  ///< likewise; empty: as it is
+    PathId path = kNoPath;
+    Intention intention;  ///< without a path
+    double weight = 0;
   };
-  std::vector<Choice> choices;        ///< by row
-  std::vector<std::size_t> observed;  ///< rows that observations tell of
+  std::vector<std::vector<Choice>> choices;  ///< by row; none: as it is
+  std::vector<std::size_t> observed;         ///< rows that observations tell of
 };
 
 /// From what is seen and believed. `knows`: everybody's own path instead of a belief.

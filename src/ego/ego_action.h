@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/model.h"
+#include "planning/search_budget.h"
 #include "scene/scene.h"
 
 namespace sumogamma {
@@ -20,6 +21,7 @@ struct EgoAction {
   std::optional<double> steering;  ///< front wheel angle, positive left [rad]; none: its path
   /// From where the ego was when it planned, at time 0, on. Where it isn't empty it alone counts.
   std::vector<TrajectoryPoint> trajectory;
+  std::optional<SearchStatistics> search;  ///< what a search for it has found
 };
 
 /// Braking as hard as the body can.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/edit_distance.h"
 #include "base/error.h"
@@ -43,6 +44,16 @@ void check_accelerations(const std::vector<double>& accelerations) {
               "must be finite, and one of them below 0: an ego has to brake");
 }
 
+void check_search(const EgoSettings& settings) {
+  const std::pair<const char*, int> counts[] = {{"agents_seen", settings.agents_seen},
+                                                {"scenarios", settings.scenarios},
+                                                {"depth", settings.depth},
+                                                {"scene_steps", settings.scene_steps}};
+  for (const auto& [name, count] : counts)
+    if (count < 1)
+      throw Error("[ego] " + std::string(name) + " " + std::to_string(count), "must be 1 or more");
+}
+
 }  // namespace
 
 void check_settings(const EgoSettings& settings, double step, bool external) {
@@ -52,6 +63,7 @@ void check_settings(const EgoSettings& settings, double step, bool external) {
                     " a second, one plan a tick of " + number_text(step) + " s");
   check_accelerations(settings.accelerations);
   check_window(settings.window);
+  check_search(settings);
   if (!external) check_planner(settings.planner);
   if (settings.vehicle.empty() && settings.goal_edge.empty() && settings.goal_way < kGoalRadius)
     throw Error("[ego] goal_way " + number_text(settings.goal_way),

@@ -20,7 +20,12 @@ struct EgoSettings {
   std::vector<double> accelerations{0, 3, -3};  ///< among which planners choose [m/s^2]
   double rate = 3;                              ///< plans a second
   std::string planner = "gamma";                ///< one of planners()
-  bool trusted = true;                          ///< others count on it to do its share
+  int agents_seen = 20;    ///< of those within kSeen the nearest: who planners reckon with
+  int scenarios = 5;       ///< K of a search
+  int depth = 12;          ///< D of a search [steps of 1/3 s]
+  int scene_steps = 3000;  ///< of a search, counted: the same plan anywhere
+  double deadline = 0;     ///< of a search [s] on the clock; 0: none, else plans can't be repeated
+  bool trusted = true;     ///< others count on it to do its share
   bool emergency_brake = false;  ///< brakes fully, whatever it plans, where it would hit somebody
   double warm_up = 30;           ///< of the world before the ego comes [s]
   double clearance = 9;          ///< free around its start [m]

@@ -64,6 +64,11 @@ std::vector<std::size_t> rows_about(const Model& model, const Scene& scene, std:
   return rows;
 }
 
+std::vector<std::size_t> rows_seen(const EgoView& view) {
+  return rows_about(view.world.model, view.world.scene, view.row, kSeen,
+                    static_cast<std::size_t>(view.settings.agents_seen));
+}
+
 EgoObservation observe_ego(const Model& model, const RoadState& road, const Scene& scene,
                            std::size_t row, const EgoGoal& goal, double since) {
   EgoObservation observation;

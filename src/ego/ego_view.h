@@ -41,9 +41,13 @@ struct EgoView {
 std::vector<std::size_t> rows_about(const Model& model, const Scene& scene, std::size_t row,
                                     double reach, std::size_t most);
 
-/// What planners reckon with of those about [m]: the reference's planner takes as many.
-inline constexpr std::size_t kAgentsSeen = 20;
+/// How far planners see [m], and how many of the nearest who joins is shown: as the reference's
+/// planner.
 inline constexpr double kSeen = 50.0;
+inline constexpr std::size_t kAgentsSeen = 20;
+
+/// Rows of those whom a planner in the box reckons with ([ego] agents_seen), nearest first.
+std::vector<std::size_t> rows_seen(const EgoView& view);
 
 /// An agent as it can be seen: no path, no intention.
 struct VisibleAgent {

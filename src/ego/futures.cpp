@@ -37,7 +37,7 @@ Futures sample_futures(const EgoView& view, const FuturesRequest& request,
                        const WayBeliefs& beliefs, ForwardModel& forward) {
   const Scene& scene = view.world.scene;
   forward.follow(view.world.model);
-  std::vector<std::size_t> seen = rows_about(view.world.model, scene, view.row, kSeen, kAgentsSeen);
+  std::vector<std::size_t> seen = rows_seen(view);
   seen.insert(seen.begin(), view.row);
   Futures futures;
   futures.steps = static_cast<std::size_t>(std::lround(kHorizon / ForwardModel::kStep));

@@ -28,7 +28,7 @@ struct Futures {
   std::vector<double> gap;  ///< of the ego to the nearest of them [samples * steps, m]
 };
 
-/// `samples` futures over 4 s of the ego and the kAgentsSeen nearest, given the ego's plan along
+/// `samples` futures over 4 s of the ego and those seen (rows_seen), given the ego's plan along
 /// its way. Everybody takes one of the ways of its belief in each sample, by turns as often as it
 /// is believed; what is hidden in people (responsibility, attention, headway, whether they keep a
 /// rule) is drawn anew, from `key` alone. Changes nothing in the world.

@@ -24,7 +24,7 @@ Followed leader_on_way(const EgoView& view) {
   if (path == nullptr) return leader;
   const double along = scene.path_along[view.row];
   const OrientedBox own = box_of(scene, view.row);
-  for (const std::size_t row : rows_about(view.world.model, scene, view.row, kSeen, kAgentsSeen)) {
+  for (const std::size_t row : rows_seen(view)) {
     const PolylinePosition place = path->line.project(scene.position[row], along, along + kSeen);
     const Vec2 tangent = path->line.direction_at(place.along);
     const double across = half_extent(scene, row, left_of(tangent));

@@ -1,10 +1,24 @@
 #include "ego/search_planners.h"
 
+#include <chrono>
 #include <memory>
 
 #include "base/random.h"
 
 namespace sumogamma {
+
+namespace {
+
+PlanSize size_of(const EgoSettings& settings) {
+  PlanSize size;
+  size.scenarios = static_cast<std::uint32_t>(settings.scenarios);
+  size.search.depth = settings.depth;
+  size.scene_steps = settings.scene_steps;
+  size.deadline = settings.deadline;
+  return size;
+}
+
+}  // namespace
 
 DrivingSearch::DrivingSearch(SearchPlanner kind, PlanSize size, DrivingParameters driving)
     : kind_(kind),
@@ -16,6 +30,8 @@ DrivingSearch::DrivingSearch(SearchPlanner kind, PlanSize size, DrivingParameter
 }
 
 SearchDecision DrivingSearch::decide(const EgoView& view) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
   const bool knows = kind_ == SearchPlanner::Oracle, rolls = kind_ == SearchPlanner::RolloutGamma;
   forward_.follow(view.world.model);
   // the default policy looks at where everybody is and how fast, whatever they mean
@@ -36,6 +52,10 @@ SearchDecision DrivingSearch::decide(const EgoView& view) {
     parameters.pruning = 0;
     budget = {.expansions = 1};
   }
+  if (size_.deadline > 0)
+    budget.stop = [end = begin + std::chrono::duration<double>(size_.deadline)] {
+      return Clock::now() > end;
+    };
   SearchResult found;
   if (kind_ == SearchPlanner::Policy) {
     const std::vector<SearchParticle> particle = {{1.0, 0, 0, 0}};
@@ -48,9 +68,12 @@ SearchDecision DrivingSearch::decide(const EgoView& view) {
 }
 
 Planner make_search_planner(SearchPlanner kind) {
-  return [search = std::make_shared<DrivingSearch>(kind)](const EgoView& view) {
+  return [kind, search = std::shared_ptr<DrivingSearch>()](const EgoView& view) mutable {
+    if (!search) search = std::make_shared<DrivingSearch>(kind, size_of(view.settings));
+    const SearchDecision decision = search->decide(view);
     EgoAction action;
-    action.acceleration = search->decide(view).acceleration;
+    action.acceleration = decision.acceleration;
+    action.search = decision.statistics;
     return action;
   };
 }

@@ -23,6 +23,7 @@ struct PlanSize {
   std::uint32_t rollout_scenarios = 20;  ///< of RolloutGamma
   SearchParameters search{.depth = 12, .discount = 0.95, .gap_share = 0.97, .pruning = 0.001};
   std::int64_t scene_steps = 3000;  ///< a plan; counted, so that it is the same plan anywhere
+  double deadline = 0;              ///< ends a search [s] on the clock; 0: none
 };
 
 struct SearchDecision {

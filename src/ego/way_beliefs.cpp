@@ -9,7 +9,20 @@ namespace sumogamma {
 
 namespace {
 constexpr std::uint64_t kStranger = 1;  // seed of what nobody knows of anybody
+
+constexpr std::size_t kOn = 0;  // of ways on foot; the last one is to stop
+
+/// Did a walker take another way than on or to a halt?
+bool has_turned(const WayBelief& belief) {
+  const auto likeliest = static_cast<std::size_t>(
+      std::max_element(belief.weights.begin(), belief.weights.end()) - belief.weights.begin());
+  return likeliest != kOn && likeliest + 1 != belief.weights.size();
 }
+
+std::vector<double> uniform(std::size_t ways) {
+  return std::vector<double>(ways, 1.0 / static_cast<double>(ways));
+}
+}  // namespace
 
 double likelihood(const Vec2& predicted, const Vec2& seen) {
   constexpr double kTurn = 5.0 * M_PI / 180.0, kWay = 0.1, kFloor = 0.001;
@@ -24,13 +37,18 @@ double likelihood(const Vec2& predicted, const Vec2& seen) {
 void advance_at_constant_speed(const RoadState& road, std::size_t ego, double dt, Scene& scene) {
   for (std::size_t row = 0; row < scene.size(); ++row) {
     if (row == ego) continue;
-    if (scene.behavior[row].intention.kind == IntentionKind::Stop) {
+    const Intention& intention = scene.behavior[row].intention;
+    if (intention.kind == IntentionKind::Stop) {
       scene.speed[row] = 0;
       scene.velocity[row] = Vec2::Zero();
       continue;
     }
     const Path* path = road.path(scene.path[row]);
     if (path == nullptr) {
+      if (intention.kind == IntentionKind::Velocity) {
+        scene.velocity[row] = intention.goal;
+        scene.speed[row] = intention.goal.norm();
+      }
       scene.position[row] += dt * scene.velocity[row];
       continue;
     }
@@ -50,7 +68,7 @@ void advance_at_constant_speed(const RoadState& road, std::size_t ego, double dt
 
 Fork seen_fork(const EgoView& view, std::size_t& ego) {
   const Scene& scene = view.world.scene;
-  std::vector<std::size_t> rows = rows_about(view.world.model, scene, view.row, kSeen, kAgentsSeen);
+  std::vector<std::size_t> rows = rows_seen(view);
   rows.push_back(view.row);
   Fork fork = fork_of(view.world, std::move(rows));
   ego = find_row(fork.scene, scene.id[view.row]);
@@ -82,15 +100,27 @@ Fork seen_fork(const EgoView& view, std::size_t& ego) {
   return fork;
 }
 
-void send_along(const std::shared_ptr<const Path>& way, std::size_t row, Fork& fork) {
-  if (way == nullptr) {
-    fork.scene.behavior[row].intention.kind = IntentionKind::Stop;
+std::vector<WayOn> ways_on_foot(const AgentType& type, const Vec2& velocity, double heading) {
+  constexpr double kStands = 0.3;  // [m/s]
+  const bool stands = velocity.norm() < kStands;
+  const Vec2 on = stands ? Vec2(type.preferred_speed * direction_of(heading)) : velocity;
+  const Vec2 left = left_of(on);
+  std::vector<WayOn> ways;
+  for (const Vec2& way : {on, left, Vec2(-left), Vec2(-on)})
+    ways.push_back({nullptr, {IntentionKind::Velocity, way}});
+  ways.push_back({nullptr, {IntentionKind::Stop}});
+  return ways;
+}
+
+void send_along(const WayOn& way, std::size_t row, Fork& fork) {
+  if (way.path == nullptr) {
+    fork.scene.behavior[row].intention = way.intention;
     return;
   }
   fork.scene.path[row] = static_cast<PathId>(fork.road.paths.size());
-  fork.scene.path_along[row] = way->line.project(fork.scene.position[row]).along;
+  fork.scene.path_along[row] = way.path->line.project(fork.scene.position[row]).along;
   fork.scene.behavior[row].intention.kind = IntentionKind::Path;
-  fork.road.paths.push_back(way);
+  fork.road.paths.push_back(way.path);
 }
 
 const WayBelief* WayBeliefs::of(AgentId id) const {
@@ -125,7 +155,7 @@ void WayBeliefs::weigh(const EgoView& view, ForwardModel& forward) {
     for (std::size_t row = 0; row < trial_.scene.size(); ++row) {
       const WayBelief* belief = row == before_ego_ ? nullptr : of(trial_.scene.id[row]);
       if (belief == nullptr || h >= belief->weights.size()) continue;
-      send_along(h < belief->ways.size() ? belief->ways[h] : nullptr, row, trial_);
+      send_along(belief->ways[h], row, trial_);
     }
     if (model_ == OthersModel::Gamma) {
       forward.advance(trial_, view.rules, [](const TrafficView& world, std::size_t row) {
@@ -152,11 +182,11 @@ void WayBeliefs::weigh(const EgoView& view, ForwardModel& forward) {
   }
 }
 
-/// Who came, left, or is on another lane now.
+/// Who came, left, is on another lane now, or walks.
 void WayBeliefs::take_in(const EgoView& view) {
   constexpr double kForgotten = 2.0;  // [s]
   const Scene& scene = view.world.scene;
-  std::vector<std::size_t> rows = rows_about(view.world.model, scene, view.row, kSeen, kAgentsSeen);
+  std::vector<std::size_t> rows = rows_seen(view);
   std::sort(rows.begin(), rows.end());
   for (const std::size_t row : rows) {
     const AgentId id = scene.id[row];
@@ -164,16 +194,24 @@ void WayBeliefs::take_in(const EgoView& view) {
         std::lower_bound(beliefs_.begin(), beliefs_.end(), id,
                          [](const WayBelief& belief, AgentId other) { return belief.id < other; });
     const bool known = found != beliefs_.end() && found->id == id;
+    if (known) found->seen = scene.time;
+    const AgentType& type = type_of(view.world.model.types, scene.type[row]);
+    if (type.kinematics == Kinematics::Holonomic) {
+      if (!known) found = beliefs_.insert(found, {id, kNoLane, {}, {}, scene.time});
+      found->ways = ways_on_foot(type, scene.velocity[row], scene.heading[row]);
+      if (!known || has_turned(*found)) found->weights = uniform(found->ways.size());
+      continue;
+    }
     const LaneId lane = scene.lane[row].lane;
     const bool on_junction = lane == kNoLane || network_->lane(lane).kind != LaneKind::Normal;
-    if (known) found->seen = scene.time;
     if (known && (on_junction || lane == found->lane)) continue;
     if (!known) found = beliefs_.insert(found, WayBelief{});
-    const auto ways =
-        candidates_->ways(type_of(view.world.model.types, scene.type[row]), scene.type[row], lane);
-    *found = {id, lane, {ways.begin(), ways.end()}, {}, scene.time};
-    if (!ways.empty())
-      found->weights.assign(ways.size() + 1, 1.0 / static_cast<double>(ways.size() + 1));
+    *found = {id, lane, {}, {}, scene.time};
+    for (const auto& path : candidates_->ways(type, scene.type[row], lane))
+      found->ways.push_back({path, {IntentionKind::Path}});
+    if (found->ways.empty()) continue;  // it goes on as it does
+    found->ways.push_back({nullptr, {IntentionKind::Stop}});
+    found->weights = uniform(found->ways.size());
   }
   std::erase_if(beliefs_,
                 [&](const WayBelief& belief) { return scene.time - belief.seen > kForgotten; });

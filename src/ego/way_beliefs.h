@@ -16,21 +16,32 @@ enum class OthersModel : std::uint8_t {
   ConstantSpeed,  ///< along their way at their present speed, whatever happens
 };
 
-/// What may be in somebody's mind: its candidate ways, and to stop.
+/// One way on that somebody may take.
+struct WayOn {
+  std::shared_ptr<const Path> path;             ///< of a vehicle; null: as `intention` says
+  Intention intention = {IntentionKind::Stop};  ///< without a path: to stop, or a velocity
+};
+
+/// What may be in somebody's mind: its candidate ways, the last of them to stop.
 struct WayBelief {
   AgentId id;
-  LaneId lane = kNoLane;  ///< on which the ways begin
-  std::vector<std::shared_ptr<const Path>> ways;
-  std::vector<double> weights;  ///< of the ways, then of stopping; add up to 1
+  LaneId lane = kNoLane;  ///< on which a vehicle's ways begin
+  std::vector<WayOn> ways;
+  std::vector<double> weights;  ///< of the ways; add up to 1
   double seen = 0;              ///< when it last was [s]
 };
+
+/// Ways on of somebody on foot: on, to the left, to the right and back from where it walks (who
+/// stands: from where it looks, at its type's pace), and to stop.
+std::vector<WayOn> ways_on_foot(const AgentType& type, const Vec2& velocity, double heading);
 
 /// A step of everybody but the ego along its path at its present speed, `dt` [s] long.
 void advance_at_constant_speed(const RoadState& road, std::size_t ego, double dt, Scene& scene);
 
-/// Beliefs over the ways of the vehicles about an ego by Eqs. 8 to 10, from poses alone: at each
-/// look every candidate is weighed by how the step that it predicts from the look before agrees
-/// with what was seen. Uniform again where the candidates change, forgotten after 2 s out of sight.
+/// Beliefs over the ways of those about an ego by Eqs. 8 to 10, from poses alone: at each look
+/// every candidate is weighed by how the step that it predicts from the look before agrees with
+/// what was seen. Uniform again where a vehicle's candidates change and where a walker has turned,
+/// as a walker's ways turn with it. Forgotten after 2 s out of sight.
 class WayBeliefs {
  public:
   explicit WayBeliefs(OthersModel model = OthersModel::Gamma) : model_(model) {}
@@ -63,7 +74,7 @@ double likelihood(const Vec2& predicted, const Vec2& seen);
 /// row there.
 Fork seen_fork(const EgoView& view, std::size_t& ego);
 
-/// Sends a row along a way (null: to a halt where it is), from where it is beside it.
-void send_along(const std::shared_ptr<const Path>& way, std::size_t row, Fork& fork);
+/// Sends a row along a way, from where it is beside it.
+void send_along(const WayOn& way, std::size_t row, Fork& fork);
 
 }  // namespace sumogamma

@@ -22,25 +22,42 @@ Json action_kind(const EgoAction& action) {
   return !action.trajectory.empty() ? "trajectory" : action.steering ? "steering" : "acceleration";
 }
 
-Json plan_row(std::uint64_t seed, const PlanRow& plan) {
-  return {{"seed", seed},
-          {"plan", plan.plan},
-          {"time", plan.time},
-          {"x", plan.position.x()},
-          {"y", plan.position.y()},
-          {"heading", plan.heading},
-          {"speed", plan.speed},
-          {"progress", plan.progress},
-          {"action", action_kind(plan.action)},
-          {"acceleration", plan.action.acceleration},
-          {"steering", plan.action.steering ? Json(*plan.action.steering) : Json()},
-          {"emergency_ticks", plan.emergency_ticks}};
+/// Empty where nothing was searched.
+void add_search(const std::optional<SearchStatistics>& search, Json& row) {
+  const auto add = [&](const char* name, auto value) {
+    row[name] = search ? Json(search.value().*value) : Json();
+  };
+  add("nodes", &SearchStatistics::nodes);
+  add("expansions", &SearchStatistics::expansions);
+  add("scene_steps", &SearchStatistics::steps);
+  add("deepest", &SearchStatistics::deepest);
+  add("lower", &SearchStatistics::lower);
+  add("upper", &SearchStatistics::upper);
+  add("closed", &SearchStatistics::closed);
+  add("by_default", &SearchStatistics::by_default);
+  add("cut", &SearchStatistics::stopped);
 }
 
-std::size_t emergencies(const EpisodeResult& result) {
-  return static_cast<std::size_t>(
-      std::count_if(result.plans.begin(), result.plans.end(),
-                    [](const PlanRow& plan) { return plan.emergency_ticks > 0; }));
+Json plan_row(std::uint64_t seed, const PlanRow& plan) {
+  Json row = {{"seed", seed},
+              {"plan", plan.plan},
+              {"time", plan.time},
+              {"x", plan.position.x()},
+              {"y", plan.position.y()},
+              {"heading", plan.heading},
+              {"speed", plan.speed},
+              {"progress", plan.progress},
+              {"action", action_kind(plan.action)},
+              {"acceleration", plan.action.acceleration},
+              {"steering", plan.action.steering ? Json(*plan.action.steering) : Json()},
+              {"emergency_ticks", plan.emergency_ticks}};
+  add_search(plan.action.search, row);
+  return row;
+}
+
+template <class Which>
+auto count_plans(const EpisodeResult& result, Which which) {
+  return std::count_if(result.plans.begin(), result.plans.end(), which);
 }
 
 void add_contact(const EpisodeResult& result, Json& row) {
@@ -170,7 +187,11 @@ Json to_json(const EpisodeResult& result) {
   add_score(result.score, row);
   row["plans"] = result.plans.size();
   row["late"] = result.late;
-  row["emergency_brakes"] = emergencies(result);
+  row["emergency_brakes"] =
+      count_plans(result, [](const PlanRow& plan) { return plan.emergency_ticks > 0; });
+  row["cut"] = count_plans(result, [](const PlanRow& plan) {
+    return plan.action.search && plan.action.search->stopped;
+  });
   row["gridlock"] = result.gridlock ? 1 : 0;
   row["failure"] = result.failure;
   Json plans = Json::array();

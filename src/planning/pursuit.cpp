@@ -33,12 +33,4 @@ bool is_in_the_way(const OrientedBox& ego, const OrientedBox& other, const EgoCo
   return separation(wide, other) < 0;
 }
 
-bool needs_emergency_brake(const OrientedBox& ego, double speed,
-                           std::span<const OrientedBox> others, const EgoControl& control) {
-  constexpr double kMoves = 1e-3;  // below this it stands [m/s]
-  return speed > kMoves && std::any_of(others.begin(), others.end(), [&](const OrientedBox& other) {
-           return is_in_the_way(ego, other, control);
-         });
-}
-
 }  // namespace sumogamma

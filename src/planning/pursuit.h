@@ -1,18 +1,14 @@
 #pragma once
 
-#include <span>
-
 #include "geometry/polyline.h"
 #include "planning/wheeled_pose.h"
 
 namespace sumogamma {
 
-/// How an ego follows its way and when it stops whatever its planner says: outside of all planners,
-/// for all alike.
+/// How an ego follows its way, and what counts as in its way.
 struct EgoControl {
   double look_ahead = 5.0;                       ///< of pure pursuit [m]
   double top_speed = 6.0;                        ///< [m/s]
-  double emergency_deceleration = 6.0;           ///< [m/s^2]
   double front_margin = 3.0, side_margin = 0.8;  ///< boxes are widened by, in front and elsewhere
                                                  ///< [m]
   double cone = 1.0471975511965976;              ///< what is ahead: to each side [rad]
@@ -31,9 +27,5 @@ Vec2 rolling_velocity(const WheeledShape& shape, const AxlePose& pose, double sp
 /// Is a body with its margins in touch with another one ahead of it? Margins are the ego's: in
 /// front, to the sides and behind; ahead is within the cone about its heading from its middle.
 bool is_in_the_way(const OrientedBox& ego, const OrientedBox& other, const EgoControl& control);
-
-/// Must the ego brake as hard as it can, whatever its planner says?
-bool needs_emergency_brake(const OrientedBox& ego, double speed,
-                           std::span<const OrientedBox> others, const EgoControl& control);
 
 }  // namespace sumogamma

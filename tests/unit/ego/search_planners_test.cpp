@@ -102,6 +102,74 @@ INSTANTIATE_TEST_SUITE_P(All, EveryPlanner,
                                            SearchPlanner::PomdpSimple, SearchPlanner::Policy,
                                            SearchPlanner::Oracle));
 
+TEST_F(DrivingTest, TheLikelierACrossingCarGoesOnTheEarlierItBrakes) {
+  rules_ = false;
+  add_ego(100, 6);
+  const std::size_t foe = here_.add("car", {"WC", "CE"}, 100, 8, 0, -1, "WC_0");
+  CandidateWays candidates(net());
+  const AgentTypeId car = here_.scene.type[foe];
+  std::shared_ptr<const Path> on, off;  // straight over the ego's way, or off to the right before
+  for (const auto& way :
+       candidates.ways(type_of(here_.model.types, car), car, net().lane_by_name.at("WC_0"))) {
+    const LaneId to = net().connection(way->links.front().connection).to;
+    const std::string& edge = net().edge(net().lane(to).edge).name;
+    if (edge == "CE") on = way;
+    if (edge == "CS") off = way;
+  }
+  ASSERT_TRUE(on && off);
+  // where their ways meet, along each
+  const Vec2 middle(here_.path(ego_).line.point_at(195).x(), on->line.point_at(195).y());
+  const double own = here_.path(ego_).line.project(middle).along;
+  const double its = on->line.project(middle).along;
+
+  /// Of an approach in which both would be there at once: how long before does it first brake [s]?
+  const auto brakes_at = [&](double share) {
+    for (double ahead = 4.5; ahead > 0.4; ahead -= 0.25) {
+      here_.move(ego_, own - 6 * ahead);
+      here_.set_speed(ego_, 6);
+      here_.move(foe, its - 8 * ahead);
+      here_.set_speed(foe, 8);
+      const double acceleration = with_view([&](const EgoView& seen) {
+        ForwardModel forward;
+        forward.follow(here_.model);
+        PlanRoot root = plan_root(seen, WayBeliefs(), false, 4);
+        const std::size_t place = root.fork.road.paths.size();
+        root.fork.road.paths.insert(root.fork.road.paths.end(), {on, off});
+        root.choices[find_row(root.fork.scene, here_.scene.id[foe])] = {
+            {static_cast<PathId>(place), {}, share},
+            {static_cast<PathId>(place + 1), {}, 1 - share}};
+        DrivingProblem problem(seen, root, OthersModel::ConstantSpeed, {}, forward);
+        constexpr std::uint32_t kScenarios = 20;
+        std::vector<DrivingState> states(kScenarios);
+        const std::vector<double> weights(kScenarios, 1.0 / kScenarios);
+        for (std::uint32_t i = 0; i < kScenarios; ++i)
+          draw_scenario(forward.model(), root, 7, i, kScenarios, states[i]);
+        BeliefTree<DrivingProblem> tree;
+        const SearchResult found = tree.search(problem, {states, weights, 7}, PlanSize{}.search,
+                                               SearchBudget{.steps = 20000});
+        return problem.acceleration_of(found.action);
+      });
+      if (acceleration < 0) return ahead;
+    }
+    return 0.0;
+  };
+  std::vector<double> times;
+  for (const double share : {0.0, 0.1, 0.3, 0.6, 1.0}) times.push_back(brakes_at(share));
+  EXPECT_EQ(times.front(), 0.0) << "it turns off for certain";
+  EXPECT_GT(times.back(), 1.0) << "it goes on for certain";
+  EXPECT_TRUE(std::is_sorted(times.begin(), times.end())) << ::testing::PrintToString(times);
+}
+
+TEST_F(DrivingTest, ADeadlineCutsASearchAndIsSaid) {
+  add_ego(150, 6);
+  here_.add("car", {"WC", "CE"}, 165, 8);
+  PlanSize size;
+  size.scene_steps = 1'000'000'000;
+  size.deadline = 1e-4;
+  DrivingSearch search(SearchPlanner::PomdpGamma, size);
+  EXPECT_TRUE(decide(search).statistics.stopped);
+}
+
 TEST_F(DrivingTest, APlanChangesNothingAndIsTheSameAgain) {
   add_ego(150, 6);
   here_.add("car", {"WC", "CE"}, 165, 8);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -20,11 +21,13 @@ class WayBeliefsTest : public testing::LookingEgo {
     const WayBelief* belief = beliefs_.of(here_.scene.id[row]);
     if (belief == nullptr) return -1;
     double sum = 0;
-    for (std::size_t i = 0; i < belief->ways.size(); ++i)
-      for (const PathLink& link : belief->ways[i]->links) {
+    for (std::size_t i = 0; i < belief->ways.size(); ++i) {
+      if (belief->ways[i].path == nullptr) continue;
+      for (const PathLink& link : belief->ways[i].path->links) {
         const LaneId to = net().connection(link.connection).to;
         if (net().edge(net().lane(to).edge).name == edge) sum += belief->weights[i];
       }
+    }
     return sum;
   }
 };
@@ -68,6 +71,39 @@ TEST_F(WayBeliefsTest, AreUniformAgainOnANewLane) {
       EXPECT_DOUBLE_EQ(weight, 1.0 / static_cast<double>(belief->weights.size()));
   }
   EXPECT_TRUE(moved);
+}
+
+TEST_F(WayBeliefsTest, OfWhoWalksAreOnUntilItTurnsOff) {
+  const std::size_t walker = here_.add("car", {"WC", "CE"}, 175, 0, 0, -1, "WC_1");
+  const AgentTypeId on_foot = find_agent_type(here_.model.types, "pedestrian");
+  here_.scene.type[walker] = on_foot;
+  here_.scene.path[walker] = kNoPath;
+  const auto walk_to = [&](IntentionKind kind, const Vec2& place) {
+    here_.scene.behavior[walker].intention = {kind, place};
+    advance();
+    look();
+    const WayBelief* belief = beliefs_.of(here_.scene.id[walker]);
+    EXPECT_NEAR(std::accumulate(belief->weights.begin(), belief->weights.end(), 0.0), 1, 1e-12);
+    return *belief;
+  };
+  const Vec2 east = here_.scene.position[walker] + Vec2(1000, 0);
+  WayBelief belief;
+  for (int k = 0; k < 9; ++k) belief = walk_to(IntentionKind::Goal, east);
+  ASSERT_EQ(belief.ways.size(), 5u);
+  EXPECT_GT(belief.ways.front().intention.goal.x(), 1.0);
+  EXPECT_GT(belief.weights.front(), 0.9);
+  EXPECT_GT(belief.weights[1], 0) << "nobody is sure for ever";
+  const Vec2 north = here_.scene.position[walker] + Vec2(0, 1000);
+  double least = 1;
+  for (int k = 0; k < 9; ++k) {
+    belief = walk_to(IntentionKind::Goal, north);
+    least = std::min(least, belief.weights.front());
+  }
+  EXPECT_LT(least, 0.5) << "it was seen to turn";
+  EXPECT_GT(belief.ways.front().intention.goal.y(), 1.0);
+  EXPECT_GT(belief.weights.front(), 0.9);
+  for (int k = 0; k < 9; ++k) belief = walk_to(IntentionKind::Stop, north);
+  EXPECT_GT(belief.weights.back(), 0.9) << "it stands";
 }
 
 TEST_F(WayBeliefsTest, OfWhoIsGoneAreForgotten) {

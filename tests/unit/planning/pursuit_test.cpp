@@ -49,7 +49,7 @@ TEST(Pursuit, SteersTowardsTheSideOnWhichItsWayLies) {
   EXPECT_LE(pursuit_steering(shape, {Vec2(10, -2), -1.5}, way, 10, 5), shape.max_steering);
 }
 
-TEST(EmergencyBrake, IsForWhatIsAheadAndNear) {
+TEST(InTheWay, IsWhatIsAheadAndNear) {
   const OrientedBox ego{Vec2(0, 0), Vec2(1, 0), Vec2(2, 0.9)};
   const auto other = [](double x, double y) {
     return OrientedBox{Vec2(x, y), Vec2(0, 1), Vec2(0.3, 0.3)};
@@ -62,10 +62,6 @@ TEST(EmergencyBrake, IsForWhatIsAheadAndNear) {
   EXPECT_FALSE(is_in_the_way(ego, other(4, 2.1), control));
   EXPECT_FALSE(is_in_the_way(ego, other(-2.5, 0), control));
   EXPECT_FALSE(is_in_the_way(ego, other(0.5, 1.5), control));  // beside, beyond 60 degrees
-  const OrientedBox near[] = {other(4, 0)};
-  EXPECT_TRUE(needs_emergency_brake(ego, 3, near, control));
-  EXPECT_FALSE(needs_emergency_brake(ego, 0, near, control));
-  EXPECT_FALSE(needs_emergency_brake(ego, 3, {}, control));
 }
 
 }  // namespace
