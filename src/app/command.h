@@ -30,6 +30,7 @@ struct CommonOptions {
 /// in main.
 using CommandRunner = std::function<int(const CommonOptions&)>;
 CommandRunner add_import_command(CLI::App& parent);
+CommandRunner add_demand_command(CLI::App& parent);
 CommandRunner add_run_command(CLI::App& parent);
 CommandRunner add_scene_command(CLI::App& parent);
 CommandRunner add_predict_command(CLI::App& parent);

@@ -11,11 +11,13 @@
 #include <thread>
 
 #include "app/command.h"
+#include "app/demand_setup.h"
 #include "base/error.h"
 #include "base/print.h"
 #include "base/staged_folder.h"
 #include "base/subprocess.h"
 #include "demand/demand.h"
+#include "io/config.h"
 #include "io/output_file.h"
 #include "io/scenario_files.h"
 #include "osm/build_network.h"
@@ -27,8 +29,8 @@ namespace sumogamma {
 namespace {
 
 struct ImportOptions {
-  std::string map, folder, agents = "100", duration = "3600", side = "auto";
-  std::optional<std::string> bbox;
+  std::string map, folder, duration = "3600", side = "auto", demand;
+  std::optional<std::string> bbox, agents;
   std::vector<std::string> without;
   bool force = false;
 };
@@ -88,19 +90,7 @@ void print_summary(std::FILE* out, const osm::BuildResult& built, const DemandRe
         folder, count("edges"), count("lanes"), count("signals"), count("crossings"),
         built.obstacles.at("buildings") + built.obstacles.at("buildings_cut"),
         built.left_hand ? "left" : "right");
-  for (const DemandByType& type : demand.types) {
-    if (type.problem.empty())
-      print(out, "  {:<12} {:5} departures, mean trip {:.0f} m, {:.0f} s\n", type.type,
-            type.departures, type.mean_length, type.mean_duration);
-    else
-      print(out, "  {:<12} left out: {}\n", type.type, type.problem);
-  }
-  if (demand.busiest_load > 1)
-    print(out,
-          "  warning: so many agents are more than these roads carry: {:.1f} times as many as lane "
-          "{} "
-          "lets out; expect queues, ask for fewer agents or import more of the city\n",
-          demand.busiest_load, demand.busiest_lane);
+  print_demand(out, demand);
   for (const auto& [kind, issue] : built.log.issues())
     if (issue.severity == osm::Severity::Warning)
       print(out, "  warning: {} ({})\n", issue.what, issue.count);
@@ -140,9 +130,34 @@ struct Made {
   DemandReport demand;
 };
 
+/// Puts the files of [demand] beside the scenario, which then has all that it was made of.
+DemandSettings with_own_files(DemandSettings settings, const std::filesystem::path& base,
+                              const std::filesystem::path& folder) {
+  if (!settings.od.empty()) {
+    write_file(folder / "od.csv", read_file(base / settings.od));
+    settings.od = "od.csv";
+  }
+  if (!settings.counts.empty()) {
+    write_file(folder / "counts.xml", read_file(base / settings.counts));
+    settings.counts = "counts.xml";
+  }
+  return settings;
+}
+
+/// [demand] of a file and of --set. Throws Error for keys of other sections, which an import would
+/// not obey.
+DemandSettings read_demand(const std::string& file, const std::vector<std::string>& set) {
+  const ScenarioConfig config = read_config(file, set);
+  for (const auto& [key, where] : config.given)
+    if (key.rfind("demand.", 0) != 0)
+      throw Error(where == "command line" ? "--set " + key : file,
+                  "'" + key + "' is none of [demand], which is what import reads");
+  return config.demand;
+}
+
 /// Writes the whole scenario into the folder; nothing where it was interrupted.
 std::optional<Made> make_scenario(const ImportOptions& options, const osm::BuildRequest& build,
-                                  DemandRequest demand) {
+                                  const DemandSettings& settings, DemandRequest demand) {
   Made made;
   made.built = osm::build_network(build);
   const osm::BuildResult& built = made.built;
@@ -154,6 +169,7 @@ std::optional<Made> make_scenario(const ImportOptions& options, const osm::Build
   demand.routes = build.folder / "demand.rou.xml";
   demand.work = build.folder / "work";
   std::filesystem::create_directory(demand.work);
+  if (!settings.window.empty()) demand.window = window_on(built.road, settings.window);
   made.demand = generate_demand(built.road, default_agent_types(), demand);
   if (made.demand.stopped) return std::nullopt;
 
@@ -166,7 +182,9 @@ std::optional<Made> make_scenario(const ImportOptions& options, const osm::Build
   scenario.north = built.box.north;
   scenario.left_hand = built.left_hand;
   scenario.turn_on_red = osm::has_turns_on_red(built.box.center());
-  scenario.agents = demand.agents;
+  scenario.agents = agents_alive(demand, made.demand);
+  scenario.demand =
+      with_own_files(settings, std::filesystem::path(options.demand).parent_path(), build.folder);
   scenario.on_foot = std::round(1000.0 * made.demand.on_foot) / 1000.0;
   scenario.duration = demand.duration;
   write_scenario_files(build.folder, scenario, default_agent_types());
@@ -179,9 +197,11 @@ std::optional<Made> make_scenario(const ImportOptions& options, const osm::Build
 }
 
 int run_import(const ImportOptions& options, const CommonOptions& common) {
-  DemandRequest demand;
+  const DemandSettings settings = read_demand(options.demand, common.set);
+  DemandRequest demand = request_of(settings, std::filesystem::path(options.demand).parent_path(),
+                                    default_agent_types());
   demand.seed = common.seed;
-  demand.agents = parse_agents(options.agents);
+  if (options.agents) demand.agents = parse_agents(*options.agents);
   demand.duration = parse_duration(options.duration);
   demand.should_stop = interrupted;
   osm::BuildRequest build;
@@ -199,7 +219,7 @@ int run_import(const ImportOptions& options, const CommonOptions& common) {
   std::optional<Made> made;
   {
     const InterruptWatch watch(folder);
-    made = make_scenario(options, build, demand);
+    made = make_scenario(options, build, settings, std::move(demand));
   }
   if (!made) return kExitInterrupted;
   folder.commit();
@@ -217,7 +237,11 @@ CommandRunner add_import_command(CLI::App& parent) {
   command->add_option("map", options->map, "extract: .osm .osm.gz .osm.bz2 .osm.pbf")->required();
   command->add_option("-o,--output", options->folder, "scenario folder to write")->required();
   command->add_option("--bbox", options->bbox, "cut to W,S,E,N [degrees]");
-  command->add_option("--agents", options->agents, "agents to keep alive")->capture_default_str();
+  command->add_option("--agents", options->agents, "agents to keep alive (default: 100)");
+  command->add_option(
+      "--demand", options->demand,
+      "TOML file with [demand]: shares by type, profile, window, origin-destination "
+      "table, counts (docs/scenario.md)");
   command->add_option("--duration", options->duration, "time for which demand is written [s]")
       ->capture_default_str();
   command

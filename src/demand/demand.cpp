@@ -10,21 +10,65 @@
 #include "demand/trip_draw.h"
 #include "demand/trip_routing.h"
 #include "demand/trip_weights.h"
+#include "demand/trip_window.h"
 #include "demand/vehicle_type_xml.h"
 
 namespace sumogamma {
 namespace {
 
+bool has_trips(const DemandRequest& request, const std::string& type) {
+  return std::any_of(request.trips.begin(), request.trips.end(),
+                     [&](const AskedTrips& trips) { return trips.type == type; });
+}
+
+/// Those with a share, and those of the table of trips.
+std::vector<DemandShare> types_asked_for(const DemandRequest& request) {
+  std::vector<DemandShare> all = request.mix;
+  for (const AskedTrips& trips : request.trips)
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const DemandShare& share) { return share.type == trips.type; }))
+      all.push_back({trips.type, 0});
+  std::erase_if(all, [&](const DemandShare& share) {
+    return !(share.share > 0) && !has_trips(request, share.type);
+  });
+  return all;
+}
+
+std::size_t edge_of(const RoadNetwork& road, const std::string& name, const char* what) {
+  const auto found = road.edge_by_name.find(name);
+  if (found == road.edge_by_name.end())
+    throw Error(what, "the network has no edge '" + name.substr(0, 60) + "'");
+  return index_of(found->second);
+}
+
+/// The trips that are asked for edge by edge: those of a table, and some over each counted edge.
+void ask_for_trips(const RoadNetwork& road, const DemandRequest& request,
+                   std::vector<TypeDemand>& demands) {
+  for (const AskedTrips& trips : request.trips)
+    for (TypeDemand& demand : demands) {
+      if (demand.type->name != trips.type || trips.per_hour <= 0) continue;
+      demand.drawn.push_back({edge_of(road, trips.from, "origin-destination table"),
+                              edge_of(road, trips.to, "origin-destination table"),
+                              TripEnds::kNowhere, trips.per_hour});
+      ++demand.report.trips_drawn;
+    }
+  for (const EdgeCount& count : request.counts) {
+    const std::size_t edge = edge_of(road, count.edge, "counts");
+    if (!count.to.empty()) edge_of(road, count.to, "counts");
+    for (TypeDemand& demand : demands) draw_trips_over(edge, request.seed, demand);
+  }
+}
+
 std::vector<TypeDemand> type_demands(const RoadNetwork& road, const AgentTypeTable& types,
                                      const DemandRequest& request, DemandReport& report) {
   std::vector<TypeDemand> demands;
-  for (const DemandShare& share : request.mix) {
-    if (!(share.share > 0)) continue;
+  for (const DemandShare& share : types_asked_for(request)) {
     TypeDemand demand;
     demand.type = &type_of(types, find_agent_type(types, share.type));
     demand.walks = demand.type->sumo_class == "pedestrian";
     demand.report.type = share.type;
     demand.report.share = share.share;
+    demand.pool.fixed = has_trips(request, share.type);
     demand.graph = class_graph(road, vehicle_class_from_name(demand.type->sumo_class));
     if (demand.graph.edges.empty()) {
       demand.report.problem = "no edge of the network lets it travel";
@@ -69,29 +113,61 @@ double car_units(const AgentType& type) {
   return type.length > 7.0 ? 2.0 : 1.0;
 }
 
-/// How many of each type are to be alive, and how often each of its trips is driven.
-BusiestLane weigh(const RoadNetwork& road, const DemandRequest& request,
-                  std::vector<TypeDemand>& demands) {
+/// Does anything but the shares say how many of a type there are?
+bool asks_for_more(const DemandRequest& request) {
+  return request.window || !request.trips.empty() || !request.counts.empty();
+}
+
+/// How many of each type are alive while so many are asked for.
+void share_out(const DemandRequest& request, std::vector<TypeDemand>& demands) {
   double total_share = 0;
   for (const TypeDemand& demand : demands) total_share += demand.report.share;
-  std::vector<TripPool> pools;
   for (TypeDemand& demand : demands) {
-    demand.report.share /= total_share;
-    demand.pool.agents = static_cast<double>(request.agents) * demand.report.share;
+    TripPool& pool = demand.pool;
+    if (total_share > 0) demand.report.share /= total_share;
     // those who keep their own pace lose little to others
-    demand.pool.slowness =
-        has_own_pace(*demand.type) ? 1 + (request.slowness - 1) / 3 : request.slowness;
-    demand.pool.car_units = car_units(*demand.type);
-    pools.push_back(std::move(demand.pool));
+    pool.slowness = has_own_pace(*demand.type) ? 1 + (request.slowness - 1) / 3 : request.slowness;
+    pool.car_units = car_units(*demand.type);
+    if (pool.fixed) {  // weights are departures an hour
+      pool.agents = total_weight(pool) / 3600 * mean_duration(pool);
+      continue;
+    }
+    pool.agents = static_cast<double>(request.agents) * demand.report.share;
+    if (request.window) pool.agents *= mean_duration(pool) / mean_inside(pool);
   }
-  const BusiestLane busiest = weigh_trips(road, pools);
+}
+
+/// How often each trip is driven, so that the roads carry it and what was counted is met.
+BusiestLane weigh(const RoadNetwork& road, const DemandRequest& request,
+                  std::vector<TypeDemand>& demands, DemandReport& report) {
+  share_out(request, demands);
+  std::vector<TripPool> pools;
+  for (TypeDemand& demand : demands) pools.push_back(std::move(demand.pool));
+  BusiestLane busiest = weigh_trips(road, pools);
+  if (!request.counts.empty()) {
+    std::vector<TripPool*> vehicles;
+    for (std::size_t i = 0; i < demands.size(); ++i)
+      if (!demands[i].walks) vehicles.push_back(&pools[i]);
+    report.counts = fit_counts(request.counts, vehicles);
+    busiest = busiest_lane(road, pools);
+  }
+  for (const TripPool& pool : pools) report.agents += pool.agents;
   for (std::size_t i = 0; i < demands.size(); ++i) {
     TypeDemand& demand = demands[i];
     demand.pool = std::move(pools[i]);
+    if (asks_for_more(request)) demand.report.share = demand.pool.agents / report.agents;
     demand.report.mean_duration = mean_duration(demand.pool);
     demand.report.mean_length = mean_length(demand.pool);
   }
   return busiest;
+}
+
+/// How busy it is at a time, the busiest part being 1.
+double activity_at(const DemandRequest& request, double time) {
+  if (request.profile.empty()) return 1;
+  const double part = time / request.duration * static_cast<double>(request.profile.size());
+  const auto index = std::min(static_cast<std::size_t>(part), request.profile.size() - 1);
+  return request.profile[index] / *std::max_element(request.profile.begin(), request.profile.end());
 }
 
 std::vector<Departure> schedule(const RoadNetwork& road, const DemandRequest& request,
@@ -100,8 +176,9 @@ std::vector<Departure> schedule(const RoadNetwork& road, const DemandRequest& re
   double owed = 0;  // carries the fraction of an agent from type to type, so that the sum is exact
   for (std::size_t i = 0; i < demands.size(); ++i) {
     TypeDemand& demand = demands[i];
+    if (demand.pool.agents <= 0) continue;  // counts leave nobody
     DemandDraws draws(request.seed, 1000 + i);
-    owed += demand.pool.agents;
+    owed += demand.pool.agents * activity_at(request, 0);
     const long initial = std::lround(std::floor(owed + 1e-9));
     owed -= static_cast<double>(initial);
     // a running city holds long trips more often than short ones: by duration, uniformly along it
@@ -126,7 +203,9 @@ std::vector<Departure> schedule(const RoadNetwork& road, const DemandRequest& re
     const double interval = demand.report.mean_duration / demand.pool.agents;
     double time = interval * draws.uniform();
     for (std::size_t k = 0; time < request.duration; ++k) {
-      departures.push_back({time, i, draws.weighted(by_weight), 0, false, draws.uniform()});
+      // each of an even stream comes with the share of the hour's activity
+      if (request.profile.empty() || draws.uniform() < activity_at(request, time))
+        departures.push_back({time, i, draws.weighted(by_weight), 0, false, draws.uniform()});
       time += interval * draws.uniform(0.5, 1.5);
     }
   }
@@ -189,11 +268,14 @@ std::vector<DemandShare> default_demand_mix() {
 
 DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& types,
                              const DemandRequest& request) {
-  constexpr int kRounds = 3;  // what the router refuses is drawn again
+  // what the router refuses, or what doesn't lead through the window, is drawn again
+  const int rounds = request.window ? 10 : 3;
   DemandReport report;
   std::vector<TypeDemand> demands = type_demands(road, types, request, report);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
+    for (TypeDemand& demand : demands) demand.drawn.clear();
     draw_trips(demands, request.seed, request.min_distance, round);
+    if (round == 0) ask_for_trips(road, request, demands);
     const bool any = std::any_of(demands.begin(), demands.end(),
                                  [](const TypeDemand& demand) { return !demand.drawn.empty(); });
     if (!any) break;
@@ -201,11 +283,17 @@ DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& type
       report.stopped = true;
       return report;
     }
+    if (!request.window) continue;
+    for (TypeDemand& demand : demands)
+      if (!demand.pool.fixed) keep_trips_through(road, *request.window, demand);
   }
   for (TypeDemand& demand : demands) {
     demand.report.trips_routable = static_cast<long>(demand.pool.trips.size());
+    if (demand.pool.fixed)
+      report.unroutable += demand.report.trips_drawn - demand.report.trips_routable;
     if (!demand.pool.trips.empty()) continue;
-    demand.report.problem = "no trip of it can be routed: its edges do not join";
+    demand.report.problem = request.window ? "no trip of it leads through the window"
+                                           : "no trip of it can be routed: its edges do not join";
     report.types.push_back(demand.report);
   }
   std::erase_if(demands, [](const TypeDemand& demand) { return demand.pool.trips.empty(); });
@@ -214,7 +302,7 @@ DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& type
                 "nobody can travel on what there is of it: no kind of traffic has two roads or "
                 "paths of which one leads onto the other; import more of the place");
 
-  const BusiestLane busiest = weigh(road, request, demands);
+  const BusiestLane busiest = weigh(road, request, demands, report);
   if (busiest.lane != kNoLane) report.busiest_lane = road.lane(busiest.lane).name;
   report.busiest_load = busiest.load;
   const std::vector<Departure> departures = schedule(road, request, demands, report);

@@ -3,18 +3,26 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "demand/count_fit.h"
+#include "demand/demand_settings.h"
 #include "road/road_network.h"
 #include "scene/agent_type.h"
 
 namespace sumogamma {
 
-/// Share of one agent type among the agents alive.
-struct DemandShare {
-  std::string type;
-  double share = 0;
+/// A box of the network [m].
+struct TripWindow {
+  Vec2 lower = Vec2::Zero(), upper = Vec2::Zero();
+};
+
+/// Trips of a type from one edge to another: a row of an origin-destination table.
+struct AskedTrips {
+  std::string type, from, to;
+  double per_hour = 0;
 };
 
 /// 40 % cars, 6 % vans, 4 % buses, 5 % trucks, 10 % motorcycles, 12 % bicycles, 23 % pedestrians.
@@ -31,6 +39,13 @@ struct DemandRequest {
   std::uint64_t seed = 1;
   long agents = 100;         ///< to be kept alive
   double duration = 3600.0;  ///< [s] for which demand is written
+  /// How busy equal parts of the duration are, beside each other; empty: all alike. `agents` are
+  /// alive in the busiest.
+  std::vector<double> profile;
+  /// The part of the map for which `agents` counts; others only come from there or go there.
+  std::optional<TripWindow> window;
+  std::vector<AskedTrips> trips;  ///< all trips of their types; other types travel as drawn
+  std::vector<EdgeCount> counts;  ///< of vehicles, that the others' trips are fitted to
   double warm_up = 30.0;  ///< [s] within which the first `agents` depart, spread over the network
   double min_distance = 150.0;  ///< [m] of a trip, where the map allows
   double slowness = 1.3;        ///< mean trip duration over that of the empty road
@@ -51,9 +66,12 @@ struct DemandByType {
 
 struct DemandReport {
   std::vector<DemandByType> types;
-  double on_foot = 0;        ///< share of people on foot among the agents alive
-  std::string busiest_lane;  ///< the one asked for most of what it carries; empty: none is
-  double busiest_load = 0;   ///< what it is asked for, by what it carries
+  double agents = 0;             ///< alive in the busiest part, on all of the map
+  std::vector<CountFit> counts;  ///< what the trips make of them
+  long unroutable = 0;           ///< rows of `trips` that have no way
+  double on_foot = 0;            ///< share of people on foot among the agents alive
+  std::string busiest_lane;      ///< the one asked for most of what it carries; empty: none is
+  double busiest_load = 0;       ///< what it is asked for, by what it carries
   long departures = 0;
   long initial = 0;      ///< of these, in the warm-up, started in the middle of their trips
   bool stopped = false;  ///< should_stop ended it; nothing was written
@@ -68,8 +86,8 @@ struct DemandReport {
 /// that stands alone or a type has no other trips. How often each is driven weigh_trips() decides,
 /// so that no lane is asked for more than it carries, where it can. Deterministic in the seed. A
 /// type that no edge lets travel is left out and reported, its share going to the others. Throws
-/// Error where nothing at all can travel, where the router is missing or fails, or where writing
-/// fails.
+/// Error where nothing at all can travel, where `trips` or `counts` name what isn't there, where
+/// the router is missing or fails, or where writing fails.
 DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& types,
                              const DemandRequest& request);
 

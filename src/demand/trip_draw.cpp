@@ -110,12 +110,42 @@ void draw_trips(std::vector<TypeDemand>& types, std::uint64_t seed, double min_d
   for (const TypeDemand& demand : types) total += demand.report.share;
   for (std::size_t i = 0; i < types.size(); ++i) {
     TypeDemand& demand = types[i];
+    if (demand.pool.fixed) continue;
     const long wanted = std::max(
         kPoolLeast, std::lround(static_cast<double>(kPoolTotal) * demand.report.share / total));
     const long missing = wanted - static_cast<long>(demand.pool.trips.size());
     demand.drawn = draw_type(demand, seed, static_cast<std::uint64_t>(round) * 100 + i,
                              min_distance, std::max(missing, 0L));
     demand.report.trips_drawn += static_cast<long>(demand.drawn.size());
+  }
+}
+
+void draw_trips_over(std::size_t edge, std::uint64_t seed, TypeDemand& demand) {
+  constexpr int kTrips = 10, kAttempts = 200;
+  constexpr double kDetour = 1.3;  // length over that of the shortest way
+  const ClassGraph& graph = demand.graph;
+  if (demand.walks || demand.pool.fixed || !graph.usable[edge]) return;
+  const std::vector<double> onwards = distances_from(graph, edge);
+  DemandDraws draws(seed, 2000 + edge);
+  int found = 0;
+  for (int attempt = 0; attempt < kAttempts && found < kTrips; ++attempt) {
+    const std::size_t from = graph.edges[draws.index(graph.edges.size())];
+    const std::vector<double> distance = distances_from(graph, from);
+    if (graph.length[from] < demand.type->length + 3.0 || distance[edge] == kUnreachable) continue;
+    std::vector<std::size_t> targets;
+    std::vector<double> cumulative;
+    double total = 0;
+    for (const std::size_t to : graph.edges) {
+      const double way = distance[edge] - graph.length[edge] + onwards[to];
+      if (onwards[to] == kUnreachable || to == from || way > kDetour * distance[to]) continue;
+      total += graph.length[to] * (graph.next[to].empty() ? kRimPreference : 1.0);
+      targets.push_back(to);
+      cumulative.push_back(total);
+    }
+    if (targets.empty()) continue;
+    demand.drawn.push_back({from, targets[draws.weighted(cumulative)], edge});
+    ++demand.report.trips_drawn;
+    ++found;
   }
 }
 

@@ -12,4 +12,8 @@ namespace sumogamma {
 /// all of them. `round` counts the calls.
 void draw_trips(std::vector<TypeDemand>& types, std::uint64_t seed, double min_distance, int round);
 
+/// Adds trips of a type that lead over an edge without going much out of their way; nothing where
+/// it can't be there.
+void draw_trips_over(std::size_t edge, std::uint64_t seed, TypeDemand& demand);
+
 }  // namespace sumogamma

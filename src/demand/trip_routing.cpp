@@ -26,6 +26,8 @@ void append_trip(pugi::xml_node root, const RoadNetwork& road, const TypeDemand&
   pugi::xml_node ends = demand.walks ? element.append_child("personTrip") : element;
   ends.append_attribute("from") = road.edges[trip.from].name.c_str();
   ends.append_attribute("to") = road.edges[trip.to].name.c_str();
+  if (trip.via != TripEnds::kNowhere)
+    ends.append_attribute("via") = road.edges[trip.via].name.c_str();
 }
 
 std::vector<std::string> words(std::string_view text) {
@@ -116,6 +118,7 @@ void take_routes(const RoadNetwork& road, const std::filesystem::path& file,
     if (edges.size() < (demand.walks ? 2u : 1u) || turns_back(road, edges)) continue;
     if (!demand.walks && !suits(road, *demand.type, edges)) continue;
     measure(road, demand, edges, trip);
+    trip.weight = demand.drawn.at(std::stoul(std::string(id.substr(id.find('.') + 1)))).weight;
     demand.pool.trips.push_back(std::move(trip));
   }
 }

@@ -94,11 +94,18 @@ double mean_duration(const TripPool& pool) {
   return seconds / total_weight(pool);
 }
 
+double mean_inside(const TripPool& pool) {
+  double seconds = 0;
+  for (const RoutedTrip& trip : pool.trips) seconds += trip.weight * trip.inside * pool.slowness;
+  return seconds / total_weight(pool);
+}
+
 BusiestLane weigh_trips(const RoadNetwork& road, std::vector<TripPool>& pools) {
   std::vector<double> load(road.lanes.size());
   for (int round = 0; round < kRounds; ++round) {
     load = lane_loads(road, flows(road, pools, load));
     for (TripPool& pool : pools) {
+      if (pool.fixed) continue;
       for (RoutedTrip& trip : pool.trips) {
         // the root: others on the same lane give way as well
         trip.weight /= std::sqrt(std::max(1.0, worst_load(road, trip, load) / kAim));
@@ -107,6 +114,12 @@ BusiestLane weigh_trips(const RoadNetwork& road, std::vector<TripPool>& pools) {
       restore_lengths(pool.trips);
     }
   }
+  return busiest_lane(road, pools, load);
+}
+
+BusiestLane busiest_lane(const RoadNetwork& road, const std::vector<TripPool>& pools,
+                         std::vector<double> load) {
+  load.resize(road.lanes.size());
   load = lane_loads(road, flows(road, pools, load));
   BusiestLane busiest;
   for (std::size_t i = 0; i < load.size(); ++i)

@@ -13,6 +13,7 @@ struct RoutedTrip {
       steps;            ///< from each edge to the next: the ways that the type may take, one a lane
   double length = 0;    ///< [m]
   double duration = 0;  ///< [s] on the empty road
+  double inside = 0;    ///< of the duration, within the window where there is one [s]
   double weight = 1;    ///< how often it is driven, beside others of its type
 };
 
@@ -21,6 +22,7 @@ struct TripPool {
   double agents = 0;     ///< alive
   double slowness = 1;   ///< mean duration over that on the empty road
   double car_units = 1;  ///< of one vehicle, in a queue
+  bool fixed = false;    ///< its trips are asked for so often each, their weights stay
   std::vector<RoutedTrip> trips;
 };
 
@@ -28,6 +30,7 @@ double total_weight(const TripPool& pool);
 /// Means over a pool by weight [m], [s].
 double mean_length(const TripPool& pool);
 double mean_duration(const TripPool& pool);
+double mean_inside(const TripPool& pool);
 
 /// The lane that is asked for most of what it carries.
 struct BusiestLane {
@@ -40,5 +43,10 @@ struct BusiestLane {
 /// their shares: short trips over one road would carry any number of agents. Returns the busiest
 /// lane that is left.
 BusiestLane weigh_trips(const RoadNetwork& road, std::vector<TripPool>& pools);
+
+/// The busiest lane of trips as they are weighed. `load`: of the lanes, as far as it is known;
+/// drivers prefer the lane that is less full.
+BusiestLane busiest_lane(const RoadNetwork& road, const std::vector<TripPool>& pools,
+                         std::vector<double> load = {});
 
 }  // namespace sumogamma

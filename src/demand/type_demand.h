@@ -13,6 +13,9 @@ namespace sumogamma {
 /// Edges between which somebody travels.
 struct TripEnds {
   std::size_t from = 0, to = 0;
+  std::size_t via = kNowhere;  ///< an edge that it has to lead over
+  double weight = 1;           ///< of its trip (RoutedTrip)
+  static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
 };
 
 /// Everything about one type while demand is made.

@@ -129,11 +129,29 @@ void bind_ego(EgoSettings& ego, std::vector<Binding>& bindings) {
   bindings.push_back({"ego.accelerations", &ego.accelerations});
   bindings.push_back({"ego.rate", &ego.rate, 0, true});
   bindings.push_back({"ego.planner", &ego.planner});
+  bindings.push_back({"ego.agents_seen", &ego.agents_seen, 1, false, 1000});
+  bindings.push_back({"ego.scenarios", &ego.scenarios, 1, false, 10000});
+  bindings.push_back({"ego.depth", &ego.depth, 1, false, 1000});
+  bindings.push_back({"ego.scene_steps", &ego.scene_steps, 1, false, 1e9});
+  bindings.push_back({"ego.deadline", &ego.deadline, 0, false, 1e6});
   bindings.push_back({"ego.trusted", &ego.trusted});
   bindings.push_back({"ego.emergency_brake", &ego.emergency_brake});
   bindings.push_back({"ego.warm_up", &ego.warm_up, 0, false, 1e6});
   bindings.push_back({"ego.clearance", &ego.clearance, 0});
   bindings.push_back({"ego.limit", &ego.limit, 0, true, 1e6});
+}
+
+void bind_demand(ScenarioConfig& config, std::vector<Binding>& bindings) {
+  DemandSettings& demand = config.demand;
+  for (std::size_t row = demand.shares.size(); row < config.types.size(); ++row)
+    demand.shares.push_back({config.types[row].name, 0});
+  bindings.push_back({"demand.agents", &demand.agents, 1, false, 1e6});
+  bindings.push_back({"demand.profile", &demand.profile, 0});
+  bindings.push_back({"demand.window", &demand.window, -180, false, 180});
+  bindings.push_back({"demand.od", &demand.od});
+  bindings.push_back({"demand.counts", &demand.counts});
+  for (DemandShare& share : demand.shares)
+    bindings.push_back({"demand.shares." + share.type, &share.share, 0});
 }
 
 void bind_preset(BehaviorPreset& preset, std::vector<Binding>& bindings) {
@@ -159,6 +177,7 @@ std::vector<Binding> bind_all(ScenarioConfig& config) {
   };
   bind_preset(config.preset, bindings);
   bind_model(config.model, bindings);
+  bind_demand(config, bindings);
   bind_ego(config.ego, bindings);
   bindings.push_back({"traffic.turn_on_red", &config.code.turn_on_red});
   for (const TrafficParameter& one : traffic_parameters())

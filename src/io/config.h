@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "demand/demand_settings.h"
 #include "ego/ego_settings.h"
 #include "model/model.h"
 #include "scene/agent_type.h"
@@ -36,6 +37,8 @@ struct ScenarioConfig {
   // [traffic]
   TrafficParameters traffic;
   TrafficCode code;
+  // [demand]: of `sumo-gamma import` and `sumo-gamma demand`
+  DemandSettings demand;
   // [ego]: of `sumo-gamma drive`
   EgoSettings ego;
   // [types.NAME]: rows changed, or added with base = "car"

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <pugixml.hpp>
 #include <sstream>
@@ -30,6 +32,38 @@ std::string toml_string(const std::string& text) {
   return quoted + "\"";
 }
 
+std::string list_text(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + plain(value);
+  return "[" + text + "]";
+}
+
+/// [demand], where something was asked for.
+std::string demand_text(const DemandSettings& demand) {
+  std::string text, shares;
+  if (demand.agents > 0) text += fmt::format("agents = {}\n", demand.agents);
+  if (!demand.profile.empty()) text += "profile = " + list_text(demand.profile) + "\n";
+  if (!demand.window.empty())
+    text += "window = " + list_text(demand.window) + "  # W, S, E, N: agents are alive in there\n";
+  if (!demand.od.empty()) text += "od = " + toml_string(demand.od) + "\n";
+  if (!demand.counts.empty()) text += "counts = " + toml_string(demand.counts) + "\n";
+  for (const DemandShare& share : demand.shares)
+    if (share.share > 0) shares += share.type + " = " + plain(share.share) + "\n";
+  if (!shares.empty()) text += "[demand.shares]\n" + shares;
+  return text.empty() ? "" : "[demand]  # drawn anew by sumo-gamma demand\n" + text + "\n";
+}
+
+/// Puts a value behind `key =` in [run], where it stands there.
+void replace_in_run(std::string& toml, const std::string& key, const std::string& value) {
+  const std::size_t run = toml.find("[run]");
+  if (run == std::string::npos) return;
+  const std::size_t end = std::min(toml.find("\n[", run), toml.size());
+  const std::size_t line = toml.find("\n" + key + " = ", run);
+  if (line >= end) return;
+  const std::size_t begin = line + key.size() + 4;
+  toml.replace(begin, toml.find_first_of(" \n", begin) - begin, value);
+}
+
 std::string toml_text(const ScenarioFiles& scenario, const AgentTypeTable& types) {
   const std::string box = fmt::format("{:.7f},{:.7f},{:.7f},{:.7f}", scenario.west, scenario.south,
                                       scenario.east, scenario.north);
@@ -48,6 +82,7 @@ std::string toml_text(const ScenarioFiles& scenario, const AgentTypeTable& types
        << "  # share of people on foot among them, in this demand\n"
        << "duration = " << plain(scenario.duration) << "  # [s], for which demand was written\n"
        << "step = 0.05  # [s]\n\n"
+       << demand_text(scenario.demand)
        << (scenario.turn_on_red
                ? "[traffic]\nturn_on_red = true  # after a halt, where no sign forbids it\n\n"
                : "")
@@ -92,6 +127,12 @@ void write_scenario_files(const std::filesystem::path& folder, const ScenarioFil
   write_file(folder / "scenario.toml", toml_text(scenario, types));
 }
 
+std::string with_agents_alive(std::string toml, long agents, double on_foot) {
+  replace_in_run(toml, "agents", std::to_string(agents));
+  replace_in_run(toml, "on_foot", plain(std::round(1000.0 * on_foot) / 1000.0));
+  return toml;
+}
+
 nlohmann::ordered_json demand_report(const DemandReport& report, const DemandRequest& request) {
   nlohmann::ordered_json json;
   json["agents"] = request.agents;
@@ -100,6 +141,13 @@ nlohmann::ordered_json demand_report(const DemandReport& report, const DemandReq
   json["departures"] = report.departures;
   json["departures_on_the_way"] = report.initial;
   json["busiest_lane"] = {{"lane", report.busiest_lane}, {"load", report.busiest_load}};
+  json["agents_alive"] = report.agents;
+  for (const CountFit& fit : report.counts)
+    json["counts"].push_back({{"edge", fit.count.edge},
+                              {"to", fit.count.to},
+                              {"per_hour", fit.count.per_hour},
+                              {"by_the_trips", fit.per_hour},
+                              {"geh", fit.geh}});
   for (const DemandByType& type : report.types)
     json["by_type"][type.type] = {{"share", type.share},
                                   {"trips_asked", type.trips_drawn},

@@ -20,12 +20,16 @@ struct ScenarioFiles {
   long agents = 100;
   double on_foot = 0;        ///< share of people on foot among them
   double duration = 3600.0;  ///< [s]
+  DemandSettings demand;     ///< beyond `agents`
 };
 
 /// Writes scenario.sumocfg (for SUMO, and for `run`) and scenario.toml (for `run`). Throws Error
 /// naming the file.
 void write_scenario_files(const std::filesystem::path& folder, const ScenarioFiles& scenario,
                           const AgentTypeTable& types);
+
+/// A scenario.toml with other numbers in [run] agents and on_foot, every other byte as it was.
+std::string with_agents_alive(std::string toml, long agents, double on_foot);
 
 /// The demand's part of import.json.
 nlohmann::ordered_json demand_report(const DemandReport& report, const DemandRequest& request);

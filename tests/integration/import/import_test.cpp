@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <set>
@@ -113,6 +114,100 @@ TEST_F(ImportTest, MakesAWholeScenario) {
   // no path of this machine in what a user may pass on
   for (const std::string& name : names)
     EXPECT_THAT(content(out() / name), testing::Not(HasSubstr(folder_.string()))) << name;
+}
+
+/// How many of each type depart, and what was said.
+std::map<std::string, int> departures(const fs::path& scenario) {
+  std::map<std::string, int> counts;
+  pugi::xml_document document;
+  EXPECT_TRUE(document.load_file((scenario / "demand.rou.xml").c_str()));
+  for (const pugi::xml_node one : document.document_element().children())
+    if (one.attribute("depart")) ++counts[one.attribute("type").value()];
+  return counts;
+}
+
+TEST_F(ImportTest, DrawsTheDemandThatIsAskedFor) {
+  const fs::path demand = put("demand.toml",
+                              "[demand]\nagents = 40\nprofile = [0.25, 1.0]\n"
+                              "[demand.shares]\npedestrian = 0.7\ncar = 0.3\n");
+  const ProcessResult result = import(kFixtures / "signalled_crossing_right.osm",
+                                      {"--duration", "1200", "--demand", demand.string()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const ScenarioConfig config = read_config(out() / "scenario.toml");
+  EXPECT_EQ(config.agents, 40);
+  EXPECT_DOUBLE_EQ(config.on_foot, 0.7);
+  EXPECT_EQ(config.demand.profile, (std::vector<double>{0.25, 1.0}));
+  const auto by_type = departures(out());
+  EXPECT_EQ(by_type.size(), 2u);
+  // four times as many depart in the second half
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_file((out() / "demand.rou.xml").c_str()));
+  int first = 0, second = 0;
+  for (const pugi::xml_node one : document.document_element().children()) {
+    const double depart = one.attribute("depart").as_double(-1);
+    if (depart > 60 && depart < 600) ++first;
+    if (depart >= 600) ++second;
+  }
+  EXPECT_NEAR(static_cast<double>(second) / first, 4.0 * 600 / 540, 1.3);
+
+  // drawn anew, as scenario.toml and --set ask; the rest of the file stays
+  ProcessRequest again;
+  again.arguments = {SUMOGAMMA_PROGRAM, "demand", out().string(), "--set",
+                     "demand.shares.pedestrian=0.0"};
+  const ProcessResult drawn = run_process(again);
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.errors;
+  EXPECT_EQ(departures(out()).count("pedestrian"), 0u);
+  EXPECT_DOUBLE_EQ(read_config(out() / "scenario.toml").on_foot, 0);
+  EXPECT_EQ(simulate("200").exit_code, 0);
+}
+
+TEST_F(ImportTest, MeetsCountsAndTablesOfTrips) {
+  ASSERT_EQ(import(kFixtures / "signalled_crossing_right.osm", {"--duration", "600"}).exit_code, 0);
+  // an edge that cars drive in from, and where they go
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_file((out() / "demand.rou.xml").c_str()));
+  std::string from, to;
+  for (const pugi::xml_node one : document.document_element().children("vehicle")) {
+    std::istringstream edges(one.child("route").attribute("edges").value());
+    edges >> from >> to;
+    if (!to.empty()) break;
+  }
+  ASSERT_FALSE(to.empty());
+  put("counts.xml", "<data><interval begin=\"0\" end=\"3600\"><edge id=\"" + from +
+                        "\" entered=\"300\"/></interval></data>");
+  put("od.csv", "from,to,type,per_hour\n" + from + "," + to + ",bus,60\n");
+  const fs::path demand =
+      put("demand.toml", "[demand]\nod = \"od.csv\"\ncounts = \"counts.xml\"\n");
+  const ProcessResult result =
+      import(kFixtures / "signalled_crossing_right.osm",
+             {"--duration", "3600", "--force", "--demand", demand.string()});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("counts: 1 of 1 met"));
+  EXPECT_NEAR(departures(out()).at("bus"), 60, 8);
+  int entered = 0;
+  ASSERT_TRUE(document.load_file((out() / "demand.rou.xml").c_str()));
+  for (const pugi::xml_node one : document.document_element().children("vehicle"))
+    entered += (" " + std::string(one.child("route").attribute("edges").value()) + " ")
+                   .find(" " + from + " ") != std::string::npos;
+  EXPECT_NEAR(entered, 300, 40);
+  EXPECT_TRUE(fs::exists(out() / "od.csv"));
+  EXPECT_TRUE(fs::exists(out() / "counts.xml"));
+}
+
+TEST_F(ImportTest, RefusesADemandThatCannotBeMeant) {
+  const fs::path map = kFixtures / "signalled_crossing_right.osm";
+  const auto refused = [&](const std::string& demand, const std::string& words) {
+    expect_refused(import(map, {"--demand", put("demand.toml", demand).string()}), words);
+  };
+  refused("[demand]\nprofil = [1.0]\n", "nearest known one is 'demand.profile'");
+  refused("[demand.shares]\npedestrain = 0.5\n", "'demand.shares.pedestrian'");
+  refused("[demand]\nprofile = [0.0, 0.0]\n", "must have a part above 0");
+  refused("[demand]\nwindow = [1.0, 2.0]\n", "W, S, E, N");
+  refused("[demand]\nwindow = [1.0, 2.0, 1.1, 2.1]\n", "outside of the network");
+  refused("[demand]\nod = \"none.csv\"\n", "none.csv");
+  refused("[run]\nagents = 5\n", "none of [demand]");
+  put("od.csv", "from,to,type,per_hour\nnowhere,elsewhere,car,60\n");
+  refused("[demand]\nod = \"od.csv\"\n", "no edge 'nowhere'");
 }
 
 struct Place {
