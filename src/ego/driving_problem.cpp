@@ -16,6 +16,9 @@ namespace {
 constexpr double kStep = ForwardModel::kStep;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kStands = 1e-3;  // slower is standing [m/s]
+/// Standard deviation, as a share, of the pace at which somebody goes on, whatever it is seen to
+/// drive or walk at.
+constexpr double kPaceSpread = 0.1;
 
 std::uint64_t take(std::uint64_t hash, double value, double cell) {
   const auto number = static_cast<std::int64_t>(std::floor(value / cell));
@@ -72,6 +75,8 @@ void draw_scenario(const Model& model, const PlanRoot& root, std::uint64_t key, 
     scene.behavior[row] = draw_behavior(type, own, id);
     scene.behavior[row].intention.kind = intention;
     scene.manners[row] = draw_manners(type.compliance, own, id);
+    const double pace = 1.0 + kPaceSpread * random_normal(own, id, 0, Draw::DesiredSpeed);
+    scene.preferred_speed[row] *= std::max(pace, 0.0);
     const std::vector<PlanRoot::Choice>& choices = root.choices[row];
     if (choices.empty()) continue;
     // a tooth of the agent's own comb: which one is a matter of rank among random numbers
@@ -85,7 +90,8 @@ void draw_scenario(const Model& model, const PlanRoot& root, std::uint64_t key, 
       up_to += choices[++chosen].weight;
     const PathId path = choices[chosen].path;
     if (path == kNoPath) {
-      scene.behavior[row].intention = choices[chosen].intention;
+      Intention& way = scene.behavior[row].intention = choices[chosen].intention;
+      if (way.kind == IntentionKind::Velocity) way.goal *= std::max(pace, 0.0);
       continue;
     }
     scene.path[row] = path;

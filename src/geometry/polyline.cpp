@@ -5,6 +5,10 @@
 
 namespace sumogamma {
 
+namespace {
+constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+}
+
 Polyline::Polyline(const std::vector<Vec2>& points) {
   constexpr double kShortest = 1e-6;
   points_.reserve(points.size());
@@ -60,15 +64,20 @@ Vec2 Polyline::direction_at(double along) const {
 }
 
 PolylinePosition Polyline::project(const Vec2& point) const {
-  return project_segments(point, 0, points_.size() < 2 ? 0 : points_.size() - 2);
+  return project_segments(point, 0, points_.size() < 2 ? 0 : points_.size() - 2, kAnywhere);
 }
 
 PolylinePosition Polyline::project(const Vec2& point, double from, double to) const {
-  return project_segments(point, segment_at(from), segment_at(to));
+  return project_segments(point, segment_at(from), segment_at(to), kAnywhere);
 }
 
-PolylinePosition Polyline::project_segments(const Vec2& point, std::size_t first,
-                                            std::size_t last) const {
+PolylinePosition Polyline::project_near(const Vec2& point, double from, double to,
+                                        double most) const {
+  return project_segments(point, segment_at(from), segment_at(to), most);
+}
+
+PolylinePosition Polyline::project_segments(const Vec2& point, std::size_t first, std::size_t last,
+                                            double most) const {
   PolylinePosition best;
   if (points_.empty()) return best;
   if (points_.size() == 1) {
@@ -76,14 +85,15 @@ PolylinePosition Polyline::project_segments(const Vec2& point, std::size_t first
     return best;
   }
   constexpr double kRounding = 1e-6;  // [m]
-  best.distance = std::numeric_limits<double>::infinity();
+  best.distance = kAnywhere;
   for (std::size_t i = first; i <= last; ++i) {
     const Vec2 relative = point - points_[i];
     const double span = along_[i + 1] - along_[i];
     // by the triangle inequality whatever lies on the line before `clear` is farther away
-    const double reach = best.distance + span + kRounding;
+    const double wanted = std::min(best.distance, most);
+    const double reach = wanted + span + kRounding;
     if (relative.squaredNorm() > reach * reach) {
-      const double clear = along_[i] + relative.norm() - best.distance - kRounding;
+      const double clear = along_[i] + relative.norm() - wanted - kRounding;
       while (i < last && along_[i + 2] < clear) ++i;
       continue;
     }

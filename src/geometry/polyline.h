@@ -40,9 +40,13 @@ class Polyline {
   /// Nearest point among the segments that meet [from, to] [m]: follows one's own path where it
   /// crosses itself.
   PolylinePosition project(const Vec2& point, double from, double to) const;
+  /// The same where that is within `most` [m]; else somewhere farther away, or at an infinite
+  /// distance. Much cheaper for what is far off.
+  PolylinePosition project_near(const Vec2& point, double from, double to, double most) const;
 
  private:
-  PolylinePosition project_segments(const Vec2& point, std::size_t first, std::size_t last) const;
+  PolylinePosition project_segments(const Vec2& point, std::size_t first, std::size_t last,
+                                    double most) const;
   void index_segments();
 
   std::vector<Vec2> points_;

@@ -1,6 +1,7 @@
 #include "traffic/junction/turning_room.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "scene/storey.h"
 #include "traffic/junction/keep_clear.h"
@@ -51,17 +52,60 @@ bool has_long_wanted(const TrafficView& view, const Approach& foe, bool there) {
          (waiting.reason == LimitReason::TurningRoom || waiting.reason == LimitReason::GivesWay);
 }
 
-/// See leave_turning_room; of somebody whose trip `ends` at the line, who is gone from there on.
-LinkDecision leave_room(const TrafficView& view, const Traveller& traveller, const PathLink& link,
-                        bool ends) {
-  const Model& model = view.model;
-  const Scene& scene = view.scene;
-  const ApproachTable& approaches = view.approaches;
+/// Who may have to leave room before a link, and whether its trip `ends` at the line: it is gone
+/// from there on.
+struct Leaver {
+  const TrafficView& view;
+  const Traveller& traveller;
+  const PathLink& link;
+  bool ends;
+};
+
+/// Is the room of a way a foe's? `ours` is worked out where it is asked for: to most ways nobody
+/// comes.
+bool is_taken(const Leaver& own, const SweptWay& way, const Approach& foe,
+              std::optional<Occupation>& ours) {
+  const TrafficView& view = own.view;
+  const Traveller& traveller = own.traveller;
+  if (foe.row == traveller.row || (way.foe_sweeps && turning_body(foe.length) != way.body))
+    return false;
+  if (foe.front - foe.length >= way.foe_end) return false;
+  if (!is_for(way, view.scene, way.foe_sweeps ? traveller.row : foe.row)) return false;
+  // it waits before its line, or before the place that is swept; whom bodies hold isn't coming; who
+  // waits there with its body off the way can be passed
+  const bool there = foe.front > way.foe_begin;
+  if (way.foe_sweeps && foe.stands && has_long_wanted(view, foe, there)) return true;
+  if (foe.stands && (!there || view.approaches.waiting(foe.row).blocked ||
+                     (traveller.length <= kLongBody &&
+                      stands_beside(view, traveller, own.link, way.begin, way.end, foe))))
+    return false;
+  Occupation theirs = occupation(view, foe, way.foe_begin, way.foe_end);
+  // who waits there for something doesn't leave by itself
+  if (there && view.approaches.rest_of(foe) - foe.length < way.foe_end)
+    theirs.end = Occupation::kNever;
+  if (!ours)
+    ours = occupation(view, approach_of(traveller, own.link), way.begin,
+                      own.ends ? -traveller.length : way.end);
+  // a long body on its way doesn't reckon with who stands. Not the other way round: where one comes
+  // after the other, it would stand for ever
+  const bool goes_on =
+      way.foe_sweeps && traveller.speed < view.parameters.halting_speed && !foe.stands;
+  // nor does who is near the place and drives halt before it
+  const bool drives_in = !way.foe_sweeps && !foe.stands && !halts_before(view, foe, way);
+  const bool smaller_id = view.scene.id[foe.row] < view.scene.id[traveller.row];
+  return comes_first(view.parameters, theirs, *ours, there || goes_on || drives_in, smaller_id);
+}
+
+/// See leave_turning_room.
+LinkDecision leave_room(const Leaver& own) {
+  const TrafficView& view = own.view;
+  const Traveller& traveller = own.traveller;
+  const PathLink& link = own.link;
   LinkDecision decision;
-  const AgentType& type = type_of(model.types, scene.type[traveller.row]);
+  const AgentType& type = type_of(view.model.types, view.scene.type[traveller.row]);
   const double front = traveller.front - link.stop_line;
-  for (const SweptWay& way : model.swept_ways[index_of(link.connection)]) {
-    if (ends && (!way.foe_sweeps || way.begin >= 0.0)) continue;
+  for (const SweptWay& way : view.model.swept_ways[index_of(link.connection)]) {
+    if (own.ends && (!way.foe_sweeps || way.begin >= 0.0)) continue;
     // who is on its way goes on, a long body where it is in nobody's way yet may still halt
     const bool before_line = !way.foe_sweeps && front <= 0.2;
     const bool may_halt = before_line || front <= way.begin;
@@ -75,40 +119,14 @@ LinkDecision leave_room(const TrafficView& view, const Traveller& traveller, con
         deceleration_to_stop(traveller.speed, line + view.parameters.stop_margin -
                                                   traveller.front) > 0.8 * type.max_deceleration;
     if (too_late || (decision.must_stop && line >= decision.stop_at)) continue;
-    const Occupation ours = occupation(view, approach_of(traveller, link), way.begin,
-                                       ends ? -traveller.length : way.end);
-    for (const Approach& foe : approaches.of(way.foe)) {
-      if (foe.row == traveller.row || (way.foe_sweeps && turning_body(foe.length) != way.body))
-        continue;
-      if (foe.front - foe.length >= way.foe_end) continue;
-      if (!is_for(way, scene, way.foe_sweeps ? traveller.row : foe.row)) continue;
-      // it waits before its line, or before the place that is swept; whom bodies hold isn't coming;
-      // who waits there with its body off the way can be passed
-      const bool there = foe.front > way.foe_begin;
-      const bool is_owed = way.foe_sweeps && foe.stands && has_long_wanted(view, foe, there);
-      if (foe.stands && !is_owed &&
-          (!there || approaches.waiting(foe.row).blocked ||
-           (traveller.length <= kLongBody &&
-            stands_beside(view, traveller, link, way.begin, way.end, foe))))
-        continue;
-      Occupation theirs = occupation(view, foe, way.foe_begin, way.foe_end);
-      // who waits there for something doesn't leave by itself
-      if (there && approaches.rest_of(foe) - foe.length < way.foe_end)
-        theirs.end = Occupation::kNever;
-      // a long body on its way doesn't reckon with who stands. Not the other way round: where one
-      // comes after the other, it would stand for ever
-      const bool goes_on =
-          way.foe_sweeps && traveller.speed < view.parameters.halting_speed && !foe.stands;
-      // nor does who is near the place and drives halt before it
-      const bool drives_in = !way.foe_sweeps && !foe.stands && !halts_before(view, foe, way);
-      const bool smaller_id = scene.id[foe.row] < scene.id[traveller.row];
-      if (!is_owed &&
-          !comes_first(view.parameters, theirs, ours, there || goes_on || drives_in, smaller_id))
-        continue;
-      decision = {true, line, LimitReason::TurningRoom,
-                  static_cast<std::int64_t>(scene.id[foe.row].value)};
-      break;
-    }
+    std::optional<Occupation> ours;
+    const auto foes = view.approaches.of(way.foe);
+    const auto foe = std::find_if(foes.begin(), foes.end(), [&](const Approach& one) {
+      return is_taken(own, way, one, ours);
+    });
+    if (foe == foes.end()) continue;
+    decision = {true, line, LimitReason::TurningRoom,
+                static_cast<std::int64_t>(view.scene.id[foe->row].value)};
   }
   return decision;
 }
@@ -150,7 +168,7 @@ double halt_for_long_bodies(const TrafficView& view, const Traveller& traveller,
 
 LinkDecision leave_turning_room(const TrafficView& view, const Traveller& traveller,
                                 const PathLink& link) {
-  return leave_room(view, traveller, link, false);
+  return leave_room({view, traveller, link, false});
 }
 
 LinkDecision leave_room_at_end(const TrafficView& view, const Course& course,
@@ -163,7 +181,7 @@ LinkDecision leave_room_at_end(const TrafficView& view, const Course& course,
   for (const ConnectionId id : lane.outgoing) {
     const PathLink end{id, path.arrival, path.arrival, path.arrival};
     if (takes_turning_room(view, course, end)) continue;
-    const LinkDecision room = leave_room(view, traveller, end, true);
+    const LinkDecision room = leave_room({view, traveller, end, true});
     if (room.must_stop && (!decision.must_stop || room.stop_at < decision.stop_at)) decision = room;
   }
   return decision;

@@ -202,13 +202,16 @@ std::optional<Seen> see(const Own& own, std::size_t other, double reach) {
   if (beyond < -reach * 0.3 - 10.0) return std::nullopt;
   Seen seen;
   seen.other = other;
-  seen.place =
-      own.path.line.project(scene.position[other],
-                            own.along - 2.0 * own.view.parameters.closed_up_gap, own.along + reach);
   // who is narrow and waits for a gap from the far side of the lane beside is seen, too
-  if (seen.place.distance > own.half_width + scene.footprint[other].radius + own.margin &&
-      (seen.place.distance > own.view.parameters.near ||
-       !changes_into_way(own.view, own.row, other, seen.place.along)))
+  const double beside = own.half_width + scene.footprint[other].radius + own.margin;
+  const double farthest = own.view.traffic.merge_to[other] == kNoLane
+                              ? beside
+                              : std::max(beside, own.view.parameters.near);
+  seen.place = own.path.line.project_near(scene.position[other],
+                                          own.along - 2.0 * own.view.parameters.closed_up_gap,
+                                          own.along + reach, farthest);
+  if (seen.place.distance > farthest) return std::nullopt;
+  if (seen.place.distance > beside && !changes_into_way(own.view, own.row, other, seen.place.along))
     return std::nullopt;
   if (!is_ahead(own, other, seen.place.along)) return std::nullopt;
   seen.direction = own.path.line.direction_at(seen.place.along);
