@@ -99,7 +99,7 @@ void write_road_scene(const RecordedScene& scene, const SceneFromOptions& option
   const RoadScene road = road_scene_of(scene, network);
   require_on_routes(road, options);
   const std::string net = options.map.filename().string();
-  fs::copy_file(options.map, options.output / net, fs::copy_options::overwrite_existing);
+  write_file(options.output / net, read_file(options.map));
   write_file(options.output / "recorded.rou.xml", road.routes);
   // everybody gets half as long again as the recording took
   write_file(options.output / "recorded.sumocfg",

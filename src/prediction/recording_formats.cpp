@@ -211,7 +211,7 @@ struct Layout {
   std::string format;
   int frame = -1, id = -1, type = -1, x = -1, y = -1, z_width = -1, z_height = -1;
   int heading = -1, heading_x = -1, heading_y = -1;
-  int length = -1, width = -1;  ///< of bodies
+  int length = -1, width = -1;  ///< of bodies; rows may end before them
   double heading_scale = 1;     ///< to radians
   double scale = 1;             ///< to metres
   double unit = 0;              ///< see RawRecording
@@ -220,8 +220,7 @@ struct Layout {
   std::map<std::string, std::string> type_by_id{};
 
   int most() const {
-    return std::max(
-        {frame, id, type, x, y, z_width, z_height, heading, heading_x, heading_y, length, width});
+    return std::max({frame, id, type, x, y, z_width, z_height, heading, heading_x, heading_y});
   }
 };
 
@@ -344,7 +343,7 @@ Layout named_layout(const fs::path& path, const Table& table) {
 double size_of(const Place& place, const std::vector<std::string>& row, int column,
                const char* what) {
   constexpr double kLongest = 100.0;  // no body is longer [m]
-  if (column < 0) return 0.0;
+  if (column < 0 || column >= static_cast<int>(row.size())) return 0.0;
   const std::string& field = row[static_cast<std::size_t>(column)];
   const double size = field.empty() ? 0.0 : number(place, field, what);
   if (size > kLongest)

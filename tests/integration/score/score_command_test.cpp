@@ -147,8 +147,8 @@ TEST_F(ScoreCommand, PutsTheLogAboveControlsOnRealRecordings) {
   const fs::path data = fs::path(SUMOGAMMA_SHARED_DIR) / "data" / "trajectories";
   const fs::path karlsruhe = data / "tafbw_k733" / "k733_2020_09_15.csv";
   if (!fs::exists(karlsruhe)) GTEST_SKIP() << "no recordings beside the project: " << karlsruhe;
-  const ProcessResult result =
-      score({karlsruhe.string(), "-o", out(), "--method", "log,stand,cv,cv-fan", "--seeds", "32"});
+  const ProcessResult result = score({karlsruhe.string(), "--period", "0.1", "-o", out(),
+                                      "--method", "log,stand,cv,cv-fan", "--seeds", "32"});
   ASSERT_TRUE(result.ok()) << result.errors;
   const json recording = results().at("recordings").at(0);
   EXPECT_EQ(recording.at("windows"), 15);
@@ -156,6 +156,22 @@ TEST_F(ScoreCommand, PutsTheLogAboveControlsOnRealRecordings) {
   for (const char* name : {"stand", "cv", "cv-fan"})
     EXPECT_LT(method_named(recording, name).at("composite"), log) << name;
   EXPECT_GT(log, 0.7);
+}
+
+TEST_F(ScoreCommand, DrivesMixedTrafficBetterThanConstantVelocity) {
+  const fs::path cross = fs::path(SUMOGAMMA_SHARED_DIR) / "data" / "trajectories" / "cross.csv";
+  if (!fs::exists(cross)) GTEST_SKIP() << "no recordings beside the project: " << cross;
+  EXPECT_NE(score({cross.string()}).errors.find("tells no rate"), std::string::npos);
+  const ProcessResult result = score({cross.string(), "--period", "0.4", "-o", out(), "--method",
+                                      "log,stand,cv,gamma", "--seeds", "8"});
+  ASSERT_TRUE(result.ok()) << result.errors;
+  EXPECT_NE(result.output.find("211 of 211 agents have no size in it"), std::string::npos);
+  const json recording = results().at("recordings").at(0);
+  const json &cv = method_named(recording, "cv"), &gamma = method_named(recording, "gamma");
+  EXPECT_GT(gamma.at("composite"), cv.at("composite"));
+  EXPECT_LT(gamma.at("colliding"), cv.at("colliding"));
+  EXPECT_LT(gamma.at("min_ade_m"), cv.at("min_ade_m"));
+  EXPECT_NEAR(gamma.at("progress").get<double>(), 1.0, 0.3);
 }
 
 }  // namespace
