@@ -52,12 +52,7 @@ std::optional<Scored> score_file(const std::string& file, const ScoreOptions& op
       print(stderr, "{}: {}, {} windows\n", scored.scene.name, method, windows);
     return !stopped;
   };
-  try {
-    scored.score = score_recording(scored.scene, settings, workers, progress);
-  } catch (const Error& error) {
-    // it names the recording; which file that is, is known here
-    throw Error(file, std::string(error.what()));
-  }
+  scored.score = score_recording(scored.scene, settings, workers, progress);
   if (stopped) return std::nullopt;
   return scored;
 }

@@ -156,6 +156,7 @@ RecordedScene read_recorded_scene(const std::filesystem::path& path, const Scene
   const TrackSet set = read_tracks(path, reading.tracks);
   RecordedScene scene;
   scene.name = set.name;
+  scene.file = path.string();
   scene.format = set.format;
   scene.types = scored_agent_types();
   for (const auto& [name, size] : reading.boxes) {

@@ -61,6 +61,7 @@ struct RecordedAgent {
 /// A recording that can be scored.
 struct RecordedScene {
   std::string name, format;
+  std::string file;  ///< as the user named it, for messages
   AgentTypeTable types;
   std::vector<RecordedAgent> agents;  ///< in order of id
   int first = 0, last = -1;           ///< steps

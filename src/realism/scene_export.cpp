@@ -151,7 +151,7 @@ OpenScene open_scene_of(const RecordedScene& scene, int start) {
     ++open.present;
   }
   if (open.present == 0)
-    throw Error(scene.name, fmt::format("has nobody {:.1f} s after its beginning, expected a time "
+    throw Error(scene.file, fmt::format("has nobody {:.1f} s after its beginning, expected a time "
                                         "from 0 to {:.1f} with agents; --at",
                                         kScoreStep * (start - scene.first), scene.duration()));
   std::stable_sort(later.begin(), later.end(), [](const RecordedAgent* a, const RecordedAgent* b) {

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/csv_text.h"
+
 namespace sumogamma {
 
 namespace {
@@ -191,7 +193,7 @@ std::string score_csv(std::span<const RecordingScore> scores) {
   std::string text = "recording,method,types,figure,value\n";
   const auto add = [&](const RecordingScore& score, const std::string& method,
                        const std::string& types, const std::string& figure, double value) {
-    text += fmt::format("{},{},{},{},", score.name, method, types, figure);
+    text += fmt::format("{},{},{},{},", csv_field(score.name), method, types, figure);
     text += std::isfinite(value) ? fmt::format("{:.6f}\n", value) : "\n";
   };
   for (const RecordingScore& score : scores) {

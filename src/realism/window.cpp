@@ -52,11 +52,11 @@ Windows windows_of(const RecordedScene& scene) {
       found.windows.push_back(std::move(window));
   }
   if (found.windows.empty() && found.left_out == 0)
-    throw Error(scene.name, fmt::format("lasts {:.1f} s, expected 9.2 s at the least: a window is "
+    throw Error(scene.file, fmt::format("lasts {:.1f} s, expected 9.2 s at the least: a window is "
                                         "8 s and begins after one second",
                                         scene.duration()));
   if (found.windows.empty())
-    throw Error(scene.name, fmt::format("has {} windows of 8 s and in none of them two agents for "
+    throw Error(scene.file, fmt::format("has {} windows of 8 s and in none of them two agents for "
                                         "1.5 s at its beginning",
                                         found.left_out));
   return found;
