@@ -33,6 +33,7 @@ CommandRunner add_import_command(CLI::App& parent);
 CommandRunner add_demand_command(CLI::App& parent);
 CommandRunner add_run_command(CLI::App& parent);
 CommandRunner add_scene_command(CLI::App& parent);
+CommandRunner add_scene_from_command(CLI::App& parent);
 CommandRunner add_predict_command(CLI::App& parent);
 CommandRunner add_drive_command(CLI::App& parent);
 CommandRunner add_replay_command(CLI::App& parent);
@@ -40,6 +41,7 @@ CommandRunner add_batch_command(CLI::App& parent);
 CommandRunner add_compare_command(CLI::App& parent);
 CommandRunner add_report_command(CLI::App& parent);
 CommandRunner add_validate_command(CLI::App& parent);
+CommandRunner add_score_command(CLI::App& parent);
 CommandRunner add_version_command(CLI::App& parent);
 
 /// True once the user pressed Ctrl-C or the process was asked to end (SIGINT, SIGTERM, SIGHUP).

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/reading_options.h"
 #include "app/validators.h"
 #include "base/error.h"
 #include "base/hash.h"
@@ -34,9 +35,7 @@ struct PredictOptions {
   double noise = 0;
   bool ablations = false;
   std::string json, plots, walking_rows, exported;
-  std::string format;
-  double period = 0, rate = 0, fill = 1.0;
-  std::vector<std::string> types;
+  ReadingArguments reading;
   bool list_parameters = false;
 };
 
@@ -90,22 +89,6 @@ void write_plots(const std::string& folder, const TrackSet& set, const Protocol&
   }
 }
 
-ReadOptions read_options(const PredictOptions& options) {
-  ReadOptions read;
-  read.format = options.format;
-  read.fill = options.fill;
-  if (options.period > 0 && options.rate > 0)
-    throw Error("--fps", "stands beside --period, expected one of them");
-  read.period = options.rate > 0 ? 1.0 / options.rate : options.period;
-  for (const std::string& pair : options.types) {
-    const std::size_t equals = pair.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw Error("--type " + pair, "expected THEIRS=OURS, such as lorry=truck");
-    read.types[pair.substr(0, equals)] = pair.substr(equals + 1);
-  }
-  return read;
-}
-
 /// Recordings that can be used, and what is wrong with the others.
 struct Batch {
   std::vector<TrackSet> sets;
@@ -125,7 +108,7 @@ void say_how_it_was_read(const TrackSet& set) {
 }
 
 Batch read_batch(const PredictOptions& options, const Protocol& protocol, bool quiet) {
-  const ReadOptions read = read_options(options);
+  const ReadOptions read = read_options(options.reading);
   Batch batch;
   for (const std::string& file : options.files) {
     try {
@@ -263,22 +246,6 @@ int run(const PredictOptions& options, const CommonOptions& common) {
   return batch.left_out.empty() ? kExitDone : kExitNotHeld;
 }
 
-void add_reading_options(CLI::App& command, PredictOptions& options) {
-  command.add_option("--format", options.format,
-                     "what the recordings must be: " + recording_formats());
-  command
-      .add_option("--period", options.period,
-                  "time from one frame of the recordings to the next [s]")
-      ->check(finite_number(1e-4, 10.0));
-  command.add_option("--fps", options.rate, "the same as frames a second")
-      ->check(finite_number(0.1, 10000.0));
-  command.add_option("--fill", options.fill, "gaps up to this long are filled [s]")
-      ->check(finite_number(0.0, 60.0))
-      ->capture_default_str();
-  command.add_option("--type", options.types,
-                     "THEIRS=OURS: what a type of the recordings is here (may be repeated)");
-}
-
 }  // namespace
 
 CommandRunner add_predict_command(CLI::App& parent) {
@@ -287,7 +254,7 @@ CommandRunner add_predict_command(CLI::App& parent) {
   auto options = std::make_shared<PredictOptions>();
   command->add_option("FILES", options->files,
                       "recordings; formats are told by looking: " + recording_formats());
-  add_reading_options(*command, *options);
+  add_reading_options(*command, options->reading);
   command
       ->add_option(
           "--protocol", options->protocol,

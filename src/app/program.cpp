@@ -80,10 +80,10 @@ int run_program(const std::vector<std::string>& words, std::FILE* out) {
   common.out = out;
   const CLI::Option* const seed = add_common_options(app, common);
   std::vector<std::pair<CLI::App*, CommandRunner>> commands;
-  for (auto add :
-       {add_import_command, add_demand_command, add_run_command, add_scene_command,
-        add_predict_command, add_drive_command, add_batch_command, add_compare_command,
-        add_replay_command, add_report_command, add_validate_command, add_version_command}) {
+  for (auto add : {add_import_command, add_demand_command, add_run_command, add_scene_command,
+                   add_predict_command, add_drive_command, add_batch_command, add_compare_command,
+                   add_replay_command, add_report_command, add_validate_command, add_score_command,
+                   add_scene_from_command, add_version_command}) {
     CommandRunner runner = add(app);
     commands.emplace_back(app.get_subcommands({}).back(), std::move(runner));
   }

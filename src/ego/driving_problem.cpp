@@ -18,7 +18,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kStands = 1e-3;  // slower is standing [m/s]
 /// Standard deviation, as a share, of the pace at which somebody goes on, whatever it is seen to
 /// drive or walk at.
-constexpr double kPaceSpread = 0.1;
+constexpr double kPaceSpread = 0.04;
 
 std::uint64_t take(std::uint64_t hash, double value, double cell) {
   const auto number = static_cast<std::int64_t>(std::floor(value / cell));

@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "base/csv_text.h"
 #include "base/edit_distance.h"
 #include "base/error.h"
 #include "base/number_text.h"
-#include "io/csv_text.h"
 #include "io/output_file.h"
 
 namespace sumogamma {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/csv_text.h"
 #include "base/error.h"
 #include "base/xml_text.h"
-#include "io/csv_text.h"
 #include "io/output_file.h"
 #include "io/page_assets.h"
 

@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/csv_text.h"
 #include "base/xml_text.h"
-#include "io/csv_text.h"
 #include "io/output_file.h"
 #include "io/page_assets.h"
 #include "io/svg_plot.h"

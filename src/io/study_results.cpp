@@ -10,8 +10,8 @@
 #include <set>
 #include <tuple>
 
+#include "base/csv_text.h"
 #include "base/error.h"
-#include "io/csv_text.h"
 #include "io/output_file.h"
 #include "study/measures.h"
 

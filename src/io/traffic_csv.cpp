@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "io/csv_text.h"
+#include "base/csv_text.h"
 
 namespace sumogamma {
 

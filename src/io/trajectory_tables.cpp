@@ -15,8 +15,8 @@
 #include <thread>
 #include <utility>
 
+#include "base/csv_text.h"
 #include "base/error.h"
-#include "io/csv_text.h"
 #include "io/parquet.h"
 
 namespace sumogamma {

@@ -211,11 +211,12 @@ struct Layout {
   std::string format;
   int frame = -1, id = -1, type = -1, x = -1, y = -1, z_width = -1, z_height = -1;
   int heading = -1, heading_x = -1, heading_y = -1;
-  double heading_scale = 1;  ///< to radians
-  double scale = 1;          ///< to metres
-  double unit = 0;           ///< see RawRecording
-  bool counted = true;       ///< frames are whole numbers
-  std::string every_type{};  ///< where there is no column
+  int length = -1, width = -1;  ///< of bodies; rows may end before them
+  double heading_scale = 1;     ///< to radians
+  double scale = 1;             ///< to metres
+  double unit = 0;              ///< see RawRecording
+  bool counted = true;          ///< frames are whole numbers
+  std::string every_type{};     ///< where there is no column
   std::map<std::string, std::string> type_by_id{};
 
   int most() const {
@@ -316,6 +317,8 @@ Layout named_layout(const fs::path& path, const Table& table) {
   layout.heading_x = table.column({"heading_x"});
   layout.heading_y = table.column({"heading_y"});
   layout.heading = table.column({"heading_rad", "psi_rad", "psi_est"});
+  layout.length = table.column({"length_m", "length"});
+  layout.width = table.column({"width_m", "width"});
   if (layout.type < 0) layout.every_type = "pedestrian";
   if (layout.format == "dut") layout.unit = 1.0 / kDutRate;
   if (layout.format == "levelx") {
@@ -326,11 +329,26 @@ Layout named_layout(const fs::path& path, const Table& table) {
     if (!table.has("xCenter")) {
       layout.z_width = table.column({"width"});
       layout.z_height = table.column({"height"});
+      // along the road and across it
+      layout.length = layout.z_width;
+      layout.width = layout.z_height;
     }
   }
   if (layout.frame < 0 || layout.id < 0 || layout.x < 0 || layout.y < 0)
     throw Error(table.file + ":1", "expected a header with frame or time_s, agent_id, x_m and y_m");
   return layout;
+}
+
+/// Length or width of a body; 0 where the field tells none.
+double size_of(const Place& place, const std::vector<std::string>& row, int column,
+               const char* what) {
+  constexpr double kLongest = 100.0;  // no body is longer [m]
+  if (column < 0 || column >= static_cast<int>(row.size())) return 0.0;
+  const std::string& field = row[static_cast<std::size_t>(column)];
+  const double size = field.empty() ? 0.0 : number(place, field, what);
+  if (size > kLongest)
+    throw Error(place.text(), std::string(what) + " is " + field + ", expected metres of a body");
+  return std::max(0.0, size);
 }
 
 RawPoint point_of(const Place& place, const std::vector<std::string>& row, const Layout& layout,
@@ -358,6 +376,8 @@ RawPoint point_of(const Place& place, const std::vector<std::string>& row, const
     type = known->second;
   }
   point.type = type_of_name(place, type, options, types);
+  point.length = size_of(place, row, layout.length, "length");
+  point.width = size_of(place, row, layout.width, "width");
   point.heading = kUnknown;
   if (layout.heading >= 0) {
     // people on foot often have none

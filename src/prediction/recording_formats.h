@@ -13,9 +13,10 @@ namespace sumogamma {
 
 /// What a user tells about recordings; what isn't told is found by looking.
 struct ReadOptions {
-  std::string format;  ///< one of recording_formats(), empty: by looking
-  double period = 0;   ///< of the file's own frames [s]; 0: as the format has it
-  double fill = 1.0;   ///< gaps up to this long are filled [s]
+  std::string format;   ///< one of recording_formats(), empty: by looking
+  double period = 0;    ///< of the file's own frames [s]; 0: as the format has it
+  double fill = 1.0;    ///< gaps up to this long are filled [s]
+  double sample = 0.4;  ///< from one point of a track to the next [s]; 0.4 is every benchmark's
   std::map<std::string, std::string> types;  ///< what a file calls a type, and our name for it
 };
 
@@ -26,6 +27,7 @@ struct RawPoint {
   AgentTypeId type{};
   Vec2 position = Vec2::Zero();  ///< [m]
   double heading = 0;            ///< [rad], not a number where the file tells none
+  double length = 0, width = 0;  ///< of the body, 0 where the file tells none [m]
 };
 
 /// A file as it stands, in metres.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "base/error.h"
 
@@ -14,8 +15,8 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kPeriod = 0.4;  // of every benchmark [s]
-constexpr double kGap = 1.5;     // of the file's own steps
+constexpr double kAssumedStep = 0.4;  // of files that tell no rate [s]
+constexpr double kGap = 1.5;          // of the file's own steps
 constexpr double kMostSteps = 1e7;
 constexpr double kSlowestCrowd =
     0.2;  // upper quartile of speeds that no rate assumed may give [m/s]
@@ -44,7 +45,7 @@ double unit_of(const RawRecording& raw, const ReadOptions& options, double step,
   if (raw.unit > 0) return raw.unit;
   if (raw.step > 0) return raw.step / step;
   assumed = true;
-  return kPeriod / step;
+  return kAssumedStep / step;
 }
 
 /// One track being made of an agent's observations, in seconds.
@@ -52,6 +53,7 @@ struct Sampler {
   std::span<const RawPoint> points;
   double unit, begin;  ///< seconds a frame; time of the recording's first observation
   double gap;          ///< wider than this, what is between two points is filled in [s]
+  double period;       ///< of the track [s]
   int offset;          ///< of the recording's first observation [steps]
 
   double time(std::size_t k) const { return points[k].frame * unit - begin; }
@@ -60,16 +62,16 @@ struct Sampler {
   void sample(std::size_t first, std::size_t last, TrackSet& set, std::vector<double>& annotated,
               Track& track) const {
     constexpr double kSame = 1e-6;  // [steps]
-    const auto from = static_cast<int>(std::ceil(time(first) / kPeriod - kSame));
-    const auto to = static_cast<int>(std::floor(time(last) / kPeriod + kSame));
+    const auto from = static_cast<int>(std::ceil(time(first) / period - kSame));
+    const auto to = static_cast<int>(std::floor(time(last) / period + kSame));
     track.first = from + offset;
     std::size_t k = first;
     for (int step = from; step <= to; ++step) {
-      const double now = step * kPeriod;
-      while (k < last && time(k + 1) <= now + kSame * kPeriod) ++k;
+      const double now = step * period;
+      while (k < last && time(k + 1) <= now + kSame * period) ++k;
       bool filled = false;
       Vec2 position = points[k].position;
-      if (k < last && now - time(k) > kSame * kPeriod) {
+      if (k < last && now - time(k) > kSame * period) {
         const double width = time(k + 1) - time(k), share = (now - time(k)) / width;
         position += share * (points[k + 1].position - points[k].position);
         filled = width > gap;
@@ -86,7 +88,7 @@ void check_speeds(const TrackSet& set, const std::string& file) {
   std::vector<double> speed;
   for (const Track& track : set.tracks)
     for (std::size_t k = 1; k < track.position.size(); ++k)
-      speed.push_back((track.position[k] - track.position[k - 1]).norm() / kPeriod);
+      speed.push_back((track.position[k] - track.position[k - 1]).norm() / set.period);
   if (speed.size() < 20) return;
   const auto upper = speed.begin() + static_cast<std::ptrdiff_t>(3 * speed.size() / 4);
   std::nth_element(speed.begin(), upper, speed.end());
@@ -100,14 +102,15 @@ void check_speeds(const TrackSet& set, const std::string& file) {
 struct Sampling {
   double unit, step;   ///< seconds a frame; frames from one observation to the next
   double begin, fill;  ///< time of the first observation; the longest gap that is filled [s]
+  double period;       ///< of the tracks [s]
   const AgentTypeTable& types;
 };
 
 void append_agent_tracks(std::span<const RawPoint> points, const Sampling& how, TrackSet& set,
                          std::uint32_t& fresh) {
   const double gap = kGap * how.step * how.unit;
-  const Sampler sampler{points, how.unit, how.begin, gap,
-                        static_cast<int>(std::llround(how.begin / kPeriod))};
+  const Sampler sampler{points, how.unit,   how.begin,
+                        gap,    how.period, static_cast<int>(std::llround(how.begin / how.period))};
   std::size_t first = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const bool ends = k + 1 == points.size();
@@ -118,8 +121,14 @@ void append_agent_tracks(std::span<const RawPoint> points, const Sampling& how, 
     std::vector<double> annotated;
     sampler.sample(first, k, set, annotated, track);
     if (!ends) ++set.split_gaps;
-    first = k + 1;
+    const std::size_t from = std::exchange(first, k + 1);
     if (track.position.empty()) continue;
+    for (const RawPoint& point : points.subspan(from, k + 1 - from)) {
+      if (!(point.length > 0 && point.width > 0)) continue;
+      track.length = point.length;
+      track.width = point.width;
+      break;
+    }
     point_track(how.types, annotated, track);
     set.tracks.push_back(std::move(track));
   }
@@ -141,19 +150,21 @@ TrackSet resampled_tracks(const RawRecording& raw, const ReadOptions& options,
   set.name = raw.name;
   set.format = raw.format;
   set.notes = raw.notes;
+  set.period = options.sample;
   const double step = own_step(raw, points);
   bool assumed = false;
   const double unit = unit_of(raw, options, step, assumed);
   if (assumed) set.notes.push_back("tells no rate: a step every 0.4 s is assumed");
   set.own_period = unit * step;
+  set.assumed_period = assumed;
   const auto [earliest, latest] =
       std::minmax_element(points.begin(), points.end(),
                           [](const RawPoint& a, const RawPoint& b) { return a.frame < b.frame; });
-  if ((latest->frame - earliest->frame) * unit / kPeriod > kMostSteps)
+  if ((latest->frame - earliest->frame) * unit / options.sample > kMostSteps)
     throw Error(file, fmt::format("frames reach from {} to {}, expected counted steps, not times",
                                   earliest->frame, latest->frame));
   const double begin = earliest->frame * unit;
-  const Sampling how{unit, step, begin, options.fill, types};
+  const Sampling how{unit, step, begin, options.fill, options.sample, types};
   std::uint32_t fresh = points.back().id;
   for (std::size_t first = 0; first < points.size();) {
     std::size_t last = first;

@@ -5,7 +5,7 @@
 
 namespace sumogamma {
 
-/// Tracks of a recording, a point every 0.4 s from its first observation on, by linear
+/// Tracks of a recording, a point every `options.sample` from its first observation on, by linear
 /// interpolation between observations (exact where observations fall on the steps). Where
 /// observations are missing for longer than 1.5 of the file's own steps there is a gap: up to
 /// `fill` seconds it is filled and counted, a longer one makes two tracks of one. A file that

@@ -22,6 +22,7 @@ struct Track {
   std::vector<double> heading;  ///< as annotated, or else the last direction of motion [rad]
   bool annotated = false;       ///< the recording tells headings itself
   std::vector<bool> filled{};   ///< by frame: lies in a gap that was filled; empty: none does
+  double length = 0, width = 0;  ///< of the body, 0 where the recording tells none [m]
 
   int last() const { return first + static_cast<int>(position.size()) - 1; }
   bool present(int frame) const { return frame >= first && frame <= last(); }
@@ -36,6 +37,7 @@ struct TrackSet {
   std::vector<Obstacle> obstacles;  ///< solid things, in the same axes
   std::string format;               ///< as which it was read
   double own_period = 0.4;          ///< of the file's own frames [s]
+  bool assumed_period = false;      ///< the file tells none, nor did the user
   std::int64_t filled_gaps = 0, filled_steps = 0, split_gaps = 0;
   std::vector<std::string> notes;  ///< what was assumed in reading it
 };
@@ -49,7 +51,7 @@ AgentTypeTable recorded_agent_types();
 /// motion. Somebody on foot has none before moving.
 void point_track(const AgentTypeTable& types, std::span<const double> annotated, Track& track);
 
-/// Reads a recording in any format of recording_formats.h and samples it every 0.4 s
+/// Reads a recording in any format of recording_formats.h and samples it every `options.sample`
 /// (resampling.h). Where NAME_obstacles.json stands beside NAME.csv, its polygons come along.
 /// Throws Error naming file and line.
 TrackSet read_track_set(const std::filesystem::path& path, const ReadOptions& options = {});

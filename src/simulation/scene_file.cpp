@@ -19,11 +19,13 @@ constexpr double kUnlimited = 1e3;
 constexpr double kFarthest = 1e6;
 
 constexpr std::string_view kHeader = "id,type,x,y,heading_rad,speed,goal_x,goal_y,pref_speed";
+constexpr std::string_view kSizes = ",length,width";
 
 struct Record {
   std::uint32_t id = 0;
   std::string type;
   double x = 0, y = 0, heading = 0, speed = 0, goal_x = 0, goal_y = 0, preferred_speed = 0;
+  double length = 0, width = 0;  ///< 0: the type's
 };
 
 AgentType scene_type(const char* name, double length, double width, double wheelbase,
@@ -85,10 +87,12 @@ void parse(std::string_view text, const char* field, const std::string& where, N
                            "', expected a number within a million");
 }
 
-Record parse_record(std::string_view line, const std::string& where) {
+Record parse_record(std::string_view line, bool sized, const std::string& where) {
   const std::vector<std::string_view> fields = split(line);
-  if (fields.size() != 9)
-    throw Error(where, std::to_string(fields.size()) + " fields, expected " + std::string(kHeader));
+  const std::size_t expected = sized ? 11 : 9;
+  if (fields.size() != expected)
+    throw Error(where, std::to_string(fields.size()) + " fields, expected " + std::string(kHeader) +
+                           std::string(sized ? kSizes : ""));
   Record record;
   parse(fields[0], "id", where, record.id);
   record.type = fields[1];
@@ -99,6 +103,12 @@ Record parse_record(std::string_view line, const std::string& where) {
   parse(fields[6], "goal_x", where, record.goal_x);
   parse(fields[7], "goal_y", where, record.goal_y);
   parse(fields[8], "pref_speed", where, record.preferred_speed);
+  if (sized) {
+    parse(fields[9], "length", where, record.length);
+    parse(fields[10], "width", where, record.width);
+    if (record.length <= 0 || record.width <= 0)
+      throw Error(where, "length or width isn't positive, expected metres of a body");
+  }
   if (record.speed < 0 || record.preferred_speed < 0)
     throw Error(where, "a speed is negative, expected none");
   return record;
@@ -113,12 +123,16 @@ std::vector<Record> read_records(const std::filesystem::path& path) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     return true;
   };
-  if (!next_line() || line != kHeader)
-    throw Error(path.string(), "first line must be " + std::string(kHeader));
+  const bool any = next_line();
+  const bool sized = any && line == std::string(kHeader) + std::string(kSizes);
+  if (!any || (line != kHeader && !sized))
+    throw Error(path.string(), "first line must be " + std::string(kHeader) + ", and " +
+                                   std::string(kSizes) +
+                                   " behind it where bodies have sizes of their own");
   std::vector<Record> records;
   for (std::size_t number = 2; next_line(); ++number)
     if (!line.empty())
-      records.push_back(parse_record(line, path.string() + ":" + std::to_string(number)));
+      records.push_back(parse_record(line, sized, path.string() + ":" + std::to_string(number)));
   if (records.empty()) throw Error(path.string(), "no agents, expected at least one");
   return records;
 }
@@ -164,7 +178,8 @@ SceneFile read_scene_file(const std::filesystem::path& path, Actuation actuation
     agent.id = {record.id};
     agent.type = use_type(known, record.type, file.types);
     const AgentType& type = type_of(file.types, agent.type);
-    agent.footprint = box_footprint(type.length, type.width);
+    agent.footprint = record.length > 0 ? box_footprint(record.length, record.width)
+                                        : box_footprint(type.length, type.width);
     agent.position = {record.x, record.y};
     agent.heading = wrap_angle(record.heading);
     agent.speed = record.speed;

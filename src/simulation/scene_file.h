@@ -27,7 +27,8 @@ struct SceneFile {
 /// Reads `id,type,x,y,heading_rad,speed,goal_x,goal_y,pref_speed` (metres, radians
 /// counter-clockwise from +x, x,y = centre of the box). Types: People, Bicycle, Scooter, Car, Van,
 /// Bus, Jeep, Electric_Tricycle, Gyro_Scooter with the sizes of the reference's scene set, or any
-/// name of default_agent_types. Rows may come in any order of ids. Throws Error naming file and
+/// name of default_agent_types. `length,width` [m] may stand behind these columns: the box of each,
+/// which otherwise is its type's. Rows may come in any order of ids. Throws Error naming file and
 /// line.
 SceneFile read_scene_file(const std::filesystem::path& path, Actuation actuation);
 

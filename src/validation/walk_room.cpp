@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/gamma_velocity.h"
-#include "model/stopping_guard.h"
-#include "model/tracking.h"
+#include "simulation/open_steps.h"
 
 namespace sumogamma {
 
@@ -84,39 +82,6 @@ void place_copies(double period, std::size_t walkers, Scene& scene) {
   }
 }
 
-/// Everybody one step on, from the frozen scene.
-class Steps {
- public:
-  Steps(const Model& model, Workers& workers) : model_(model), workers_(workers) {
-    workspaces_.resize(workers.count());
-  }
-  void make(std::size_t walkers, Scene& scene) {
-    commands_.resize(walkers);
-    prepare_tick(model_, scene, workers_, geometry_);
-    workers_.for_each_range(walkers, [&](std::size_t worker, std::size_t begin, std::size_t end) {
-      for (std::size_t row = begin; row < end; ++row) {
-        const Vec2 velocity =
-            gamma_velocity(model_, scene, geometry_, row, scene.behavior[row], workspaces_[worker]);
-        commands_[row] = next_body(model_, scene, row, velocity, kStep, workspaces_[worker]);
-      }
-    });
-    for (std::size_t row = 0; row < walkers; ++row) {
-      scene.acceleration[row] = (commands_[row].velocity - scene.velocity[row]) / kStep;
-      place_body(commands_[row], scene, row);
-      update_held(kStep, scene, row);
-    }
-    ++scene.tick;
-    scene.time += kStep;
-  }
-
- private:
-  const Model& model_;
-  Workers& workers_;
-  TickGeometry geometry_;
-  std::vector<Workspace> workspaces_;
-  std::vector<BodyState> commands_;
-};
-
 /// Notes who has moved and who went through its gate; who has left is taken out.
 std::size_t note_progress(const Room& room, std::size_t walkers, std::vector<Walked>& walked,
                           Scene& scene) {
@@ -147,7 +112,7 @@ std::vector<Walked> walk(const Room& room, double duration, Workers& workers,
   if (room.period > 0.0)
     for (const Walker& walker : room.walkers) add_walker(model, walker, scene);
   std::vector<Walked> walked(walkers);
-  Steps steps(model, workers);
+  OpenSteps steps(model, workers);
   const auto count = static_cast<std::size_t>(std::lround(duration / kStep));
   for (std::size_t k = 0; k < count && walkers > 0; ++k) {
     if (room.period > 0.0) place_copies(room.period, walkers, scene);

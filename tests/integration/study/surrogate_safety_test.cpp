@@ -5,8 +5,8 @@
 #include <map>
 #include <pugixml.hpp>
 
+#include "base/csv_text.h"
 #include "base/subprocess.h"
-#include "io/csv_text.h"
 #include "io/output_file.h"
 
 namespace sumogamma {

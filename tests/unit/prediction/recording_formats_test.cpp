@@ -133,6 +133,8 @@ TEST(RecordingFormats, InteractionWithWalkersBesideVehicles) {
   const auto file = folder.write("vehicle_tracks_000.csv",
                                  names + ",psi_rad,length,width\n" + ten_agents(10, row, 0, 6));
   expect_the_ten(read_track_set(file), "interaction", 6);
+  EXPECT_EQ(read_track_set(file).tracks[3].length, 4.5);
+  EXPECT_EQ(read_track_set(file).tracks[3].width, 1.8);
   folder.write("pedestrian_tracks_000.csv", names + "\n" + ten_agents(10, walker, 6, 4));
   expect_the_ten(read_track_set(file), "interaction");
 }
@@ -199,6 +201,28 @@ TEST(RecordingFormats, DutWithVehiclesBesideWalkers) {
   folder.write("clip_traj_veh_filtered.csv",
                "id,frame,label,x_est,y_est,psi_est,vel_est\n" + ten_agents(23.98, vehicle, 8, 2));
   expect_the_ten(read_track_set(file), "dut");
+}
+
+TEST(RecordingFormats, SamplesAsOftenAsAsked) {
+  const Folder folder;
+  const auto row = [](int a, int f, double x, double y) {
+    return fmt::format("{:.1f},{},{:.4f},{:.4f},,\n", 0.1 * f, a, x, y);
+  };
+  const fs::path file =
+      folder.write("ten.csv", "time_s,agent_id,x_m,y_m,length_m,width_m\n" + ten_agents(10, row));
+  ReadOptions options;
+  options.sample = 0.1;
+  const TrackSet set = read_track_set(file, options);
+  EXPECT_EQ(set.period, 0.1);
+  EXPECT_FALSE(set.assumed_period);
+  ASSERT_EQ(set.tracks[2].position.size(), 101u);
+  for (std::size_t k = 0; k <= 100; ++k)
+    EXPECT_LT((set.tracks[2].position[k] - place(2, 0.1 * static_cast<double>(k))).norm(), 1e-3);
+  EXPECT_EQ(set.tracks[2].length, 0.0) << "empty fields tell no size";
+  EXPECT_THROW(read_track_set(folder.write("huge.csv",
+                                           "time_s,agent_id,x_m,y_m,length_m,width_m\n"
+                                           "0,1,0,0,500,2\n0.1,1,0,0,500,2\n")),
+               Error);
 }
 
 TEST(RecordingFormats, FillsShortGapsAndCountsThem) {

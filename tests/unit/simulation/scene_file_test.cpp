@@ -38,6 +38,17 @@ TEST_F(SceneFileTest, ReadsAgentsInOrderOfId) {
   EXPECT_EQ(type_of(file.types, file.scene.type[0]).kinematics, Kinematics::Holonomic);
 }
 
+TEST_F(SceneFileTest, BodiesMayHaveSizesOfTheirOwn) {
+  std::string header = kHeader;
+  header.insert(header.size() - 1, ",length,width");
+  const SceneFile file =
+      read_scene_file(write(header + "1,car,0,0,0,0,9,9,4,5.2,2.1\n"), Actuation::CarLike);
+  EXPECT_DOUBLE_EQ(file.scene.footprint[0].radius, box_footprint(5.2, 2.1).radius);
+  EXPECT_THROW(read_scene_file(write(header + "1,car,0,0,0,0,9,9,4\n"), Actuation::CarLike), Error);
+  EXPECT_THROW(read_scene_file(write(header + "1,car,0,0,0,0,9,9,4,0,2\n"), Actuation::CarLike),
+               Error);
+}
+
 TEST_F(SceneFileTest, IdealActuationFreesTheWheels) {
   const auto path = write(std::string(kHeader) + "1,Bus,0,0,0,0,1,1,4\n");
   EXPECT_EQ(read_scene_file(path, Actuation::Ideal).types[0].kinematics, Kinematics::Holonomic);

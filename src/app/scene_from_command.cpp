@@ -1,0 +1,179 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+#include "app/scene_reading.h"
+#include "app/validators.h"
+#include "base/error.h"
+#include "base/print.h"
+#include "io/output_file.h"
+#include "io/output_folder.h"
+#include "realism/map_matching.h"
+#include "realism/scene_export.h"
+#include "road/sumo_net_reader.h"
+
+namespace sumogamma {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct SceneFromOptions {
+  std::string recording;
+  fs::path map, output;
+  double at = 1.0;
+  bool force = false;
+  SceneArguments reading;
+};
+
+Json described(const RecordedScene& scene) {
+  return {{"version", SUMOGAMMA_VERSION},
+          {"recording", scene.name},
+          {"format", scene.format},
+          {"duration_s", scene.duration()},
+          {"agents", scene.agents.size()},
+          {"default_boxes", scene.default_boxes},
+          {"tracks_left_out", scene.too_short},
+          {"notes", scene.notes}};
+}
+
+/// Without a map: open ground.
+void write_open_scene(const RecordedScene& scene, const SceneFromOptions& options, std::FILE* out) {
+  const int start = scene.first + static_cast<int>(std::lround(options.at / kScoreStep));
+  const OpenScene open = open_scene_of(scene, start);
+  write_file(options.output / "scene.csv", open.scene);
+  write_file(options.output / "arrivals.csv", open.arrivals);
+  if (!open.obstacles.empty()) write_file(options.output / "obstacles.json", open.obstacles);
+  Json json = described(scene);
+  json["start_s"] = kScoreStep * (open.start - scene.first);
+  json["present"] = open.present;
+  json["arriving"] = open.arriving;
+  json["obstacles"] = scene.obstacles.size();
+  json["given"] = {"place, heading and speed at the start", "size, or the type's",
+                   "goal: the last recorded place",
+                   "preferred speed: 85th percentile of the recorded ones"};
+  json["scene_command_leaves_out"] = {"arrivals.csv", "obstacles.json"};
+  write_file(options.output / "scene.json", json.dump(1) + "\n");
+  print(out, "{}: {} agents are there at {:.1f} s (scene.csv), {} come later (arrivals.csv)\n",
+        scene.name, open.present, json["start_s"].get<double>(), open.arriving);
+  print(out,
+        "`sumo-gamma scene` drives scene.csv alone: nobody comes, and {} obstacles aren't "
+        "there\n",
+        scene.obstacles.size());
+}
+
+/// "1, 2, 3 …" of many.
+std::string first_of(const std::vector<std::uint32_t>& ids) {
+  constexpr std::size_t kMost = 8;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(ids.size(), kMost); ++k)
+    text += (k > 0 ? ", " : "") + std::to_string(ids[k]);
+  return text + (ids.size() > kMost ? " …" : "");
+}
+
+/// Throws Error where the recording doesn't lie on the network.
+void require_on_routes(const RoadScene& road, const SceneFromOptions& options) {
+  if (road.points == 0)
+    throw Error(options.recording, "has no vehicles, which a map is for; leave out --map");
+  const double share = static_cast<double>(road.near) / static_cast<double>(road.points);
+  if (share >= kLeastOnRoutes) return;
+  throw Error(options.map.string(),
+              fmt::format("{:.1f} % of the vehicles' points lie within {} m of a route on it, "
+                          "expected {:.0f} %; {} vehicles don't (ids {}): the map is another "
+                          "place's, in other axes, or lacks lanes",
+                          100.0 * share, kOnRoute, 100.0 * kLeastOnRoutes, road.worst.size(),
+                          first_of(road.worst)));
+}
+
+void write_road_scene(const RecordedScene& scene, const SceneFromOptions& options, std::FILE* out) {
+  const RoadNetwork network = read_sumo_net(options.map);
+  const RoadScene road = road_scene_of(scene, network);
+  require_on_routes(road, options);
+  const std::string net = options.map.filename().string();
+  write_file(options.output / net, read_file(options.map));
+  write_file(options.output / "recorded.rou.xml", road.routes);
+  // everybody gets half as long again as the recording took
+  write_file(options.output / "recorded.sumocfg",
+             fmt::format("<configuration>\n  <input>\n    <net-file value=\"{}\"/>\n"
+                         "    <route-files value=\"recorded.rou.xml\"/>\n  </input>\n  <time>\n"
+                         "    <begin value=\"0\"/>\n    <end value=\"{:.0f}\"/>\n  </time>\n"
+                         "</configuration>\n",
+                         net, std::ceil(1.5 * scene.duration())));
+  Json json = described(scene);
+  json["map"] = net;
+  json["vehicles"] = road.vehicles;
+  json["people"] = road.people;
+  json["vehicles_without_a_route"] = road.no_route;
+  json["people_without_a_sidewalk"] = road.no_sidewalk;
+  json["points"] = road.points;
+  json["points_on_routes"] = road.near;
+  json["vehicles_off_their_route"] = road.worst;
+  json["given"] = {"time, lane, place and speed of departure", "size, or the type's", "route",
+                   "place of arrival"};
+  write_file(options.output / "scene.json", json.dump(1) + "\n");
+  print(out,
+        "{}: {} vehicles and {} people (recorded.sumocfg); {:.1f} % of the vehicles' points lie "
+        "within {} m of their routes\n",
+        scene.name, road.vehicles, road.people,
+        100.0 * static_cast<double>(road.near) / static_cast<double>(road.points), kOnRoute);
+  print(out, "left out: {} vehicles without a route, {} people without a sidewalk within 10 m\n",
+        road.no_route, road.no_sidewalk);
+}
+
+int make_scene(const SceneFromOptions& options, const CommonOptions& common) {
+  const std::string map = options.map.filename().string();
+  const bool is_net = map.ends_with(".net.xml") || map.ends_with(".net.xml.gz");
+  if (!map.empty() && !is_net)
+    throw Error("--map " + options.map.string(),
+                map.ends_with(".osm")
+                    ? "is no SUMO network; Lanelet2 maps aren't read yet, expected NAME.net.xml"
+                    : "is no SUMO network, expected NAME.net.xml or NAME.net.xml.gz");
+  if (!options.force && fs::exists(options.output / "scene.json"))
+    throw Error(options.output.string(),
+                "holds another scene.json, choose another folder or replace it with --force");
+  const RecordedScene scene =
+      read_recorded_scene(options.recording, scene_reading(options.reading));
+  const OutputFolder folder(options.output, options.force);
+  if (!common.quiet)
+    for (const std::string& note : scene.notes) print(stderr, "{}: {}\n", scene.name, note);
+  if (!common.quiet && scene.default_boxes > 0)
+    print(stderr, "{}: {} of {} agents have no size in it and get their type's box\n", scene.name,
+          scene.default_boxes, scene.agents.size());
+  if (map.empty())
+    write_open_scene(scene, options, common.out);
+  else
+    write_road_scene(scene, options, common.out);
+  return kExitDone;
+}
+
+}  // namespace
+
+CommandRunner add_scene_from_command(CLI::App& parent) {
+  CLI::App* command =
+      parent.add_subcommand("scene-from", "a recording as a scene, or as a scenario on a network");
+  auto options = std::make_shared<SceneFromOptions>();
+  command->add_option("RECORDING", options->recording, "as `predict` reads it")->required();
+  command->add_option("-o,--output", options->output, "folder for the scene")->required();
+  command->add_option("--map", options->map,
+                      "SUMO network of the place, in the recording's axes (NAME.net.xml); without: "
+                      "open ground");
+  command
+      ->add_option("--at", options->at,
+                   "on open ground: the scene is that of so long after the recording's begin [s]")
+      ->check(finite_number(0.0, 1e6))
+      ->capture_default_str();
+  command->add_flag("--force", options->force, "write into a folder that holds other results");
+  add_scene_reading_options(*command, options->reading);
+  return [options](const CommonOptions& common) { return make_scene(*options, common); };
+}
+
+}  // namespace sumogamma

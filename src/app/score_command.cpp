@@ -1,0 +1,150 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/command.h"
+#include "app/scene_reading.h"
+#include "app/validators.h"
+#include "base/error.h"
+#include "base/print.h"
+#include "io/config.h"
+#include "io/output_file.h"
+#include "io/output_folder.h"
+#include "realism/score_report.h"
+
+namespace sumogamma {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ScoreOptions {
+  std::vector<std::string> files;
+  fs::path output;
+  std::vector<std::string> methods;
+  std::size_t rollouts = 32;
+  bool force = false;
+  SceneArguments reading;
+};
+
+struct Scored {
+  RecordedScene scene;
+  RecordingScore score;
+};
+
+/// A recording scored; nothing where the user interrupts.
+std::optional<Scored> score_file(const std::string& file, const ScoreOptions& options,
+                                 const ScoreSettings& settings, const CommonOptions& common) {
+  Scored scored;
+  scored.scene = read_recorded_scene(file, scene_reading(options.reading));
+  Workers workers(common.threads);
+  bool stopped = false;
+  const auto progress = [&](const std::string& method, std::size_t window, std::size_t windows) {
+    stopped = interrupted();
+    if (!common.quiet && window == 0)
+      print(stderr, "{}: {}, {} windows\n", scored.scene.name, method, windows);
+    return !stopped;
+  };
+  scored.score = score_recording(scored.scene, settings, workers, progress);
+  if (stopped) return std::nullopt;
+  return scored;
+}
+
+void write_results(const ScoreOptions& options, const ScoreSettings& settings,
+                   const std::vector<Scored>& all, const std::vector<std::string>& left_out) {
+  nlohmann::ordered_json json{{"version", SUMOGAMMA_VERSION},
+                              {"seed", settings.seed},
+                              {"rollouts", settings.rollouts},
+                              {"point", options.reading.point},
+                              {"boxes", options.reading.boxes},
+                              {"window_s", kScoreStep * kWindowSteps},
+                              {"left_out", left_out}};
+  json["weights"] = nlohmann::ordered_json::object();
+  for (const ScoreFeatureInfo& info : score_features()) json["weights"][info.name] = info.weight;
+  json["recordings"] = nlohmann::ordered_json::array();
+  std::vector<RecordingScore> scores;
+  for (const Scored& one : all) {
+    json["recordings"].push_back(score_json(one.scene, one.score));
+    scores.push_back(one.score);
+  }
+  write_file(options.output / "score.csv", score_csv(scores));
+  write_file(options.output / "score.json", json.dump(1) + "\n");
+}
+
+void print_results(const std::vector<Scored>& all, std::FILE* out) {
+  std::vector<RecordingScore> scores;
+  for (const Scored& one : all) {
+    print(out, "## {}\n", one.score.name);
+    for (const std::string& note : scoring_notes(one.scene, one.score)) print(out, "- {}\n", note);
+    print(out, "\n{}\n", score_table(one.score));
+    scores.push_back(one.score);
+  }
+  if (scores.size() > 1) print(out, "## All\n\n{}\n", mean_table(scores));
+}
+
+int score(const ScoreOptions& options, const CommonOptions& common) {
+  ScoreSettings settings;
+  settings.methods = options.methods;
+  if (settings.methods.empty())
+    for (const ScoreMethodInfo& info : score_methods()) settings.methods.emplace_back(info.name);
+  for (const std::string& method : settings.methods) require_score_method(method);
+  settings.seed = common.seed;
+  settings.rollouts = options.rollouts;
+  settings.model = read_config({}, common.set).model;
+  std::optional<OutputFolder> folder;
+  if (!options.output.empty()) {
+    if (!options.force && fs::exists(options.output / "score.json"))
+      throw Error(options.output.string(),
+                  "holds another score.json, choose another folder or replace it with --force");
+    folder.emplace(options.output, options.force);
+  }
+  std::vector<Scored> all;
+  std::vector<std::string> left_out;
+  for (const std::string& file : options.files) {
+    try {
+      std::optional<Scored> scored = score_file(file, options, settings, common);
+      if (!scored) return kExitInterrupted;
+      all.push_back(std::move(*scored));
+    } catch (const Error& error) {
+      if (options.files.size() == 1) throw;
+      print(stderr, "sumo-gamma: left out: {}\n", error.what());
+      left_out.emplace_back(error.what());
+    }
+  }
+  if (all.empty()) throw Error("score", "none of the recordings can be scored");
+  print_results(all, common.out);
+  if (folder) write_results(options, settings, all, left_out);
+  return left_out.empty() ? kExitDone : kExitNotHeld;
+}
+
+}  // namespace
+
+CommandRunner add_score_command(CLI::App& parent) {
+  CLI::App* command = parent.add_subcommand(
+      "score", "how like recordings rollouts are: windows of 8 s, beside simple controls");
+  auto options = std::make_shared<ScoreOptions>();
+  std::string methods;
+  for (const ScoreMethodInfo& info : score_methods())
+    methods += fmt::format("{}{} ({})", methods.empty() ? "" : ", ", info.name, info.label);
+  command->add_option("RECORDINGS", options->files, "as `predict` reads them")->required();
+  command->add_option("-o,--output", options->output, "folder for score.json and score.csv");
+  command->add_option("--method", options->methods, "of " + methods + "; default: all")
+      ->delimiter(',');
+  command
+      ->add_option("--seeds", options->rollouts,
+                   "rollouts of a window by methods that draw: seeds --seed, --seed + 1 …")
+      ->check(whole_number(1, 1000))
+      ->capture_default_str();
+  command->add_flag("--force", options->force, "write into a folder that holds other results");
+  add_scene_reading_options(*command, options->reading);
+  return [options](const CommonOptions& common) { return score(*options, common); };
+}
+
+}  // namespace sumogamma

@@ -1,0 +1,153 @@
+#include "realism/score.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "base/edit_distance.h"
+#include "base/error.h"
+#include "base/random.h"
+#include "realism/controls.h"
+
+namespace sumogamma {
+
+namespace {
+
+constexpr int kPart = 3000;               // five minutes [steps]
+constexpr std::size_t kResamples = 1000;  // of the interval
+
+constexpr std::array<ScoreMethodInfo, 5> kMethods{{
+    {"log", "replay of the recording"},
+    {"stand", "everybody stands"},
+    {"cv", "constant velocity"},
+    {"cv-fan", "fan of constant velocity"},
+    {"gamma", "GAMMA in closed loop"},
+}};
+
+/// What all windows of a recording share.
+struct Scoring {
+  const RecordedScene& scene;
+  const ScoreSettings& settings;
+  const std::vector<ScoreWindow>& windows;
+  const std::vector<MotionFeatures>& log;  ///< by window
+  const ClosedLoop& loop;
+};
+
+std::vector<Rollout> rollouts_of(const Scoring& scoring, const ScoreWindow& window,
+                                 MethodScore& score) {
+  const ScoreSettings& settings = scoring.settings;
+  if (score.name == "log") return replay_log(scoring.scene, window);
+  if (score.name == "stand") return stand_still(scoring.scene, window);
+  if (score.name == "cv") return keep_velocity(scoring.scene, window);
+  if (score.name == "cv-fan")
+    return fan_out(scoring.scene, window, settings.seed, settings.rollouts);
+  std::vector<Rollout> rollouts;
+  for (std::size_t r = 0; r < settings.rollouts; ++r)
+    rollouts.push_back(scoring.loop.drive(window, settings.seed + r, score.entries));
+  return rollouts;
+}
+
+void add_window(const Scoring& scoring, std::size_t index, MethodScore& score) {
+  const ScoreWindow& window = scoring.windows[index];
+  const std::vector<Rollout> rollouts = rollouts_of(scoring, window, score);
+  score.rollouts = rollouts.size();
+  std::vector<MotionFeatures> features;
+  for (const Rollout& rollout : rollouts) {
+    features.push_back(features_of(rollout.poses, window.bodies));
+    score.counts.add_motion(features.back());
+    score.counts.add_encroachments(rollout.poses, window.bodies);
+  }
+  ScoreSums all;
+  for (const auto& [type, sums] :
+       score_window(scoring.scene, window, scoring.log[index], rollouts, features)) {
+    score.by_type[type].add(sums);
+    all.add(sums);
+  }
+  score.sums.add(all);
+  score.by_window.push_back(all);
+}
+
+/// The composite's interval: windows are drawn with repetition.
+void find_interval(std::uint64_t seed, MethodScore& score) {
+  const std::size_t windows = score.by_window.size();
+  score.composite_low = score.composite_high = std::numeric_limits<double>::quiet_NaN();
+  if (windows < 2) return;
+  std::vector<double> composites;
+  for (std::size_t sample = 0; sample < kResamples; ++sample) {
+    ScoreSums sums;
+    for (std::size_t k = 0; k < windows; ++k) {
+      const double draw = random_uniform(seed, sample, k, Draw::Bootstrap);
+      sums.add(score.by_window[static_cast<std::size_t>(draw * static_cast<double>(windows))]);
+    }
+    composites.push_back(figures_of(sums).composite);
+  }
+  std::sort(composites.begin(), composites.end());
+  score.composite_low = composites[kResamples / 40];
+  score.composite_high = composites[kResamples - 1 - kResamples / 40];
+}
+
+/// The recording's own distributions, of all of it and of its parts of five minutes.
+std::vector<MotionCounts> count_log(const Scoring& scoring, MotionCounts& all) {
+  std::vector<MotionCounts> parts;
+  const int whole = (scoring.scene.last - scoring.scene.first) / kPart;
+  if (whole > 0) parts.resize(static_cast<std::size_t>(whole));
+  for (std::size_t k = 0; k < scoring.windows.size(); ++k) {
+    const ScoreWindow& window = scoring.windows[k];
+    MotionCounts counts;
+    counts.add_motion(scoring.log[k]);
+    counts.add_encroachments(window.log, window.bodies);
+    all.add(counts);
+    const auto part = static_cast<std::size_t>((window.start - scoring.scene.first) / kPart);
+    if (part < parts.size()) parts[part].add(counts);
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<ScoreMethodInfo> score_methods() { return {kMethods.begin(), kMethods.end()}; }
+
+void require_score_method(const std::string& name) {
+  std::string known;
+  const ScoreMethodInfo* nearest = nullptr;
+  for (const ScoreMethodInfo& info : kMethods) {
+    if (name == info.name) return;
+    known += (known.empty() ? "" : ", ") + std::string(info.name);
+    if (!nearest || edit_distance(name, info.name) < edit_distance(name, nearest->name))
+      nearest = &info;
+  }
+  throw Error("--method " + name, "is no method of scores, did you mean " +
+                                      std::string(nearest->name) + "? There are " + known);
+}
+
+RecordingScore score_recording(const RecordedScene& scene, const ScoreSettings& settings,
+                               Workers& workers, const ScoreProgress& progress) {
+  const Windows found = windows_of(scene);
+  std::vector<MotionFeatures> log;
+  for (const ScoreWindow& window : found.windows)
+    log.push_back(features_of(window.log, window.bodies));
+  const ClosedLoop loop(scene, settings.model, workers);
+  const Scoring scoring{scene, settings, found.windows, log, loop};
+  RecordingScore result;
+  result.name = scene.name;
+  result.windows = found.windows.size();
+  result.left_out = found.left_out;
+  for (const ScoreWindow& window : found.windows) result.scored += window.agents.size();
+  const std::vector<MotionCounts> parts = count_log(scoring, result.log);
+  result.parts = parts.size();
+  result.noise_floor = noise_floor(parts);
+  for (const std::string& name : settings.methods) {
+    MethodScore score;
+    score.name = name;
+    for (std::size_t k = 0; k < found.windows.size(); ++k) {
+      if (progress && !progress(name, k, found.windows.size())) return result;
+      add_window(scoring, k, score);
+    }
+    find_interval(settings.seed, score);
+    result.methods.push_back(std::move(score));
+  }
+  return result;
+}
+
+}  // namespace sumogamma
