@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct RunPlan {
   ScenarioInput input;
   ScenarioConfig config;
   ControlChoice control;
+  std::optional<ControlRule> inspect;  ///< of --inspect
   ScenarioInventory inventory;
   OutputNames output_names;  ///< of SUMO's files; no marker where SUMO writes them by itself
   RunClock clock;

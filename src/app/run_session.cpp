@@ -43,7 +43,8 @@ std::string run_ticks(OpenRun& run) {
   const Clock::time_point start = Clock::now();
   for (std::int64_t tick_index = 0; tick_index < ticks; ++tick_index) {
     if (interrupted()) return "interrupted";
-    tick(*run.sim, *run.world, [&] { run.observers->add(); });
+    tick(
+        *run.sim, *run.world, [&] { run.observers->add(); }, [&] { run.observers->look(); });
     if (progress.due()) {
       const double simulated = static_cast<double>(tick_index + 1) * plan.clock.step;
       progress.update(simulated, fmt::format("{:.0f} s simulated, {} agents, {:.1f} x real time",

@@ -63,11 +63,13 @@ const keys = {
   ArrowDown: () => setRate($('rate').selectedIndex - 1),
   '+': () => zoomBy(1.4), '=': () => zoomBy(1.4), '-': () => zoomBy(1 / 1.4),
   f: () => { follow(null); fit(bounds); },
-  n: () => nextEvent(),
+  n: () => jumpToNext(1), N: () => jumpToNext(-1),
+  m: () => toggleList(),
+  l: () => { if (live.on) goLive(); },
   c: () => setPaint(kPaints[(kPaints.indexOf(paint) + 1) % kPaints.length]),
   p: () => { trails = !trails; dirty = true; },
   t: () => setTheme(root.dataset.theme === 'light' ? 'dark' : 'light'),
-  Escape: () => { follow(null); $('help').hidden = true; },
+  Escape: () => { follow(null); $('help').hidden = true; if (!$('list').hidden) toggleList(); },
   '?': () => { $('help').hidden = !$('help').hidden; },
   Home: () => seek(begin), End: () => seek(end),
 };
@@ -83,6 +85,7 @@ $('play').onclick = () => setPlaying(!playing);
 $('fit').onclick = keys.f;
 $('theme').onclick = keys.t;
 $('keys').onclick = keys['?'];
+$('live').onclick = goLive;
 $('rate').onchange = () => { rate = +$('rate').value; };
 $('paint').onchange = () => setPaint($('paint').value);
 $('scrub').oninput = () => seek(+$('scrub').value);
