@@ -114,7 +114,7 @@ void LivePage::route() {
           const std::vector<Message> messages = wait_for(*viewer);
           for (const Message& message : messages)
             if (!sink.write(message->data(), message->size())) return false;
-          if (leave()) sink.done();
+          if (viewer->told_of_end) sink.done();
           return true;
         },
         [this](bool) { --viewers_; });
@@ -180,14 +180,12 @@ std::vector<LivePage::Message> LivePage::wait_for(Viewer& viewer) {
   }
   static const auto kOver = std::make_shared<const std::string>("event: over\ndata:\n\n");
   static const auto kNothing = std::make_shared<const std::string>(":\n\n");
-  if (over_) messages.push_back(kOver);
+  if (over_) {
+    messages.push_back(kOver);
+    viewer.told_of_end = true;
+  }
   if (messages.empty()) messages.push_back(kNothing);
   return messages;
-}
-
-bool LivePage::leave() {
-  const std::lock_guard lock(mutex_);
-  return over_;
 }
 
 }  // namespace sumogamma

@@ -49,13 +49,12 @@ class LivePage {
   using Message = std::shared_ptr<const std::string>;
   /// One's place in the stream.
   struct Viewer {
-    bool greeted = false;
+    bool greeted = false, told_of_end = false;
     std::uint64_t next = 0;
   };
   void route();
   void append(Message message);
   std::vector<Message> wait_for(Viewer& viewer);
-  bool leave();
 
   std::unique_ptr<httplib::Server> server_;
   int port_ = 0;

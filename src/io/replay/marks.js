@@ -1,10 +1,14 @@
 // What happened when: counts, a list with words, and jumps.
 
+/// Those from before the first step, which a viewer of a live run is told of too, have nothing to jump to.
+const eventsHere = () => events.filter(event => event.time > begin - 1);
+
 function buildMarks() {
   const box = $('marks');
   box.textContent = '';
+  const all = eventsHere();
   kEvents.forEach((kind, i) => {
-    const n = events.filter(event => event.kind === i).length;
+    const n = all.filter(event => event.kind === i).length;
     if (!n) return;
     const line = made('div', undefined, box), pin = made('canvas', undefined, line), link = made('a', undefined, line);
     line.classList.toggle('off', hiddenEvents.has(i));
@@ -18,13 +22,13 @@ function buildMarks() {
     link.title = (kind.hint ? kind.hint + '; ' : '') + 'go to the next one';
     link.onclick = () => jumpToNext(1, i);
   });
-  if (events.length) {
-    const all = made('a', $('list').hidden ? 'list ›' : 'hide the list', box, 'list');
-    all.onclick = toggleList;
+  if (all.length) {
+    const opener = made('a', $('list').hidden ? 'list ›' : 'hide the list', box, 'list');
+    opener.onclick = toggleList;
   }
 }
 
-const shownEvents = () => events.filter(event => !hiddenEvents.has(event.kind));
+const shownEvents = () => eventsHere().filter(event => !hiddenEvents.has(event.kind));
 
 function jumpTo(event) {
   live.chase = false;
@@ -40,7 +44,7 @@ function jumpTo(event) {
 
 /// The next mark in time, or the previous one (`way` -1), of this kind or of those shown.
 function jumpToNext(way, kind) {
-  const candidates = kind === undefined ? shownEvents() : events.filter(event => event.kind === kind);
+  const candidates = kind === undefined ? shownEvents() : eventsHere().filter(event => event.kind === kind);
   if (!candidates.length) return;
   const here = marked && Math.abs(Math.min(marked.time, end) - time) < 0.05 ? candidates.indexOf(marked) : -1;
   let index;

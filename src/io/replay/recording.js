@@ -33,13 +33,16 @@ async function inflate(bytes) {
 class Reader {
   constructor(bytes) { this.bytes = bytes; this.at = 0; }
   byte() {
-    if (this.at >= this.bytes.length) throw new RangeError('end of recording');
-    return this.bytes[this.at++];
+    const byte = this.bytes[this.at++];
+    if (byte === undefined) throw new RangeError('end of recording');
+    return byte;
   }
   count() {
-    let value = 0, scale = 1;
+    let byte = this.byte();
+    if (byte < 128) return byte;
+    let value = byte & 127, scale = 128;
     for (;;) {
-      const byte = this.byte();
+      byte = this.byte();
       value += (byte & 127) * scale;
       if (byte < 128) return value;
       scale *= 128;
@@ -54,36 +57,31 @@ class Reader {
   }
 }
 
-/// Numbers that more are added to.
-class Column {
-  constructor(Kind) { this.values = new Kind(64); }
-  put(index, value) {
-    if (index >= this.values.length) {
-      const wider = new this.values.constructor(2 * this.values.length);
-      wider.set(this.values);
-      this.values = wider;
-    }
-    this.values[index] = value;
-  }
-}
-
 const kTurn = 2 * Math.PI / 4096;
 const kRecord = {end: 0, step: 1, signals: 2, event: 3, spaces: 4, again: 5};
+
+const kColumns = {x: Float32Array, y: Float32Array, h: Float32Array, state: Uint8Array, foe: Int32Array, bind: Uint8Array, bindFoe: Int32Array};
+const kValues = 7;
 
 /// One agent from the step `first` on: x, y [m], h [rad], state (LimitReason + 16 on a road + 32 * Control), foe of that,
 /// bind (BindingKind), bindFoe, each by step.
 class Agent {
   constructor(id, first) {
     Object.assign(this, {id, first, length: 0, outline: [], at: [0, 0, 0, 0, 0], lastFoe: -1, lastBindFoe: -1});
-    this.columns = {x: new Column(Float32Array), y: new Column(Float32Array), h: new Column(Float32Array),
-      state: new Column(Uint8Array), foe: new Column(Int32Array), bind: new Column(Uint8Array), bindFoe: new Column(Int32Array)};
-    this.share();
+    for (const name in kColumns) this[name] = new kColumns[name](64);
   }
-  share() { for (const name in this.columns) this[name] = this.columns[name].values; }
-  add(values) {
-    for (const name in this.columns) this.columns[name].put(this.length, values[name]);
-    if (this.x !== this.columns.x.values) this.share();
-    ++this.length;
+  /// The values of one step, kValues of them from `from` on, in order of the columns.
+  add(values, from) {
+    const k = this.length++;
+    if (k === this.x.length)
+      for (const name in kColumns) {
+        const wider = new kColumns[name](2 * k);
+        wider.set(this[name]);
+        this[name] = wider;
+      }
+    this.x[k] = values[from]; this.y[k] = values[from + 1]; this.h[k] = values[from + 2];
+    this.state[k] = values[from + 3]; this.foe[k] = values[from + 4];
+    this.bind[k] = values[from + 5]; this.bindFoe[k] = values[from + 6];
   }
 }
 
@@ -93,6 +91,7 @@ class Decoder {
     this.recording = {map: null, times: [], alive: [], agents: [], byId: new Map(), signals: [], events: [], spaces: new Map()};
     this.known = new Map();  // events by what they are about
     this.now = [];           // agents that are there
+    this.values = new Float64Array(kValues * 256);  // of a step
     this.ms = 0;
     this.ended = false;
   }
@@ -155,18 +154,19 @@ class Decoder {
       if (!goesOn) fresh.push(agent);
       now.push(agent);
     }
-    const values = now.map(agent => this.pose(reader, agent));
+    if (this.values.length < kValues * now.length) this.values = new Float64Array(2 * kValues * now.length);
+    for (let i = 0; i < now.length; ++i) this.pose(reader, now[i], kValues * i);
     // the step is whole: now it counts
     this.ms = ms;
     this.now = now;
     for (const agent of fresh) { agents.push(agent); byId.set(agent.id, agent); }
-    now.forEach((agent, i) => agent.add(values[i]));
+    for (let i = 0; i < now.length; ++i) now[i].add(this.values, kValues * i);
     times.push(ms / 1000);
     alive.push(now.length);
   }
 
-  pose(reader, agent) {
-    const at = agent.at;
+  pose(reader, agent, to) {
+    const {at} = agent, {values} = this;
     at[2] += reader.signed(); at[3] += reader.signed();
     at[0] += at[2]; at[1] += at[3];
     at[4] += reader.signed();
@@ -174,8 +174,9 @@ class Decoder {
     if (state & 128) agent.lastFoe = reader.count() - 1;
     const bind = reader.byte();
     if (bind & 128) agent.lastBindFoe = reader.count() - 1;
-    return {x: at[0] / 100, y: at[1] / 100, h: at[4] * kTurn, state: state & 127, foe: agent.lastFoe, bind: bind & 127,
-      bindFoe: agent.lastBindFoe};
+    values[to] = at[0] / 100; values[to + 1] = at[1] / 100; values[to + 2] = at[4] * kTurn;
+    values[to + 3] = state & 127; values[to + 4] = agent.lastFoe;
+    values[to + 5] = bind & 127; values[to + 6] = agent.lastBindFoe;
   }
 
   signals(reader) {

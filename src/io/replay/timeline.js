@@ -20,7 +20,7 @@ function drawTimeline() {
   // the grave ones last, over the others
   for (const kind of [4, 7, 6, 5, 1, 3, 2, 0]) {
     if (hiddenEvents.has(kind)) continue;
-    for (const event of events)
+    for (const event of eventsHere())
       if (event.kind === kind) drawPin(ctx, kind, Math.min((event.time - begin) / span, 1) * w, 5 * dpr, 4 * dpr);
   }
 }
