@@ -105,7 +105,7 @@ OpenRun::OpenRun(const RunOptions& options, const CommonOptions& common_options)
   if (!common.quiet) print(stderr, "run: {}\n", describe(plan));
   world.emplace(sim->model, *backend, world_options_of(plan));
   if (writes) {
-    observers.emplace(plan, *sim, *world, page ? &*page : nullptr);
+    observers.emplace(plan, *sim, *world, *backend, page ? &*page : nullptr);
     hidden_->keep();
   }
   start_ = std::chrono::steady_clock::now();

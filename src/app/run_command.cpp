@@ -77,7 +77,9 @@ void add_sumo_options(CLI::App& command, RunOptions& options) {
                    "$XDG_CACHE_HOME/sumo-gamma for the next run");
   command.add_flag("--force", options.force, "replace what another run left in the folder");
   command.add_option("--sumo-options", options.sumo_options, "further options for SUMO, in quotes");
-  command.add_flag("--gui", options.gui, "show the run in sumo-gui");
+  command.add_flag("--gui", options.gui,
+                   "show the run in sumo-gui, no faster than the clock (--sumo-options \"--delay "
+                   "MS\"), whom GAMMA drives in the color of what binds them");
 }
 
 /// What is measured and written.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/sumo_files.h"
+#include "app/window_colors.h"
 #include "base/hash.h"
 #include "io/output_file.h"
 #include "io/replay_marks.h"
@@ -51,8 +52,10 @@ class Conflicts final : public RunObserver {
       events.push_back(mark_of(monitor_.over()[marked_]));
   }
   void add_last(std::vector<ReplayEvent>& events) override {
-    // those that aren't over are told by their last measures, the others once more
-    for (const Conflict& conflict : monitor_.conflicts()) events.push_back(mark_of(conflict));
+    // those that aren't over yet, by their measures so far
+    const double now = run_.sim.scene.time;
+    for (const Conflict& conflict : monitor_.conflicts())
+      if (now - conflict.until <= ConflictMonitor::kOver) events.push_back(mark_of(conflict));
   }
   void fill(RunResults& results) const override {
     results.safety = monitor_.result(run_.sim.model.types);
@@ -283,6 +286,19 @@ class Live final : public RunObserver {
   double stretch_ends_ = -1.0;  ///< [s]
 };
 
+/// SUMO's window, painted by what binds whom.
+class Window final : public RunObserver {
+ public:
+  explicit Window(const WatchedRun& run)
+      : RunObserver(run), colors_(run.sim, run.world, run.backend) {}
+  static bool is_wanted(const RunOptions& options) { return options.gui; }
+  void add(std::vector<ReplayEvent>&) override { colors_.note(); }
+  void look(Inspector&) override { colors_.paint(); }
+
+ private:
+  WindowColors colors_;
+};
+
 /// Who came, went and was driven by us; the bits of everybody's state.
 class Agents final : public RunObserver {
  public:
@@ -406,8 +422,9 @@ constexpr Make kObservers[] = {
 }  // namespace
 
 RunObservers::RunObservers(const RunPlan& plan, const Simulation& sim, SumoWorld& world,
-                           LivePage* page)
-    : run_{plan, sim, world, LaneLocator(sim.model.road), page}, inspector_(plan, sim, world) {
+                           SumoBackend& backend, LivePage* page)
+    : run_{plan, sim, world, LaneLocator(sim.model.road), backend, page},
+      inspector_(plan, sim, world) {
   for (const Make maker : kObservers)
     if (auto observer = maker(run_)) list_.push_back(std::move(observer));
 }

@@ -9,6 +9,7 @@
 #include "io/replay.h"
 #include "road/lane_locator.h"
 #include "simulation/simulation.h"
+#include "sumo/backend.h"
 #include "sumo/sumo_world.h"
 
 namespace sumogamma {
@@ -19,6 +20,7 @@ struct WatchedRun {
   const Simulation& sim;
   SumoWorld& world;
   LaneLocator locator;
+  SumoBackend& backend;
   LivePage* page;  ///< of --serve, or null
 
   /// SUMO's id of an agent.
@@ -54,7 +56,7 @@ class RunObserver {
 class RunObservers {
  public:
   /// What is handed over must outlive them.
-  RunObservers(const RunPlan& plan, const Simulation& sim, SumoWorld& world,
+  RunObservers(const RunPlan& plan, const Simulation& sim, SumoWorld& world, SumoBackend& backend,
                LivePage* page = nullptr);
 
   void add();

@@ -199,6 +199,21 @@ void require_known_names(const std::string& option, const std::set<std::string>&
   }
 }
 
+/// A step's length, so that the window shows the time that passes, unless SUMO's --delay says
+/// otherwise.
+double window_delay(const RunPlan& plan) {
+  if (!plan.options.gui) return 0.0;
+  const auto given = plan.input.options.find("delay");
+  if (given == plan.input.options.end()) return plan.clock.step;
+  double milliseconds = -1.0;
+  const std::string& text = given->second.value;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), milliseconds);
+  if (error != std::errc() || end != text.data() + text.size() ||
+      !(milliseconds >= 0.0 && milliseconds <= 60000.0))
+    throw Error("--delay " + text.substr(0, 60), "must be milliseconds from 0 to 60000");
+  return 0.001 * milliseconds;
+}
+
 }  // namespace
 
 RunPlan make_plan(const RunOptions& options, const CommonOptions& common) {
@@ -210,6 +225,7 @@ RunPlan make_plan(const RunOptions& options, const CommonOptions& common) {
   if (options.preset) overrides.push_back("behavior.preset=" + *options.preset);
   plan.config = read_config(plan.input.settings, overrides);
   choose_step(plan);
+  plan.delay = window_delay(plan);
   auto from_sumo = [&](const char* option) {
     const auto found = plan.input.options.find(option);
     return found == plan.input.options.end() ? kDefault

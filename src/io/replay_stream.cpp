@@ -58,6 +58,14 @@ std::uint64_t whole(double value, double unit) {
              : 0;
 }
 
+/// Does its type break none of the rules that people break?
+bool keeps_rules(const ReplayStep& step, std::size_t row) {
+  if (step.scene.manners[row].key == 0 || !step.types) return true;
+  const Compliance& compliance = type_of(*step.types, step.scene.type[row]).compliance;
+  return compliance.red_light_running == 0.0 && compliance.jaywalking_rate == 0.0 &&
+         compliance.yielding_rate == 1.0;
+}
+
 }  // namespace
 
 void ReplayEncoder::put_count(std::uint64_t value) {
@@ -145,7 +153,7 @@ void ReplayEncoder::append_newcomer(const ReplayStep& step, std::size_t row) {
   put_count(whole(behavior.attention.front, 0.1));
   put_count(whole(behavior.attention.rear, 0.1));
   put_count(whole(scene.manners[row].headway_factor, 0.01));
-  put_byte(scene.manners[row].key == 0 ? 1 : 0);
+  put_byte(keeps_rules(step, row) ? 1 : 0);
 }
 
 void ReplayEncoder::append_poses(const ReplayStep& step) {

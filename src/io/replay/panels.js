@@ -118,7 +118,7 @@ function tell(name, text) {
 
 function behaviourWords(agent) {
   const {responsibility, ahead, behind, headway, keepsRules} = agent.behaviour;
-  return (keepsRules ? 'keeps every rule' : 'breaks rules as people do') + `; responsibility ${responsibility.toFixed(2)}` +
+  return (keepsRules ? 'keeps every rule' : 'breaks some rules, as recorded of people') + `; responsibility ${responsibility.toFixed(2)}` +
     `; attends ${ahead.toFixed(0)} m ahead, ${behind.toFixed(0)} m behind` +
     (map.types[agent.type].walks || headway === 1 ? '' : `; headway × ${headway.toFixed(2)}`);
 }
@@ -136,7 +136,7 @@ function showAgent(agent, step) {
   now.onclick = foe ? () => follow(foe) : null;
   tell('behaviour', control === 0 ? behaviourWords(agent) : 'as ' + kDrivers[control].replace(/ .*/, '') + ' has it');
   // on wheels the road says more: their own limit is mostly the body's
-  tell('likes to go', map.types[agent.type].walks ? `${agent.behaviour.speed.toFixed(1)} m/s` : 'as fast as the road lets it');
+  tell('likes to go', map.types[agent.type].walks ? `${agent.behaviour.speed.toFixed(1)} m/s` : 'as the road allows');
   tell('size', `${(agent.front - agent.back).toFixed(1)} × ${(agent.left - agent.right).toFixed(1)} m`);
   tell('under way', clockText(time - times[agent.first]));
   showSpace(agent, step, pose.h, control);
@@ -168,7 +168,7 @@ function showSpace(agent, step, h, control) {
   line('○', 'velocity', speedOf(space.velocity));
   line('●', space.binding === kBind.guard ? 'chosen, by the stopping guard' : 'chosen', speedOf(space.chosen)).firstChild.style.color = css.accent;
   for (const plane of planesByWeight(space).slice(0, 6)) {
-    const li = line('▬', planeName(plane) + (plane.binds ? ' — binds' : ''), plane.slack.toFixed(2), plane.binds);
+    const li = line('▬', planeName(plane) + (plane.binds ? ' — binds' : ''), plane.slack.toFixed(2).replace('-0.00', '0.00'), plane.binds);
     li.firstChild.style.color = kSetColours[planeSet(plane.kind)];
   }
   if (space.planes.length > 6) line('', `${space.planes.length - 6} more half-planes, further off`, '');

@@ -20,9 +20,21 @@ function drawTimeline() {
   // the grave ones last, over the others
   for (const kind of [4, 7, 6, 5, 1, 3, 2, 0]) {
     if (hiddenEvents.has(kind)) continue;
-    for (const event of eventsHere())
-      if (event.kind === kind) drawPin(ctx, kind, Math.min((event.time - begin) / span, 1) * w, 5 * dpr, 4 * dpr);
+    const places = eventsHere().filter(event => event.kind === kind).map(event => Math.min((event.time - begin) / span, 1) * w);
+    // where shapes would hide one another: how many there are
+    const crowded = places.length * 12 * dpr > w;
+    if (crowded) drawDensity(ctx, kEventColours[kind], places, w);
+    else for (const x of places) drawPin(ctx, kind, x, 5 * dpr, 4 * dpr);
   }
+}
+
+/// A band at the top, the taller the more happen there.
+function drawDensity(ctx, colour, places, w) {
+  const wide = 6 * dpr, bins = new Array(Math.ceil(w / wide) + 1).fill(0);
+  for (const x of places) ++bins[Math.max(Math.floor(x / wide), 0)];
+  const most = Math.max(...bins);
+  ctx.fillStyle = colour;
+  bins.forEach((count, i) => { if (count) ctx.fillRect(i * wide, 0, wide - dpr, (2 + 7 * count / most) * dpr); });
 }
 
 function moveCursor() {

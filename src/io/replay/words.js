@@ -14,7 +14,7 @@ const kLimitOfBind = [0, 8, 6, 7, 7, 7, -1, 9, 9];
 /// Index into kLimits of an agent at a step; by SUMO's drivers it isn't known.
 function limitOf(state, bind) {
   const control = state >> 5 & 3, reason = state & 15;
-  if (control === 1 || control === 2) return kLimits.length - 1;
+  if (control !== 0) return kLimits.length - 1;
   if (bind === kBind.road) return kLimitOfReason[reason] || 1;
   if (bind < kLimitOfBind.length) return kLimitOfBind[bind];
   return kLimits.length - 1;
@@ -25,6 +25,7 @@ function limitWords(state, bind, foe) {
   const control = state >> 5 & 3, other = foe || 'somebody';
   if (control === 1) return 'as SUMO decides';
   if (control === 2) return 'parked';
+  if (control === 3) return 'as its planner decides';
   switch (bind) {
     case kBind.none: return 'nothing holds it back';
     case kBind.kinematic: return 'can turn and speed up no faster than its body';
