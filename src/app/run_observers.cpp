@@ -417,7 +417,7 @@ std::unique_ptr<RunObserver> make(const WatchedRun& run) {
 constexpr Make kObservers[] = {
     make<Agents>, make<Coupling>, make<Collisions>, make<Conflicts>,  make<Rules>,
     make<Flow>,   make<Traffic>,  make<Smoothness>, make<Prediction>, make<Trajectories>,
-    make<Replay>, make<Live>,     make<SumoFiles>};
+    make<Replay>, make<Live>,     make<Window>,     make<SumoFiles>};
 
 }  // namespace
 
