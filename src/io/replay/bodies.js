@@ -98,6 +98,10 @@ function drawAgent(agent) {
     screen.beginPath();
     screen.arc(0, 0, 2.4 / s, 0, 2 * Math.PI);
     screen.fill(); screen.stroke();
+  } else if (s * l < 14) {
+    // from afar a plain body does, and there may be thousands
+    screen.fillRect(agent.back, agent.right, l, w);
+    screen.strokeRect(agent.back, agent.right, l, w);
   } else if (type.walks) {
     drawWalker(agent);
   } else if (kTwoWheelers.has(type.name) && s * l > 16) {
