@@ -1,8 +1,9 @@
 // Pointer, keys and buttons.
 
-let drag = null, moved = false;
+let drag = null, moved = false, pinched = false;  // until no finger is left
 const touches = new Map();
 canvas.addEventListener('pointerdown', e => {
+  if (!touches.size) pinched = false;
   touches.set(e.pointerId, e);
   canvas.setPointerCapture(e.pointerId);
   canvas.focus();
@@ -21,9 +22,10 @@ canvas.addEventListener('pointermove', e => {
     touches.set(e.pointerId, e);
     const [c, d] = [...touches.values()];
     zoomBy(Math.hypot(c.clientX - d.clientX, c.clientY - d.clientY) / Math.max(before, 1), (c.clientX + d.clientX) / 2, (c.clientY + d.clientY) / 2);
-    moved = true;
+    pinched = true;
     return;
   }
+  if (pinched) return;
   touches.set(e.pointerId, e);
   const dx = e.clientX - drag.x, dy = e.clientY - drag.y;
   if (!moved && Math.hypot(dx, dy) < 4) return;
@@ -38,7 +40,7 @@ canvas.addEventListener('pointermove', e => {
 const release = e => {
   touches.delete(e.pointerId);
   canvas.classList.remove('dragging');
-  if (e.type === 'pointerup' && !moved) {
+  if (e.type === 'pointerup' && !moved && !pinched) {
     const found = pick(e.clientX, e.clientY);
     if (found || followed) follow(found);
   }
