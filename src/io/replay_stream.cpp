@@ -235,7 +235,7 @@ void ReplayEncoder::append_space(const InspectedAgent& agent) {
   put_count(whole(agent.work.fastest, kMillimetre));
   put_count(whole(agent.work.result.violation, kMillimetre));
   put_byte(static_cast<unsigned>(agent.binding.kind));
-  put_count(static_cast<std::uint64_t>(agent.work.result.binding + 1));
+  put_count(static_cast<std::uint64_t>(agent.work.result.binding) + 1);
   put_count(all.hard_count);
   put_count(all.planes.size());
   for (std::size_t i = 0; i < all.planes.size(); ++i) {
