@@ -16,6 +16,7 @@ find_package(Boost REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(PROJ REQUIRED IMPORTED_TARGET proj)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(POLYCLIPPING REQUIRED IMPORTED_TARGET polyclipping)
 
 # Debian's SUMO ships headers and libraries without a CMake package
@@ -46,5 +47,5 @@ set(SUMOGAMMA_LIBS_demand pugixml::pugixml)
 set(SUMOGAMMA_LIBS_ego nlohmann_json::nlohmann_json)
 set(SUMOGAMMA_LIBS_prediction nlohmann_json::nlohmann_json)
 set(SUMOGAMMA_LIBS_io nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus ZLIB::ZLIB pugixml::pugixml
-  SQLite::SQLite3 PkgConfig::ZSTD)
+  SQLite::SQLite3 PkgConfig::ZSTD PkgConfig::HTTPLIB)
 set(SUMOGAMMA_LIBS_app CLI11::CLI11 spdlog::spdlog nlohmann_json::nlohmann_json)

@@ -18,6 +18,8 @@ build_packages+=(libeigen3-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-d
   libpugixml-dev)
 # studies: their results as a database, Student's t, compressed tables
 build_packages+=(libsqlite3-dev libboost-dev libzstd-dev)
+# the page of a run that goes on
+build_packages+=(libcpp-httplib-dev)
 
 # the Python module
 build_packages+=(pybind11-dev python3-dev python3-numpy)
@@ -25,8 +27,9 @@ build_packages+=(pybind11-dev python3-dev python3-numpy)
 # test and benchmark libraries, the second compiler with its linters and sanitizers, script checks, XML schemas
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev
   clang-14 clang-tidy-14 clang-format-14 libclang-rt-14-dev llvm-14 shellcheck git python3 libxml2-utils)
-# the replay page is checked by node and opened in a browser that needs a font; memory checks
-test_packages+=(nodejs chromium fonts-dejavu-core valgrind)
+# the replay page is checked by node and opened in a browser that needs a font, SUMO's window in a screen
+# that nobody sees; memory checks
+test_packages+=(nodejs chromium fonts-dejavu-core ffmpeg xvfb valgrind)
 
 usage() { sed -n '2,4s/^# \{0,1\}//p' "$0"; }
 fail() {

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "io/replay.h"
+#include "io/replay_page.h"
 #include "study/offences/rule_roads.h"
 
 namespace sumogamma {
@@ -232,10 +233,12 @@ class Episode {
   void record() {
     const std::size_t row = ego_world_.row(sim_.scene);
     gridlock_.add(sim_.model.types, sim_.scene, row);
-    if (replay_)
-      replay_->add(
-          sim_.scene, &sim_.road, [&](AgentId id) { return world_.names()[id.value]; },
-          &sim_.model.types);
+    if (replay_) {
+      const AgentName name_of = [&](AgentId id) -> std::string_view {
+        return world_.names()[id.value];
+      };
+      replay_->add({sim_.scene, name_of, &sim_.road, &sim_.model.types, sim_.work.bindings});
+    }
     if (row == sim_.scene.size()) return;
     ++ticks_;
     result_.state_hash = hash_state(sim_.scene, result_.state_hash);

@@ -78,13 +78,20 @@ OpenRun::OpenRun(const RunOptions& options, const CommonOptions& common_options)
   const bool writes = !options.output.empty();
   if (writes) {
     folder_.emplace(options.output, options.force);
-  } else if (options.convert || options.replay) {
-    throw Error(options.convert ? "--convert" : "--replay", "needs an output folder, give -o");
+  } else if (options.convert || options.replay || options.serve) {
+    throw Error(options.convert  ? "--convert"
+                : options.replay ? "--replay"
+                                 : "--serve",
+                "needs an output folder, give -o");
   } else if (!plan.inventory.outputs.empty() && !plan.options.joins()) {
     const AskedOutput& first = plan.inventory.outputs.front();
     throw Error(first.source, first.what +
                                   ": needs an output folder, give -o: SUMO alone writes it wrongly "
                                   "for who GAMMA drives");
+  }
+  if (plan.options.serve) {
+    page.emplace(*plan.options.serve);
+    print(stderr, "run: shown at {}\n", page->address());
   }
   converted_.make(plan);
   if (writes) hidden_.emplace(plan);
@@ -98,7 +105,7 @@ OpenRun::OpenRun(const RunOptions& options, const CommonOptions& common_options)
   if (!common.quiet) print(stderr, "run: {}\n", describe(plan));
   world.emplace(sim->model, *backend, world_options_of(plan));
   if (writes) {
-    observers.emplace(plan, *sim, *world);
+    observers.emplace(plan, *sim, *world, *backend, page ? &*page : nullptr);
     hidden_->keep();
   }
   start_ = std::chrono::steady_clock::now();
@@ -126,6 +133,7 @@ RunResults OpenRun::finish(const std::string& ended, const std::string& failure)
   if (!observers) return results;
   observers->fill(results);
   observers->close();
+  page.reset();
   write_results(plan.options.output / "results.json", results);
   return results;
 }

@@ -47,6 +47,7 @@ class OpenRun {
   std::unique_ptr<Simulation> sim;
   std::unique_ptr<SumoBackend> backend;
   std::optional<SumoWorld> world;
+  std::optional<LivePage> page;           ///< of --serve
   std::optional<RunObservers> observers;  ///< where there is an output folder
 
   /// Ends SUMO and completes all files. `ended`: how it ended; `failure`: what SUMO failed with,

@@ -77,7 +77,9 @@ void add_sumo_options(CLI::App& command, RunOptions& options) {
                    "$XDG_CACHE_HOME/sumo-gamma for the next run");
   command.add_flag("--force", options.force, "replace what another run left in the folder");
   command.add_option("--sumo-options", options.sumo_options, "further options for SUMO, in quotes");
-  command.add_flag("--gui", options.gui, "show the run in sumo-gui");
+  command.add_flag("--gui", options.gui,
+                   "show the run in sumo-gui, no faster than the clock (--sumo-options \"--delay "
+                   "MS\"), whom GAMMA drives in the color of what binds them");
 }
 
 /// What is measured and written.
@@ -85,6 +87,18 @@ void add_output_options(CLI::App& command, RunOptions& options) {
   command.add_flag("--predict", options.predict,
                    "predict everybody 4.8 s ahead and score it against what they then do");
   command.add_flag("--replay", options.replay, "write replay.html");
+  command
+      .add_option("--inspect", options.inspect,
+                  "record the velocity spaces of these agents, 16 at once at the most, for the "
+                  "replay: ids, patterns (bus*), agent types, a share (2%)")
+      ->delimiter(',');
+  command
+      .add_option("--serve", options.serve,
+                  "show the replay page live while the run goes on, at 127.0.0.1 alone, on this "
+                  "port (default: any free one)")
+      ->check(whole_number(0, 65535))
+      ->expected(0, 1)
+      ->default_str("0");
   command
       .add_option("--trajectory-period", options.trajectory_period,
                   "time between recorded trajectory points [s], 0: every step")

@@ -3,8 +3,11 @@
 #include <algorithm>
 
 #include "app/sumo_files.h"
+#include "app/window_colors.h"
 #include "base/hash.h"
 #include "io/output_file.h"
+#include "io/replay_marks.h"
+#include "io/replay_page.h"
 #include "io/results.h"
 #include "io/traffic_csv.h"
 #include "io/trajectories.h"
@@ -19,12 +22,13 @@ class Collisions final : public RunObserver {
  public:
   explicit Collisions(const WatchedRun& run)
       : RunObserver(run), monitor_(run.sim.dt, &run.sim.model.road) {}
-  void add(std::vector<RunEvent>& events) override {
+  void add(std::vector<ReplayEvent>& events) override {
     monitor_.add(run_.sim.scene, run_.sim.model.types);
-    for (; marked_ < monitor_.pairs().size(); ++marked_) {
-      const CollisionPair& pair = monitor_.pairs()[marked_];
-      events.push_back({ReplayEventKind::Collision, pair.since, pair.position, pair.a, pair.b});
-    }
+    for (; marked_ < monitor_.pairs().size(); ++marked_)
+      events.push_back(mark_of(monitor_.pairs()[marked_], false));
+  }
+  void add_last(std::vector<ReplayEvent>& events) override {
+    for (const CollisionPair& pair : monitor_.pairs()) events.push_back(mark_of(pair, true));
   }
   void fill(RunResults& results) const override { results.collisions = monitor_.result(); }
   void close() override {
@@ -42,7 +46,17 @@ class Conflicts final : public RunObserver {
  public:
   explicit Conflicts(const WatchedRun& run)
       : RunObserver(run), monitor_(run.sim.dt, &run.sim.model.road) {}
-  void add(std::vector<RunEvent>&) override { monitor_.add(run_.sim.scene, run_.sim.model.types); }
+  void add(std::vector<ReplayEvent>& events) override {
+    monitor_.add(run_.sim.scene, run_.sim.model.types);
+    for (; marked_ < monitor_.over().size(); ++marked_)
+      events.push_back(mark_of(monitor_.over()[marked_]));
+  }
+  void add_last(std::vector<ReplayEvent>& events) override {
+    // those that aren't over yet, by their measures so far
+    const double now = run_.sim.scene.time;
+    for (const Conflict& conflict : monitor_.conflicts())
+      if (now - conflict.until <= ConflictMonitor::kOver) events.push_back(mark_of(conflict));
+  }
   void fill(RunResults& results) const override {
     results.safety = monitor_.result(run_.sim.model.types);
   }
@@ -54,6 +68,7 @@ class Conflicts final : public RunObserver {
 
  private:
   ConflictMonitor monitor_;
+  std::size_t marked_ = 0;
 };
 
 class Rules final : public RunObserver {
@@ -61,10 +76,14 @@ class Rules final : public RunObserver {
   explicit Rules(const WatchedRun& run)
       : RunObserver(run),
         monitor_(run.sim.dt, run.sim.model.road, run.locator, run.sim.traffic.code) {}
-  void add(std::vector<RunEvent>& events) override {
+  void add(std::vector<ReplayEvent>& events) override {
     monitor_.add(run_.sim.scene, run_.sim.model.types, run_.sim.road, *run_.sim.workers);
-    for (const RedLightEvent& red : monitor_.new_events())
-      events.push_back({ReplayEventKind::RedLight, red.time, red.position, red.id});
+    for (; marked_ < monitor_.offences().size(); ++marked_)
+      events.push_back(mark_of(monitor_.offences()[marked_], false));
+  }
+  void add_last(std::vector<ReplayEvent>& events) override {
+    for (const OffenceSpan& offence : monitor_.offences())
+      if (offence.kind != Offence::RedLight) events.push_back(mark_of(offence, true));
   }
   void fill(RunResults& results) const override {
     results.rules = monitor_.result(run_.sim.model.types);
@@ -77,18 +96,18 @@ class Rules final : public RunObserver {
 
  private:
   RuleMonitor monitor_;
+  std::size_t marked_ = 0;
 };
 
 class Flow final : public RunObserver {
  public:
   explicit Flow(const WatchedRun& run)
       : RunObserver(run), monitor_(run.sim.dt, run.sim.model.road) {}
-  void add(std::vector<RunEvent>& events) override {
+  void add(std::vector<ReplayEvent>& events) override {
     monitor_.add(run_.sim.scene, run_.sim.model.types, run_.sim.road, run_.sim.traffic.waits);
-    for (; marked_ < monitor_.stuck().size(); ++marked_) {
-      const StuckAgent& stuck = monitor_.stuck()[marked_];
-      events.push_back({ReplayEventKind::Stuck, run_.sim.scene.time, stuck.position, stuck.id});
-    }
+    const AgentName name_of = [&](AgentId id) { return run_.name_of(id); };
+    for (; marked_ < monitor_.stuck().size(); ++marked_)
+      events.push_back(mark_of(monitor_.stuck()[marked_], run_.sim.scene.time, name_of));
   }
   void fill(RunResults& results) const override {
     results.flow = monitor_.result(run_.sim.model.types);
@@ -113,7 +132,9 @@ class Traffic final : public RunObserver {
  public:
   explicit Traffic(const WatchedRun& run)
       : RunObserver(run), monitor_(run.sim.dt, run.sim.model.road, run.plan.options.interval) {}
-  void add(std::vector<RunEvent>&) override { monitor_.add(run_.sim.scene, run_.sim.model.types); }
+  void add(std::vector<ReplayEvent>&) override {
+    monitor_.add(run_.sim.scene, run_.sim.model.types);
+  }
   void fill(RunResults& results) const override {
     results.traffic = monitor_.result(run_.sim.model.types);
   }
@@ -133,7 +154,9 @@ class Traffic final : public RunObserver {
 class Smoothness final : public RunObserver {
  public:
   explicit Smoothness(const WatchedRun& run) : RunObserver(run), monitor_(run.sim.dt) {}
-  void add(std::vector<RunEvent>&) override { monitor_.add(run_.sim.scene, run_.sim.model.types); }
+  void add(std::vector<ReplayEvent>&) override {
+    monitor_.add(run_.sim.scene, run_.sim.model.types);
+  }
   void fill(RunResults& results) const override {
     results.smoothness = monitor_.result(run_.sim.model.types);
   }
@@ -160,7 +183,7 @@ class Trajectories final : public RunObserver {
   static bool is_wanted(const RunOptions& options) {
     return options.trajectories != std::vector<std::string>{"none"};
   }
-  void add(std::vector<RunEvent>&) override {
+  void add(std::vector<ReplayEvent>&) override {
     writer_.add(run_.sim.scene, run_.sim.model.types, [&](AgentId id) { return run_.name_of(id); });
   }
   void close() override { writer_.close(); }
@@ -180,7 +203,7 @@ class Prediction final : public RunObserver {
       : RunObserver(run),
         predictor_(run.sim.model.types, live_predictor_parameters(), &run.sim.model.road) {}
   static bool is_wanted(const RunOptions& options) { return options.predict; }
-  void add(std::vector<RunEvent>&) override {
+  void add(std::vector<ReplayEvent>&) override {
     predictor_.observe(run_.sim.scene, &run_.sim.model.types);
   }
   void fill(RunResults& results) const override {
@@ -191,6 +214,10 @@ class Prediction final : public RunObserver {
   LivePredictor predictor_;
 };
 
+ReplayStep step_of(const WatchedRun& run, const AgentName& name_of) {
+  return {run.sim.scene, name_of, &run.sim.road, &run.sim.model.types, run.sim.work.bindings};
+}
+
 class Replay final : public RunObserver {
  public:
   explicit Replay(const WatchedRun& run)
@@ -198,12 +225,15 @@ class Replay final : public RunObserver {
         recorder_(run.plan.options.output / "replay.bin", run.plan.input.name, run.sim.model.road,
                   run.sim.model.types, run.plan.options.replay_period) {}
   static bool is_wanted(const RunOptions& options) { return options.replay; }
-  void add(std::vector<RunEvent>& events) override {
-    recorder_.add(
-        run_.sim.scene, &run_.sim.road, [&](AgentId id) { return run_.name_of(id); },
-        &run_.sim.model.types);
-    for (const RunEvent& event : events)
-      recorder_.add_event(event.kind, event.time, event.position, event.a, event.b);
+  void add(std::vector<ReplayEvent>& events) override {
+    recorder_.add(step_of(run_, name_of_));
+    add_last(events);
+  }
+  void look(Inspector& inspector) override {
+    if (recorder_.is_at(run_.sim.scene.time)) recorder_.add_spaces(inspector.spaces());
+  }
+  void add_last(std::vector<ReplayEvent>& events) override {
+    for (const ReplayEvent& event : events) recorder_.add_event(event);
   }
   void close() override {
     recorder_.close();
@@ -212,14 +242,68 @@ class Replay final : public RunObserver {
   }
 
  private:
+  AgentName name_of_ = [this](AgentId id) { return run_.name_of(id); };
   ReplayRecorder recorder_;
+};
+
+/// The same records for who looks on.
+class Live final : public RunObserver {
+ public:
+  explicit Live(const WatchedRun& run) : RunObserver(run), steps_(run.plan.options.replay_period) {
+    run.page->begin(replay_header(run.plan.input.name, run.sim.model.road, run.sim.model.types));
+  }
+  static bool is_wanted(const RunPlan& plan) { return plan.options.serve.has_value(); }
+  void add(std::vector<ReplayEvent>& events) override {
+    add_last(events);
+    // nobody looks: nothing is made, and who comes first gets a beginning
+    if (!run_.page->has_viewers()) {
+      stretch_ends_ = -1.0;
+      return;
+    }
+    const double time = run_.sim.scene.time;
+    const bool fresh = time >= stretch_ends_ || stretch_ends_ < 0.0;
+    if (fresh) {
+      steps_.begin_again();
+      stretch_ends_ = time + kStretch;
+    }
+    steps_.add_step(step_of(run_, name_of_));
+    run_.page->publish(steps_.take(), fresh);
+  }
+  void look(Inspector& inspector) override {
+    if (!run_.page->has_viewers() || !steps_.is_at(run_.sim.scene.time)) return;
+    steps_.add_spaces(inspector.spaces());
+    run_.page->publish(steps_.take(), false);
+  }
+  void add_last(std::vector<ReplayEvent>& events) override {
+    for (const ReplayEvent& event : events) marks_.add_event(event);
+    run_.page->publish_marks(marks_.take());
+  }
+
+ private:
+  static constexpr double kStretch = 10.0;  ///< that can be read by itself [s]
+  AgentName name_of_ = [this](AgentId id) { return run_.name_of(id); };
+  ReplayEncoder steps_, marks_;
+  double stretch_ends_ = -1.0;  ///< [s]
+};
+
+/// SUMO's window, painted by what binds whom.
+class Window final : public RunObserver {
+ public:
+  explicit Window(const WatchedRun& run)
+      : RunObserver(run), colors_(run.sim, run.world, run.backend) {}
+  static bool is_wanted(const RunOptions& options) { return options.gui; }
+  void add(std::vector<ReplayEvent>&) override { colors_.note(); }
+  void look(Inspector&) override { colors_.paint(); }
+
+ private:
+  WindowColors colors_;
 };
 
 /// Who came, went and was driven by us; the bits of everybody's state.
 class Agents final : public RunObserver {
  public:
   using RunObserver::RunObserver;
-  void add(std::vector<RunEvent>&) override {
+  void add(std::vector<ReplayEvent>&) override {
     const Scene& scene = run_.sim.scene;
     hash_ = hash_state(scene, hash_);
     driven_ = static_cast<std::uint64_t>(
@@ -304,7 +388,7 @@ class Coupling final : public RunObserver {
     };
   }
   ~Coupling() override { run_.world.coupling().compare = nullptr; }
-  void add(std::vector<RunEvent>&) override {}
+  void add(std::vector<ReplayEvent>&) override {}
   void fill(RunResults& results) const override {
     const CouplingCheck& seen = run_.world.coupling();
     results.coupling = monitor_.result();
@@ -330,15 +414,17 @@ std::unique_ptr<RunObserver> make(const WatchedRun& run) {
 }
 
 /// All there are. The replay comes behind those whose events it marks.
-constexpr Make kObservers[] = {make<Agents>,       make<Coupling>,   make<Collisions>,
-                               make<Conflicts>,    make<Rules>,      make<Flow>,
-                               make<Traffic>,      make<Smoothness>, make<Prediction>,
-                               make<Trajectories>, make<Replay>,     make<SumoFiles>};
+constexpr Make kObservers[] = {
+    make<Agents>, make<Coupling>, make<Collisions>, make<Conflicts>,  make<Rules>,
+    make<Flow>,   make<Traffic>,  make<Smoothness>, make<Prediction>, make<Trajectories>,
+    make<Replay>, make<Live>,     make<Window>,     make<SumoFiles>};
 
 }  // namespace
 
-RunObservers::RunObservers(const RunPlan& plan, const Simulation& sim, SumoWorld& world)
-    : run_{plan, sim, world, LaneLocator(sim.model.road)} {
+RunObservers::RunObservers(const RunPlan& plan, const Simulation& sim, SumoWorld& world,
+                           SumoBackend& backend, LivePage* page)
+    : run_{plan, sim, world, LaneLocator(sim.model.road), backend, page},
+      inspector_(plan, sim, world) {
   for (const Make maker : kObservers)
     if (auto observer = maker(run_)) list_.push_back(std::move(observer));
 }
@@ -348,11 +434,18 @@ void RunObservers::add() {
   for (const auto& observer : list_) observer->add(events_);
 }
 
+void RunObservers::look() {
+  for (const auto& observer : list_) observer->look(inspector_);
+}
+
 void RunObservers::fill(RunResults& results) const {
   for (const auto& observer : list_) observer->fill(results);
 }
 
 void RunObservers::close() {
+  events_.clear();
+  for (const auto& observer : list_) observer->add_last(events_);
+  inspector_.close();
   for (const auto& observer : list_) observer->close();
 }
 

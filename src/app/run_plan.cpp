@@ -36,12 +36,11 @@ std::size_t most_vehicles(long agents, double on_foot) {
 constexpr std::size_t kMostRules = 32;
 
 /// Types, ids and patterns, and a share of them such as "30%".
-ControlRule rule_of_words(const std::vector<std::string>& words) {
+ControlRule rule_of_words(const std::string& option, const std::vector<std::string>& words) {
   ControlRule rule;
   for (const std::string& word : words) {
     if (word == "all" || word == "none" || word == "called")
-      throw Error("--control",
-                  "'" + word + "' stands alone, expected all, none, called, or types and ids");
+      throw Error(option, "'" + word + "' can't stand among types and ids");
     if (word.empty() || word.back() != '%') {
       rule.who.push_back(word);
       continue;
@@ -50,7 +49,7 @@ ControlRule rule_of_words(const std::vector<std::string>& words) {
     const char* const end = word.data() + word.size() - 1;
     const auto [stop, error] = std::from_chars(word.data(), end, percent);
     if (error != std::errc() || stop != end || !(percent >= 0.0 && percent <= 100.0))
-      throw Error("--control " + word.substr(0, 60), "must be a share from 0% to 100%");
+      throw Error(option + " " + word.substr(0, 60), "must be a share from 0% to 100%");
     rule.share = percent / 100.0;
   }
   return rule;
@@ -94,7 +93,8 @@ ControlChoice control_choice(const RunOptions& options, const ScenarioConfig& co
     rule.from = std::numeric_limits<double>::infinity();  // never by itself
     control.rules.push_back(std::move(rule));
   } else if ((!words.empty() && words != none) || (words.empty() && region)) {
-    ControlRule rule = words.empty() || words == all ? ControlRule{} : rule_of_words(words);
+    ControlRule rule =
+        words.empty() || words == all ? ControlRule{} : rule_of_words("--control", words);
     if (region) {
       rule.areas.push_back(ring_of(options.region));
       if (rule.areas.back().empty())
@@ -176,10 +176,11 @@ void require_time_left(const RunPlan& plan) {
 }
 
 /// A name that nobody answers to would drive nobody, without a word.
-void require_known_names(const RunPlan& plan) {
+void require_known_names(const std::string& option, const std::set<std::string>& names,
+                         const RunPlan& plan) {
   std::set<std::string> known = plan.inventory.types;
   for (const AgentType& type : plan.config.types) known.insert(type.name);
-  for (const std::string& name : plan.control.names()) {
+  for (const std::string& name : names) {
     const auto fits = [&](const std::string& other) { return matches(name, other); };
     if (std::any_of(known.begin(), known.end(), fits) || has_id(plan.inventory, name) ||
         std::any_of(plan.inventory.ids.begin(), plan.inventory.ids.end(), fits) ||
@@ -187,15 +188,30 @@ void require_known_names(const RunPlan& plan) {
                     [&](const std::string& flow) { return matches(name, flow + ".0"); }))
       continue;
     std::string nearest;
-    for (const std::set<std::string>* names : {&std::as_const(known), &plan.inventory.ids})
-      for (const std::string& other : *names)
+    for (const std::set<std::string>* some : {&std::as_const(known), &plan.inventory.ids})
+      for (const std::string& other : *some)
         if (nearest.empty() || edit_distance(name, other) < edit_distance(name, nearest))
           nearest = other;
-    throw Error("--control " + name.substr(0, 60),
+    throw Error(option + " " + name.substr(0, 60),
                 "no agent type, vType or id in the scenario's demand is called that, the nearest "
                 "one is '" +
                     nearest + "'; of a flow f they are f.0, f.1, ...");
   }
+}
+
+/// A step's length, so that the window shows the time that passes, unless SUMO's --delay says
+/// otherwise.
+double window_delay(const RunPlan& plan) {
+  if (!plan.options.gui) return 0.0;
+  const auto given = plan.input.options.find("delay");
+  if (given == plan.input.options.end()) return plan.clock.step;
+  double milliseconds = -1.0;
+  const std::string& text = given->second.value;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), milliseconds);
+  if (error != std::errc() || end != text.data() + text.size() ||
+      !(milliseconds >= 0.0 && milliseconds <= 60000.0))
+    throw Error("--delay " + text.substr(0, 60), "must be milliseconds from 0 to 60000");
+  return 0.001 * milliseconds;
 }
 
 }  // namespace
@@ -209,6 +225,7 @@ RunPlan make_plan(const RunOptions& options, const CommonOptions& common) {
   if (options.preset) overrides.push_back("behavior.preset=" + *options.preset);
   plan.config = read_config(plan.input.settings, overrides);
   choose_step(plan);
+  plan.delay = window_delay(plan);
   auto from_sumo = [&](const char* option) {
     const auto found = plan.input.options.find(option);
     return found == plan.input.options.end() ? kDefault
@@ -226,11 +243,20 @@ RunPlan make_plan(const RunOptions& options, const CommonOptions& common) {
   const long cap = options.agents.value_or(plan.input.settings.empty() ? 0 : plan.config.agents);
   plan.vehicles = most_vehicles(cap, plan.config.on_foot);
   plan.control = control_choice(options, plan.config, plan.input, plan.control_text);
-  const bool named = !plan.control.names().empty();
+  if (!options.inspect.empty()) {
+    if (!options.replay && !options.serve)
+      throw Error("--inspect", "nothing shows what it records, give --replay or --serve");
+    plan.inspect = rule_of_words("--inspect", options.inspect);
+  }
+  const bool named = !plan.control.names().empty() || (plan.inspect && !plan.inspect->who.empty());
   plan.inventory = take_inventory(plan.input, !plan.control.any(), named);
   // others may bring agents that no file tells of
   const bool alone = options.connect.empty() && options.clients == 1;
-  if (named && alone && plan.inventory.complete) require_known_names(plan);
+  if (named && alone && plan.inventory.complete) {
+    require_known_names("--control", plan.control.names(), plan);
+    if (plan.inspect)
+      require_known_names("--inspect", {plan.inspect->who.begin(), plan.inspect->who.end()}, plan);
+  }
   return plan;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,11 +22,13 @@ struct RunPlan {
   ScenarioInput input;
   ScenarioConfig config;
   ControlChoice control;
+  std::optional<ControlRule> inspect;  ///< of --inspect
   ScenarioInventory inventory;
   OutputNames output_names;  ///< of SUMO's files; no marker where SUMO writes them by itself
   RunClock clock;
   bool ends_after_duration = false;  ///< `clock.end` counts from the begin, wherever that is
-  std::size_t vehicles = 0;          ///< at once, at the most; 0: as many as the demand has
+  double delay = 0;          ///< with a window: between two steps, on the clock on the wall [s]
+  std::size_t vehicles = 0;  ///< at once, at the most; 0: as many as the demand has
   std::string control_text;
 };
 

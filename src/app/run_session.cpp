@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "app/open_run.h"
 #include "app/progress.h"
@@ -34,6 +35,24 @@ bool failed(const RunOptions& options, const RunResults& results) {
   return failed;
 }
 
+/// Keeps steps apart where a window shows them: SUMO's own delay isn't heeded while clients make
+/// its steps. Who is late isn't hurried afterwards.
+class Pace {
+ public:
+  explicit Pace(double delay)
+      : delay_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(delay))) {}
+  void wait() {
+    constexpr std::chrono::milliseconds kSlice{100};  // a user's Ctrl-C is heeded after that
+    while (Clock::now() < next_ && !interrupted())
+      std::this_thread::sleep_until(std::min(next_, Clock::now() + kSlice));
+    next_ = std::max(next_ + delay_, Clock::now());
+  }
+
+ private:
+  Clock::duration delay_;
+  Clock::time_point next_ = Clock::now();
+};
+
 /// Ticks until the duration is over, the user interrupts, or nothing is left. Returns how it ended.
 std::string run_ticks(OpenRun& run) {
   const RunPlan& plan = run.plan;
@@ -41,9 +60,12 @@ std::string run_ticks(OpenRun& run) {
   Progress progress("run", duration, "s", run.common.quiet);
   const auto ticks = static_cast<std::int64_t>(std::llround(duration / plan.clock.step));
   const Clock::time_point start = Clock::now();
+  Pace pace(plan.delay);
   for (std::int64_t tick_index = 0; tick_index < ticks; ++tick_index) {
+    if (plan.delay > 0.0) pace.wait();
     if (interrupted()) return "interrupted";
-    tick(*run.sim, *run.world, [&] { run.observers->add(); });
+    tick(
+        *run.sim, *run.world, [&] { run.observers->add(); }, [&] { run.observers->look(); });
     if (progress.due()) {
       const double simulated = static_cast<double>(tick_index + 1) * plan.clock.step;
       progress.update(simulated, fmt::format("{:.0f} s simulated, {} agents, {:.1f} x real time",

@@ -29,7 +29,9 @@ struct RunOptions {
   bool force = false;               ///< replace what another run left in the output folder
   std::string sumo_options;
   bool gui = false, replay = false;
-  bool predict = false;  ///< predict everybody and score it against what then happens
+  std::vector<std::string> inspect;  ///< whose velocity spaces are recorded: as for control
+  std::optional<int> serve;          ///< port of the live page, 0: any free one
+  bool predict = false;              ///< predict everybody and score it against what then happens
   double trajectory_period = 0.5, replay_period = 0.1;  ///< [s]
   std::vector<std::string> trajectories{"fcd"};         ///< formats: fcd, csv, parquet; none
   std::vector<std::string> trajectory_columns;          ///< of tables; empty: all

@@ -10,6 +10,7 @@
 #include "base/print.h"
 #include "io/config.h"
 #include "io/replay.h"
+#include "io/replay_page.h"
 #include "simulation/scene_run.h"
 
 namespace sumogamma {
@@ -61,10 +62,11 @@ int run(const SceneOptions& options, const CommonOptions& common) {
   if (!page.empty()) {
     recorder = std::make_unique<ReplayRecorder>(recording, file.name, RoadNetwork{}, file.types);
     observer = [&](const Scene& scene) {
-      recorder->add(scene, nullptr, [&](AgentId id) -> std::string_view {
+      const AgentName name_of = [&](AgentId id) -> std::string_view {
         name = std::to_string(id.value);
         return name;
-      });
+      };
+      recorder->add({scene, name_of});
     };
   }
   const SceneReport report =

@@ -139,7 +139,7 @@ void SumoFiles::see_waiting() {
   step_.riding = static_cast<std::int64_t>(run_.world.riding());
 }
 
-void SumoFiles::add(std::vector<RunEvent>&) {
+void SumoFiles::add(std::vector<ReplayEvent>&) {
   const Scene& scene = run_.sim.scene;
   const bool with_persons = shows_persons();
   const auto& trips = run_.world.life_cycle().trips;

@@ -30,7 +30,7 @@ class SumoFiles final : public RunObserver {
  public:
   explicit SumoFiles(const WatchedRun& run);
   static bool is_wanted(const RunPlan& plan) { return !plan.inventory.outputs.empty(); }
-  void add(std::vector<RunEvent>& events) override;
+  void add(std::vector<ReplayEvent>& events) override;
   void close() override;
 
  private:

@@ -26,7 +26,7 @@ constexpr const char* kRunFiles[] = {"results.json",     "trajectories.fcd.xml.g
                                      "collisions.csv",   "conflicts.csv",
                                      "lanes.csv",        "traffic.csv",
                                      "journeys.csv",     "replay.bin",
-                                     "replay.html"};
+                                     "replay.html",      "replay.png"};
 
 int open_folder(const fs::path& folder) {
   return open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

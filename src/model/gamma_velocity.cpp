@@ -1,6 +1,7 @@
 #include "model/gamma_velocity.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/rotation.h"
 #include "model/context.h"
@@ -103,6 +104,7 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
 
   const Vec2 target = look_aside(model.options, scene, row, geometry.agent[row], work.preferred);
   const double fastest = speed_limit(type, scene, geometry.agent[row], row, work.preferred);
+  work.fastest = fastest;
   work.result =
       closest_point(constraints.planes, constraints.hard_count, target, fastest, work.program);
   if (scene.context[row].active && geometry.agent[row].on_wheels) ease_violation(fastest, work);
@@ -115,6 +117,19 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
   const Vec2 allowed = wish > fastest ? Vec2(work.preferred * (fastest / wish)) : work.preferred;
   return guarded_velocity(work.guard, model, scene, geometry, row, work.result.point, allowed,
                           hard);
+}
+
+Binding binding_of(const Scene& scene, std::size_t row, const Vec2& velocity,
+                   const Workspace& work) {
+  constexpr double kSame = 1e-6;  // [m/s]
+  if ((velocity - work.result.point).squaredNorm() > kSame * kSame) return {BindingKind::Guard, -1};
+  if (const ConstraintSource* source = work.binding_source())
+    return {static_cast<BindingKind>(static_cast<int>(source->kind) + 1), source->foe};
+  // what the road allows is a plane and a greatest speed: the latter comes first
+  const RoadContext& context = scene.context[row];
+  const bool by_road = context.active && std::isfinite(context.allowed_speed) &&
+                       work.preferred.norm() > work.fastest + kSame;
+  return by_road ? Binding{BindingKind::RoadLimit, context.foe} : Binding{};
 }
 
 }  // namespace sumogamma

@@ -60,6 +60,7 @@ void choose_commands(const Advance& world, const AdvanceOptions& options,
   const std::size_t rows = scene.size();
   work.workspaces.resize(world.workers.count());
   work.commands.resize(rows);
+  work.bindings.assign(rows, Binding{});
   const TrafficView view = traffic_tick(world, options).view();
   for (std::size_t row = 0; row < rows; ++row) {
     if (scene.control[row] != Control::Planned) continue;
@@ -72,10 +73,12 @@ void choose_commands(const Advance& world, const AdvanceOptions& options,
       if (scene.control[row] != Control::Gamma) continue;
       if (const auto backed = back_out(view, work.geometry, row, options.dt)) {
         work.commands[row] = *backed;
+        work.bindings[row] = {BindingKind::BackingOut, -1};
         continue;
       }
       const Vec2 velocity = gamma_velocity(world.model, scene, work.geometry, row,
                                            scene.behavior[row], work.workspaces[worker]);
+      work.bindings[row] = binding_of(scene, row, velocity, work.workspaces[worker]);
       work.commands[row] =
           next_body(world.model, scene, row, velocity, options.dt, work.workspaces[worker]);
     }

@@ -24,6 +24,7 @@ struct AdvanceWork {
   TickGeometry geometry;
   std::vector<Workspace> workspaces;  ///< one a worker
   std::vector<BodyState> commands;    ///< one a row
+  std::vector<Binding> bindings;      ///< one a row: what held its velocity, for whoever watches
 };
 
 /// The velocity that the planner of a row (Control::Planned) asks of its body [m/s], from the

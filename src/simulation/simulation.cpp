@@ -74,8 +74,14 @@ void move_everybody(Simulation& sim) {
   sim.times.model_cpu += cpu_seconds() - cpu_before;
 }
 
-void tick(Simulation& sim, World& world, const std::function<void()>& record) {
+void tick(Simulation& sim, World& world, const std::function<void()>& record,
+          const std::function<void()>& look) {
   observe(sim, world);
+  if (look) {
+    PhaseClock clock;
+    look();
+    clock.end(sim.times.record);
+  }
   move_everybody(sim);
   advance_and_record(sim, world, record);
 }

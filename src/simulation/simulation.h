@@ -40,8 +40,10 @@ Advance step_of(Simulation& simulation);
 /// from the frozen scene (Eq. 7), track them with the bodies' controllers, and hand the result to
 /// the world. `record` is called once for the new state; with more than one worker it runs while
 /// the world makes its step, on another thread: it may read the simulation and what the world
-/// doesn't change in advance().
-void tick(Simulation& simulation, World& world, const std::function<void()>& record = {});
+/// doesn't change in advance(). `look` is called with the frozen scene, before velocities are
+/// chosen.
+void tick(Simulation& simulation, World& world, const std::function<void()>& record = {},
+          const std::function<void()>& look = {});
 
 /// The tick's first part, for loops that look or change something in between: the scene as the
 /// world has it, and what the road says about each agent (Scene::context).

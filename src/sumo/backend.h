@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -195,6 +196,11 @@ class SumoBackend {
   virtual void release(const std::string& vehicle) = 0;
   /// Somebody whom SUMO moves: hold this speed [m/s]; negative gives it back to SUMO.
   virtual void set_speed(const std::string& id, bool is_person, double speed) = 0;
+  /// In what color its window shows somebody, red, green and blue; nothing where it has none.
+  virtual void set_color(const std::string& id, bool is_person,
+                         const std::array<std::uint8_t, 3>& color) {
+    (void)id, (void)is_person, (void)color;
+  }
   /// SUMO-driven vehicle: may it change lanes by itself? As SUMO has it by default, or not at all.
   virtual void allow_lane_changes(const std::string& vehicle, bool allowed) = 0;
   /// Tells actuated signals that a vehicle passed `age` seconds ago, for each listed detector.

@@ -113,6 +113,16 @@ class TraciBackend final : public SteppedBackend {
     queued_.set_integer(traci::kVehicle, traci::kLaneChangeMode, vehicle,
                         allowed ? kLaneChangesOwn : kLaneChangesNone);
   }
+  void set_color(const std::string& id, bool is_person,
+                 const std::array<std::uint8_t, 3>& color) override {
+    queued_.begin_command(traci::set_command(is_person ? traci::kPerson : traci::kVehicle),
+                          5 + id.size() + 5);
+    queued_.raw_byte(traci::kColor);
+    queued_.raw_string(id);
+    queued_.raw_byte(traci::kColorType);
+    for (const std::uint8_t part : color) queued_.raw_byte(part);
+    queued_.raw_byte(255);
+  }
   void set_parameter(const std::string& vehicle, const std::string& key,
                      const std::string& value) override {
     queued_.begin_command(traci::set_command(traci::kVehicle),

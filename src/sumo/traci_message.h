@@ -38,6 +38,7 @@ inline constexpr std::uint8_t kTypePosition2d = 0x01, kTypePosition3d = 0x03, kT
                               kTypeCompound = 0x0f, kTypeDoubleList = 0x10, kTypeColor = 0x11;
 inline constexpr std::uint8_t kOk = 0x00, kNotImplemented = 0x01, kRefused = 0xff;
 
+inline constexpr std::uint8_t kColor = 0x45, kColorType = 0x11;
 inline constexpr std::uint8_t kIdList = 0x00, kPosition = 0x42, kAngle = 0x43, kSpeed = 0x40,
                               kMaxSpeed = 0x41, kLength = 0x44, kVehicleClass = 0x49, kWidth = 0x4d,
                               kHeight = 0xbc, kType = 0x4f, kLane = 0x51, kEdges = 0x54,

@@ -133,6 +133,7 @@ void Session::observe() {
 void Session::step() {
   state_->require(Phase::Step, "step()", "observe() comes first");
   OpenRun& run = state_->run;
+  if (run.observers) run.observers->look();
   move_everybody(*run.sim);
   for (const auto& [row, before] : state_->preferred)
     run.sim->scene.behavior[row].intention = before;

@@ -20,6 +20,7 @@ EDGES = {
     "CLI/": r"src/app/.*",
     "toml++/": r"src/io/.*",
     "sqlite3.h": r"src/io/study_database\.cpp",
+    "httplib.h": r"src/io/live_page\.cpp",
 }
 # this one prints which version of each library it was built with, and calls nothing
 VERSION_FILE = "src/app/version_command.cpp"

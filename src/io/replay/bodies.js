@@ -2,10 +2,11 @@
 
 function colourOf(agent) {
   if (paint === 'speed') return speedColour(pose.speed);
-  if (paint === 'reason') return pose.why & 16 ? kReasonColours[pose.why & 15] : '#7d8791';
+  if (paint === 'reason') return kLimitColours[limitOf(pose.state, pose.bind)];
   return typeColour[agent.type];
 }
 
+const kDriverWidths = [0.8, 1.6, 0.8, 3];
 function outlinePath(agent) {
   screen.beginPath();
   if (agent.box) {
@@ -91,12 +92,16 @@ function drawAgent(agent) {
   const cos = Math.cos(pose.h) * s * dpr, sin = Math.sin(pose.h) * s * dpr;
   screen.setTransform(cos, -sin, -sin, -cos, sx * dpr, sy * dpr);
   screen.fillStyle = colour;
-  screen.strokeStyle = agent.external ? css.halo : css.outline;
-  screen.lineWidth = (agent.external ? 1.4 : 0.8) / s;
+  screen.strokeStyle = css[kDriverColours[pose.control]];
+  screen.lineWidth = kDriverWidths[pose.control] / s;
   if (s * l < 5.5) {
     screen.beginPath();
     screen.arc(0, 0, 2.4 / s, 0, 2 * Math.PI);
     screen.fill(); screen.stroke();
+  } else if (s * l < 14) {
+    // from afar a plain body does, and there may be thousands
+    screen.fillRect(agent.back, agent.right, l, w);
+    screen.strokeRect(agent.back, agent.right, l, w);
   } else if (type.walks) {
     drawWalker(agent);
   } else if (kTwoWheelers.has(type.name) && s * l > 16) {

@@ -1,8 +1,9 @@
 // What keys, buttons and the pointer do.
 
-function seek(t) { time = Math.min(Math.max(t, begin), end); dirty = true; }
+function seek(t) { live.chase = false; time = Math.min(Math.max(t, begin), end); dirty = true; }
 function setPlaying(on) {
-  if (on && time >= end - 1e-9) time = begin;
+  if (on && time >= end - 1e-9) { if (live.on && !live.over) live.chase = true; else time = begin; }
+  if (!on) live.chase = false;
   playing = on;
   $('play').classList.toggle('playing', on);
   dirty = true;
@@ -16,6 +17,7 @@ function setTheme(name) {
   dirty = true;
 }
 function setPaint(name) { paint = name; $('paint').value = name; buildLegend(); shownText = ''; dirty = true; }
+function goLive() { live.chase = true; playing = true; $('play').classList.add('playing'); time = end; dirty = true; }
 function setRate(index) {
   const select = $('rate');
   select.selectedIndex = Math.min(Math.max(index, 0), select.options.length - 1);

@@ -1,8 +1,9 @@
 // Pointer, keys and buttons.
 
-let drag = null, moved = false;
+let drag = null, moved = false, pinched = false;  // until no finger is left
 const touches = new Map();
 canvas.addEventListener('pointerdown', e => {
+  if (!touches.size) pinched = false;
   touches.set(e.pointerId, e);
   canvas.setPointerCapture(e.pointerId);
   canvas.focus();
@@ -21,9 +22,10 @@ canvas.addEventListener('pointermove', e => {
     touches.set(e.pointerId, e);
     const [c, d] = [...touches.values()];
     zoomBy(Math.hypot(c.clientX - d.clientX, c.clientY - d.clientY) / Math.max(before, 1), (c.clientX + d.clientX) / 2, (c.clientY + d.clientY) / 2);
-    moved = true;
+    pinched = true;
     return;
   }
+  if (pinched) return;
   touches.set(e.pointerId, e);
   const dx = e.clientX - drag.x, dy = e.clientY - drag.y;
   if (!moved && Math.hypot(dx, dy) < 4) return;
@@ -38,7 +40,7 @@ canvas.addEventListener('pointermove', e => {
 const release = e => {
   touches.delete(e.pointerId);
   canvas.classList.remove('dragging');
-  if (e.type === 'pointerup' && !moved) {
+  if (e.type === 'pointerup' && !moved && !pinched) {
     const found = pick(e.clientX, e.clientY);
     if (found || followed) follow(found);
   }
@@ -63,11 +65,13 @@ const keys = {
   ArrowDown: () => setRate($('rate').selectedIndex - 1),
   '+': () => zoomBy(1.4), '=': () => zoomBy(1.4), '-': () => zoomBy(1 / 1.4),
   f: () => { follow(null); fit(bounds); },
-  n: () => nextEvent(),
+  n: () => jumpToNext(1), N: () => jumpToNext(-1),
+  m: () => toggleList(),
+  l: () => { if (live.on) goLive(); },
   c: () => setPaint(kPaints[(kPaints.indexOf(paint) + 1) % kPaints.length]),
   p: () => { trails = !trails; dirty = true; },
   t: () => setTheme(root.dataset.theme === 'light' ? 'dark' : 'light'),
-  Escape: () => { follow(null); $('help').hidden = true; },
+  Escape: () => { follow(null); $('help').hidden = true; if (!$('list').hidden) toggleList(); },
   '?': () => { $('help').hidden = !$('help').hidden; },
   Home: () => seek(begin), End: () => seek(end),
 };
@@ -83,6 +87,7 @@ $('play').onclick = () => setPlaying(!playing);
 $('fit').onclick = keys.f;
 $('theme').onclick = keys.t;
 $('keys').onclick = keys['?'];
+$('live').onclick = goLive;
 $('rate').onchange = () => { rate = +$('rate').value; };
 $('paint').onchange = () => setPaint($('paint').value);
 $('scrub').oninput = () => seek(+$('scrub').value);

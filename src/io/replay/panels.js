@@ -5,99 +5,171 @@ const clockText = t => {
   return minutes + ':' + ((tenths % 600) / 10).toFixed(1).padStart(4, '0');
 };
 const spoken = name => name.replaceAll('_', ' ');
+function made(tag, text, parent, className) {
+  const element = document.createElement(tag);
+  if (text !== undefined) element.textContent = text;
+  if (className) element.className = className;
+  parent?.append(element);
+  return element;
+}
 
-let legendFor = '';
+function legendLine(list, {colour, text, key, round, border}) {
+  const li = made('li', undefined, list), swatch = made('i', undefined, li, round ? 'round' : '');
+  swatch.style.background = colour;
+  if (border) swatch.style.outline = `${border.width}px solid var(--${border.colour})`;
+  made('span', text, li);
+  made('b', '', li);
+  if (key === undefined) return li;
+  li.dataset.type = key;
+  li.title = 'show or hide';
+  li.onclick = () => { hidden.has(key) ? hidden.delete(key) : hidden.add(key); li.classList.toggle('off'); dirty = true; };
+  if (hidden.has(key)) li.classList.add('off');
+  return li;
+}
+
+/// Values of a column that are there at all, by every fifth step.
+function present(valueOf) {
+  const found = new Set();
+  for (const agent of agents) for (let k = 0; k < agent.length; k += 5) found.add(valueOf(agent, k));
+  return found;
+}
+
+let driverLines = [];
 function buildLegend() {
   const list = $('legend');
   list.textContent = '';
-  legendFor = paint;
-  const item = (colour, text, key, round) => {
-    const li = document.createElement('li'), mark = document.createElement('i'), label = document.createElement('span'), count = document.createElement('b');
-    mark.style.background = colour;
-    if (round) mark.className = 'round';
-    label.textContent = text;
-    li.append(mark, label, count);
-    list.append(li);
-    if (key !== undefined) {
-      li.dataset.type = key;
-      li.title = 'show or hide';
-      li.onclick = () => { hidden.has(key) ? hidden.delete(key) : hidden.add(key); li.classList.toggle('off'); dirty = true; };
-      if (hidden.has(key)) li.classList.add('off');
-    }
-  };
   if (paint === 'type') {
-    const present = new Set(agents.map(agent => agent.type));
-    map.types.forEach((type, i) => { if (present.has(i)) item(typeColour[i], spoken(type.name), i, type.walks); });
+    const there = new Set(agents.map(agent => agent.type));
+    map.types.forEach((type, i) => { if (there.has(i)) legendLine(list, {colour: typeColour[i], text: spoken(type.name), key: i, round: type.walks}); });
   } else if (paint === 'reason') {
-    const present = new Set();
-    for (const agent of agents) for (let k = 0; k < agent.length; k += 5) if (agent.why[k] & 16) present.add(agent.why[k] & 15);
-    kReasons.forEach((name, i) => { if (present.has(i)) item(kReasonColours[i], i ? name : 'free'); });
-    if (!present.size) item('#7d8791', 'not known');
+    const there = present((agent, k) => limitOf(agent.state[k], agent.bind[k]));
+    kLimits.forEach((name, i) => { if (there.has(i)) legendLine(list, {colour: kLimitColours[i], text: name}); });
   } else {
-    const li = document.createElement('li'), bar = document.createElement('div');
-    bar.className = 'scale';
+    const bar = made('div', undefined, made('li', undefined, list), 'scale');
     bar.style.background = `linear-gradient(90deg, ${[0, 3.5, 7, 10.5, 14].map(speedColour).join(',')})`;
-    li.append(bar);
-    const ends = document.createElement('li');
-    ends.className = 'ends';
-    ends.innerHTML = '<span>standing</span><b>50 km/h</b>';
-    list.append(li, ends);
+    const ends = made('li', undefined, list, 'ends');
+    made('span', 'standing', ends); made('b', '50 km/h', ends);
   }
+  buildDrivers();
 }
 
-function buildMarks() {
-  const lines = [0, 1, 2].map(kind => [kind, events.filter(event => event.kind === kind).length]).filter(([, n]) => n > 0);
-  for (const [kind, n] of lines) {
-    const link = document.createElement('a'), count = document.createElement('em');
-    count.textContent = n + ' ';
-    count.style.color = kEventColours[kind];
-    link.append(count, n === 1 ? kEventNames[kind] : kEventPlurals[kind], ' ›');
-    link.title = 'go to the next one';
-    link.onclick = () => nextEvent(kind);
-    $('marks').append(link);
-  }
-}
-
-function nextEvent(kind) {
-  const candidates = events.filter(event => kind === undefined ? event.kind < 2 : event.kind === kind);
-  if (!candidates.length) return;
-  const event = candidates.find(event => event.time - 1 > time + 0.05) || candidates[0];
-  setPlaying(false);
-  follow(null);
-  seek(event.time - 1);
-  view.x = event.x; view.y = event.y;
-  view.scale = Math.max(view.scale, 9);
-  view.changed = performance.now();
+/// Who drives whom: the outline tells.
+function buildDrivers() {
+  const there = present((agent, k) => agent.state[k] >> 5 & 3), list = $('drivers');
+  list.textContent = '';
+  driverLines = [];
+  [0, 1, 3, 2].forEach(control => {
+    if (!there.has(control)) return;
+    const li = legendLine(list, {colour: 'var(--road)', text: 'driven by ' + kDrivers[control],
+      border: {colour: kDriverColours[control], width: Math.max(kDriverWidths[control], 1)}});
+    driverLines.push({control, count: li.lastChild});
+  });
 }
 
 let shownText = '';
-function showState(step, share, alive, byGamma) {
-  const external = alive - byGamma;
-  const text = clockText(time - begin) + '|' + alive + (external && byGamma ? `|${byGamma}` : '');
+function showState(step, share, alive, byDriver) {
+  const text = clockText(time) + '|' + alive + '|' + byDriver.join();
   if (text !== shownText) {
     shownText = text;
     $('time').textContent = clockText(time);
-    $('alive').textContent = alive + (alive === 1 ? ' agent' : ' agents') +
-      (external && byGamma ? `, ${external} by SUMO` : external ? ', by SUMO' : '');
+    $('alive').textContent = alive + (alive === 1 ? ' agent' : ' agents');
     if (paint === 'type') for (const li of $('legend').children) li.lastChild.textContent = counts[+li.dataset.type];
+    for (const {control, count} of driverLines) count.textContent = byDriver[control];
   }
   $('scrub').value = time;
   moveCursor();
-  const agent = followed || hovered;
-  const info = $('info');
+  const agent = followed || hovered, info = $('info');
   info.hidden = !(agent && poseAt(agent, step, share));
-  if (info.hidden) return;
-  const rows = [['type', spoken(map.types[agent.type].name)], ['driven by', agent.external ? 'SUMO' : 'GAMMA'],
-    ['speed', `${pose.speed.toFixed(1)} m/s · ${(pose.speed * 3.6).toFixed(0)} km/h`],
-    ['limited by', pose.why & 16 ? kReasons[pose.why & 15] : '–'],
-    ['size', `${(agent.front - agent.back).toFixed(1)} × ${(agent.left - agent.right).toFixed(1)} m`],
-    ['under way', clockText(time - times[agent.first])]];
-  info.innerHTML = '<h2><i></i><span></span></h2><dl></dl>';
-  info.querySelector('i').style.background = typeColour[agent.type];
-  info.querySelector('span').textContent = agent.name;
-  for (const [name, value] of rows) {
-    const dt = document.createElement('dt'), dd = document.createElement('dd');
-    dt.textContent = name; dd.textContent = value;
-    info.querySelector('dl').append(dt, dd);
+  if (!info.hidden) showAgent(agent, step);
+}
+
+const inspector = {agent: null, values: new Map()};
+/// The lines of the inspector stay, their words change: what is clicked on isn't replaced under the finger.
+function buildInspector(agent) {
+  const info = $('info');
+  inspector.agent = agent;
+  inspector.values.clear();
+  info.textContent = '';
+  const head = made('h2', undefined, info);
+  made('i', undefined, head).style.background = typeColour[agent.type];
+  made('span', agent.name, head);
+  if (agent === followed) {
+    const close = made('button', '×', head, 'close');
+    close.title = close.ariaLabel = 'let it go (esc)';
+    close.onclick = () => follow(null);
   }
+  const list = made('dl', undefined, info);
+  for (const name of ['type', 'driven by', 'speed', 'now', 'behaviour', 'likes to go', 'size', 'under way']) {
+    made('dt', name, list);
+    inspector.values.set(name, made('dd', '', list));
+  }
+  const space = made('div', undefined, info, 'space');
+  inspector.caption = made('p', '', space);
+  inspector.picture = made('canvas', undefined, space);
+  inspector.list = made('ol', undefined, space);
+  inspector.picture.setAttribute('aria-label', 'velocity space');
+}
+
+function tell(name, text) {
+  const value = inspector.values.get(name);
+  if (value.textContent !== text) value.textContent = text;
+  return value;
+}
+
+function behaviourWords(agent) {
+  const {responsibility, ahead, behind, headway, keepsRules} = agent.behaviour;
+  return (keepsRules ? 'keeps every rule' : 'breaks some rules, as recorded of people') + `; responsibility ${responsibility.toFixed(2)}` +
+    `; attends ${ahead.toFixed(0)} m ahead, ${behind.toFixed(0)} m behind` +
+    (map.types[agent.type].walks || headway === 1 ? '' : `; headway × ${headway.toFixed(2)}`);
+}
+
+function showAgent(agent, step) {
+  if (inspector.agent !== agent || inspector.wasFollowed !== followed) buildInspector(agent);
+  inspector.wasFollowed = followed;
+  const {state, bind, control, k, speed} = pose;
+  const foe = recording.byId.get(foeAt(agent, k));
+  tell('type', spoken(map.types[agent.type].name));
+  tell('driven by', kDrivers[control]);
+  tell('speed', `${speed.toFixed(1)} m/s · ${(speed * 3.6).toFixed(0)} km/h`);
+  const now = tell('now', limitWords(state, bind, foe?.name ?? ''));
+  now.classList.toggle('link', !!foe);
+  now.onclick = foe ? () => follow(foe) : null;
+  tell('behaviour', control === 0 ? behaviourWords(agent) : 'as ' + kDrivers[control].replace(/ .*/, '') + ' has it');
+  // on wheels the road says more: their own limit is mostly the body's
+  tell('likes to go', map.types[agent.type].walks ? `${agent.behaviour.speed.toFixed(1)} m/s` : 'as the road allows');
+  tell('size', `${(agent.front - agent.back).toFixed(1)} × ${(agent.left - agent.right).toFixed(1)} m`);
+  tell('under way', clockText(time - times[agent.first]));
+  showSpace(agent, step, pose.h, control);
+}
+
+function showSpace(agent, step, h, control) {
+  const space = spaceAt(recording, agent.id, step);
+  inspector.picture.hidden = inspector.list.hidden = !space;
+  if (!space) {
+    const words = control !== 0 ? '' : recording.spaces.has(agent.id) ? 'no velocity space at this moment'
+      : `velocity space: run with --inspect ${agent.name}`;
+    if (inspector.caption.textContent !== words) inspector.caption.textContent = words;
+    inspector.space = null;
+    return;
+  }
+  if (inspector.space === space && inspector.theme === root.dataset.theme) return;
+  Object.assign(inspector, {space, theme: root.dataset.theme});
+  inspector.caption.textContent = 'velocity space, ahead is up' +
+    (space.violation > 0.005 ? `; G can't be met by ${space.violation.toFixed(2)} m/s` : '');
+  drawSpace(inspector.picture, space, h);
+  inspector.list.textContent = '';
+  const speedOf = v => Math.hypot(...v).toFixed(2) + ' m/s';
+  const line = (mark, text, value, bold) => {
+    const li = made('li', undefined, inspector.list, bold ? 'binds' : '');
+    made('i', mark, li); made('span', text, li); made('b', value, li);
+    return li;
+  };
+  line('▲', 'preferred', speedOf(space.preferred));
+  line('○', 'velocity', speedOf(space.velocity));
+  line('●', space.binding === kBind.guard ? 'chosen, by the stopping guard' : 'chosen', speedOf(space.chosen)).firstChild.style.color = css.accent;
+  for (const plane of planesByWeight(space).slice(0, 6)) {
+    const li = line('▬', planeName(plane) + (plane.binds ? ' — binds' : ''), plane.slack.toFixed(2).replace('-0.00', '0.00'), plane.binds);
+    li.firstChild.style.color = kSetColours[planeSet(plane.kind)];
+  }
+  if (space.planes.length > 6) line('', `${space.planes.length - 6} more half-planes, further off`, '');
 }

@@ -57,17 +57,34 @@ function drawEvents() {
   screen.setTransform(dpr, 0, 0, dpr, 0, 0);
   const shown = 2.5;
   for (const event of events) {
+    if (event.time > time + shown) break;
     const age = time - event.time;
-    if (age < -0.05 || age > shown) continue;
-    const share = Math.max(age, 0) / shown, x = toScreenX(event.x), y = toScreenY(event.y);
-    screen.strokeStyle = kEventColours[event.kind];
+    if (hiddenEvents.has(event.kind) || age < -0.05 && event !== marked || age > shown) continue;
+    const share = Math.min(Math.max(age, 0) / shown, 1), x = toScreenX(event.x), y = toScreenY(event.y);
     screen.globalAlpha = 1 - share;
+    drawPin(screen, event.kind, x, y - 22, 8);
     screen.lineWidth = 3;
     screen.beginPath();
     screen.arc(x, y, 10 + 26 * share, 0, 2 * Math.PI);
     screen.stroke();
   }
   screen.globalAlpha = 1;
+}
+
+/// From who is looked at to whom it is held by.
+function drawBond(step, share) {
+  const agent = followed || hovered;
+  if (!agent || !poseAt(agent, step, share)) return;
+  const foe = recording.byId.get(foeAt(agent, pose.k)), x = toScreenX(pose.x), y = toScreenY(pose.y);
+  if (!foe || !poseAt(foe, step, share)) return;
+  screen.setTransform(dpr, 0, 0, dpr, 0, 0);
+  screen.strokeStyle = css.accent;
+  screen.lineWidth = 1.5;
+  screen.setLineDash([5, 4]);
+  screen.beginPath();
+  screen.moveTo(x, y); screen.lineTo(toScreenX(pose.x), toScreenY(pose.y));
+  screen.stroke();
+  screen.setLineDash([]);
 }
 
 function drawScaleBar() {
@@ -85,28 +102,28 @@ function drawScaleBar() {
   screen.fillText(metres >= 1000 ? metres / 1000 + ' km' : metres + ' m', x + length - 4, y - 6);
 }
 
-const counts = new Uint32Array(map.types.length);
+const counts = new Uint32Array(map.types.length), byDriver = [0, 0, 0, 0];
 function drawScene(now) {
-  const step = stepAt(time);
-  const next = Math.min(step + 1, times.length - 1);
-  const share = next > step ? Math.min(Math.max((time - times[step]) / (times[next] - times[step]), 0), 1) : 0;
+  const step = stepAt(time), share = shareOf(step);
   if (followed && poseAt(followed, step, share)) { view.x = pose.x; view.y = pose.y; }
   drawStill(now);
   screen.setTransform(dpr, 0, 0, dpr, 0, 0);
   drawSignals(step);
   counts.fill(0);
-  let byGamma = 0, alive = 0;
+  byDriver.fill(0);
+  let alive = 0;
   if (trails) for (const agent of agents) if (!hidden.has(agent.type) && poseAt(agent, step, share)) drawTrail(agent, step, colourOf(agent));
   if (followed && !trails) drawTrail(followed, step, css.accent);
   // people on foot last: they are small
   for (const walks of [false, true])
     for (const agent of agents) {
       if (map.types[agent.type].walks !== walks || !poseAt(agent, step, share)) continue;
-      ++counts[agent.type]; ++alive;
-      if (!agent.external) ++byGamma;
+      ++counts[agent.type]; ++alive; ++byDriver[pose.control];
       if (!hidden.has(agent.type)) drawAgent(agent);
     }
+  drawBond(step, share);
   drawEvents();
   drawScaleBar();
-  showState(step, share, alive, byGamma);
+  showMark();
+  showState(step, share, alive, byDriver);
 }

@@ -6,20 +6,35 @@ function drawTimeline() {
   if (!w || !h) return;
   timeline.canvas.width = timeline.picture.width = w;
   timeline.canvas.height = timeline.picture.height = h;
-  const ctx = timeline.picture.getContext('2d'), most = Math.max(1, ...[...recording.alive].filter((_, i) => i % 10 === 0));
+  const ctx = timeline.picture.getContext('2d');
+  const most = recording.alive.reduce((a, b) => Math.max(a, b), 1);
   const span = Math.max(end - begin, 1e-9);
   ctx.fillStyle = css.dim;
   ctx.globalAlpha = 0.28;
   for (let px = 0; px < w; ++px) {
     const step = stepAt(begin + px / w * span);
-    const tall = (recording.alive[step] || 0) / most * (h - 8 * dpr);
+    const tall = (recording.alive[step] || 0) / most * (h - 10 * dpr);
     ctx.fillRect(px, h - tall, 1, tall);
   }
   ctx.globalAlpha = 0.95;
-  for (const event of events) {
-    ctx.fillStyle = kEventColours[event.kind];
-    ctx.fillRect((event.time - begin) / span * w - dpr, 0, 2 * dpr, 7 * dpr);
+  // the grave ones last, over the others
+  for (const kind of [4, 7, 6, 5, 1, 3, 2, 0]) {
+    if (hiddenEvents.has(kind)) continue;
+    const places = eventsHere().filter(event => event.kind === kind).map(event => Math.min((event.time - begin) / span, 1) * w);
+    // where shapes would hide one another: how many there are
+    const crowded = places.length * 12 * dpr > w;
+    if (crowded) drawDensity(ctx, kEventColours[kind], places, w);
+    else for (const x of places) drawPin(ctx, kind, x, 5 * dpr, 4 * dpr);
   }
+}
+
+/// A band at the top, the taller the more happen there.
+function drawDensity(ctx, colour, places, w) {
+  const wide = 6 * dpr, bins = new Array(Math.ceil(w / wide) + 1).fill(0);
+  for (const x of places) ++bins[Math.max(Math.floor(x / wide), 0)];
+  const most = Math.max(...bins);
+  ctx.fillStyle = colour;
+  bins.forEach((count, i) => { if (count) ctx.fillRect(i * wide, 0, wide - dpr, (2 + 7 * count / most) * dpr); });
 }
 
 function moveCursor() {

@@ -37,6 +37,17 @@ function busyBox() {
   return {left: at(xs, .15) - 15, right: at(xs, .85) + 15, bottom: at(ys, .15) - 15, top: at(ys, .85) + 15};
 }
 
+/// All of the traffic where that can be seen so; else where most of it is now, near enough to tell cars from buses.
+function openView(box) {
+  fit(box);
+  const kNear = 4;  // [px/m]
+  const here = stepAt(time), xs = [], ys = [];
+  for (const agent of agents) if (poseAt(agent, here, 0)) { xs.push(pose.x); ys.push(pose.y); }
+  const place = view.scale < kNear && densestPlace(xs, ys, width / kNear, height / kNear);
+  if (place) Object.assign(view, {x: place.x, y: place.y, scale: kNear});
+  view.scale = Math.min(view.scale, 14);
+}
+
 /// The map is drawn once into a larger picture, which is then moved; a new one is drawn when the view has left it.
 function drawStill(now) {
   const margin = 1.5;

@@ -87,6 +87,8 @@ class ConflictMonitor {
 
   void add(const Scene& scene, const AgentTypeTable& types);
 
+  /// Those that are over, in order of their ends.
+  const std::vector<Conflict>& over() const { return over_; }
   /// Those that are over and those that aren't, in order of their beginning, then of ids.
   std::vector<Conflict> conflicts() const;
   SafetyResult result(const AgentTypeTable& types) const;

@@ -5,10 +5,12 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "base/subprocess.h"
 #include "io/output_file.h"
 #include "io/replay.h"
+#include "io/replay_page.h"
 #include "io/results.h"
 #include "support/small_net.h"
 #include "support/synthetic_traffic.h"
@@ -44,9 +46,10 @@ class Pages : public ::testing::Test {
       return names.try_emplace(id.value, testing::SyntheticTraffic::name_of(id)).first->second;
     };
     for (int tick = 0; tick < 200; ++tick) {
-      recorder.add(traffic.scene, &traffic.road, name);
+      recorder.add({traffic.scene, name, &traffic.road});
       if (tick == 60)
-        recorder.add_event(ReplayEventKind::Collision, 3.0, {20, 0}, AgentId{1}, AgentId{2});
+        recorder.add_event(
+            {ReplayEventKind::Collision, 3.0, {20, 0}, AgentId{1}, AgentId{2}, "0.2 m deep"});
       traffic.advance();
     }
     recorder.close();
@@ -97,6 +100,100 @@ TEST_F(Pages, ReplayPlaysInChromium) {
   EXPECT_NE(dom.find("<b id=\"time\">0:04.5</b>"), std::string::npos) << "the link's time is shown";
   EXPECT_NE(dom.find("Small &lt;town&gt;"), std::string::npos);
   EXPECT_NE(dom.find("collision ›"), std::string::npos);
+  EXPECT_NE(dom.find("driven by GAMMA"), std::string::npos);
+}
+
+TEST_F(Pages, BeginsWhereTrafficIsAndTellsOfMarksAndAgents) {
+  if (find_program("chromium").empty())
+    GTEST_SKIP() << "no chromium in PATH: the replay page was NOT tested in a browser";
+  record();
+  ASSERT_TRUE(program({"replay", (folder_ / "run").string()}).ok());
+  const fs::path page = folder_ / "run" / "replay.html";
+  std::string console;
+  const std::string marked = dom_of(page, "play=0&mark=0", console);
+  EXPECT_NE(marked.find("0:03.0 · collision · agent1 and agent2: 0.2 m deep"), std::string::npos);
+  EXPECT_NE(marked.find("<b id=\"time\">0:03.0</b>"), std::string::npos);
+  const std::string looked_at = dom_of(page, "play=0&t=2&follow=agent1&list=1", console);
+  EXPECT_NE(looked_at.find("velocity space: run with --inspect agent1"), std::string::npos);
+  EXPECT_NE(looked_at.find("nothing holds it back"), std::string::npos);
+  EXPECT_NE(looked_at.find("<em>collision</em><span>agent1 and agent2: 0.2 m deep</span>"),
+            std::string::npos);
+  EXPECT_EQ(console, "");
+}
+
+/// Width and height of a PNG.
+std::pair<unsigned, unsigned> png_size(const std::string& bytes) {
+  if (bytes.size() < 24 || bytes.substr(1, 3) != "PNG") return {0, 0};
+  const auto number = [&](std::size_t at) {
+    unsigned value = 0;
+    for (std::size_t i = at; i < at + 4; ++i)
+      value = value << 8 | static_cast<unsigned char>(bytes[i]);
+    return value;
+  };
+  return {number(16), number(20)};
+}
+
+TEST_F(Pages, MakesAPicture) {
+  record();
+  const std::string run = (folder_ / "run").string(), file = (folder_ / "a picture.png").string();
+  const ProcessResult bad = program({"replay", run, "--picture", "5", "--size", "big"});
+  EXPECT_EQ(bad.exit_code, 2) << bad.errors;
+  if (find_program("chromium").empty()) {
+    const ProcessResult without = program({"replay", run, "--picture", "5"});
+    EXPECT_EQ(without.exit_code, 2);
+    EXPECT_NE(without.errors.find("install Debian's package chromium"), std::string::npos);
+    GTEST_SKIP() << "no chromium in PATH: no picture was made";
+  }
+  const ProcessResult made =
+      program({"replay", run, "--picture", "5", "-o", file, "--size", "800x600"});
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  EXPECT_EQ(png_size(read_file(file)), std::pair(800u, 600u));
+  const ProcessResult late = program({"replay", run, "--picture", "99"});
+  EXPECT_EQ(late.exit_code, 2);
+  EXPECT_NE(late.errors.find("from 0.0 to 9.9 s"), std::string::npos) << late.errors;
+  EXPECT_FALSE(fs::exists(folder_ / "run" / "replay.png"));
+}
+
+TEST_F(Pages, NamesThePackageThatIsMissing) {
+  record();
+  ProcessRequest request;
+  request.arguments = {SUMOGAMMA_PROGRAM, "replay", (folder_ / "run").string(), "--picture", "5"};
+  request.environment = {{"PATH", "/nowhere"}, {"SUMO_HOME", "/nowhere"}};
+  const ProcessResult result = run_process(request);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.errors.find("install Debian's package chromium"), std::string::npos)
+      << result.errors;
+  request.arguments = {SUMOGAMMA_PROGRAM, "replay", (folder_ / "run").string(), "--video",
+                       (folder_ / "a.mp4").string()};
+  EXPECT_NE(run_process(request).errors.find("install Debian's package ffmpeg"), std::string::npos);
+}
+
+TEST_F(Pages, MakesAVideo) {
+  if (find_program("chromium").empty() || find_program("ffmpeg").empty() ||
+      find_program("ffprobe").empty())
+    GTEST_SKIP() << "no chromium or no ffmpeg in PATH: no video was made";
+  record();
+  const std::string run = (folder_ / "run").string(), file = (folder_ / "out.mp4").string();
+  const ProcessResult made = program({"replay", run, "--video", file, "--from", "2", "--to", "4",
+                                      "--fps", "10", "--size", "320x240"});
+  ASSERT_EQ(made.exit_code, 0) << made.errors;
+  ProcessRequest probe;
+  probe.arguments = {"ffprobe",
+                     "-v",
+                     "error",
+                     "-count_frames",
+                     "-show_entries",
+                     "stream=codec_name,width,height,nb_read_frames",
+                     "-of",
+                     "csv=p=0",
+                     file};
+  EXPECT_EQ(run_process(probe).output, "h264,320,240,21\n");
+  EXPECT_FALSE(fs::exists(file + ".part.mp4"));
+  EXPECT_EQ(program({"replay", run, "--video", file, "--from", "4", "--to", "2"}).exit_code, 2);
+  const ProcessResult nowhere =
+      program({"replay", run, "--video", "/nowhere/a.mp4", "--to", "1", "--size", "320x240"});
+  EXPECT_EQ(nowhere.exit_code, 2);
+  EXPECT_NE(nowhere.errors.find("ffmpeg"), std::string::npos) << nowhere.errors;
 }
 
 TEST_F(Pages, AnInterruptedRecordingPlaysToWhereItGot) {

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "io/output_file.h"
 #include "io/replay_map.h"
+#include "io/replay_page.h"
 #include "support/small_net.h"
 #include "support/synthetic_traffic.h"
 
@@ -47,13 +48,13 @@ TEST_F(Replay, PageIsSelfContained) {
   {
     ReplayRecorder recorder(folder_ / "replay.bin", "Small", net, traffic.types);
     for (int tick = 0; tick < 100; ++tick) {
-      recorder.add(traffic.scene, &traffic.road, name_);
+      recorder.add({traffic.scene, name_, &traffic.road});
       traffic.advance();
     }
-    recorder.add_event(ReplayEventKind::Collision, 2.0, {10, 0}, AgentId{1}, AgentId{2});
+    recorder.add_event({ReplayEventKind::Collision, 2.0, {10, 0}, AgentId{1}, AgentId{2}, ""});
     recorder.close();
     recorder.close();
-    EXPECT_THROW(recorder.add(traffic.scene, nullptr, name_), Error);
+    EXPECT_THROW(recorder.add({traffic.scene, name_}), Error);
   }
   write_replay_page(folder_ / "replay.html", folder_ / "replay.bin");
   const std::string page = read_file(folder_ / "replay.html");
@@ -69,7 +70,7 @@ TEST_F(Replay, WorksWithoutRoads) {
   agent.footprint = box_footprint(1, 1);
   append_agent(scene, agent);
   ReplayRecorder recorder(folder_ / "replay.bin", "Scene", RoadNetwork{}, default_agent_types());
-  recorder.add(scene, nullptr, name_);
+  recorder.add({scene, name_});
   recorder.close();
   EXPECT_NO_THROW(write_replay_page(folder_ / "replay.html", folder_ / "replay.bin"));
 }
