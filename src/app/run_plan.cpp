@@ -40,7 +40,7 @@ ControlRule rule_of_words(const std::string& option, const std::vector<std::stri
   ControlRule rule;
   for (const std::string& word : words) {
     if (word == "all" || word == "none" || word == "called")
-      throw Error(option, "'" + word + "' can't stand among types and ids");
+      throw Error(option, "'" + word + "' stands alone, among types and ids it means nothing");
     if (word.empty() || word.back() != '%') {
       rule.who.push_back(word);
       continue;
