@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +21,15 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
     }
   }
   return row.back();
+}
+
+/// Of things that have names the one whose name is nearest to a text; of equally near ones the
+/// first, of none the end. `name_of(thing)` gives a name.
+template <typename Range, typename NameOf>
+auto nearest_named(std::string_view text, const Range& range, NameOf name_of) {
+  return std::min_element(std::begin(range), std::end(range), [&](const auto& a, const auto& b) {
+    return edit_distance(text, name_of(a)) < edit_distance(text, name_of(b));
+  });
 }
 
 }  // namespace sumogamma

@@ -18,10 +18,8 @@ void check_planner(const std::string& name) {
   if (std::any_of(known.begin(), known.end(),
                   [&](const PlannerEntry& entry) { return entry.name == name; }))
     return;
-  const auto nearest = std::min_element(
-      known.begin(), known.end(), [&](const PlannerEntry& a, const PlannerEntry& b) {
-        return edit_distance(name, a.name) < edit_distance(name, b.name);
-      });
+  const auto nearest =
+      nearest_named(name, known, [](const PlannerEntry& entry) { return entry.name; });
   throw Error("[ego] planner", "'" + name.substr(0, 60) + "' is none, the nearest known one is '" +
                                    std::string(nearest->name) + "'");
 }

@@ -295,10 +295,8 @@ class Document {
       const auto found = std::find_if(bindings.begin(), bindings.end(),
                                       [&](const Binding& b) { return b.key == full; });
       if (found == bindings.end()) {
-        const auto nearest = std::min_element(
-            bindings.begin(), bindings.end(), [&](const Binding& a, const Binding& b) {
-              return edit_distance(full, a.key) < edit_distance(full, b.key);
-            });
+        const auto nearest =
+            nearest_named(full, bindings, [](const Binding& binding) { return binding.key; });
         fail(value, "unknown key '" + full + "', the nearest known one is '" + nearest->key + "'");
       }
       assign_to(value, *found);

@@ -20,10 +20,7 @@ namespace {
 void check_type(const std::string& where, const std::string& name, const AgentTypeTable& types) {
   const auto is = [&](const AgentType& type) { return type.name == name; };
   if (std::any_of(types.begin(), types.end(), is)) return;
-  const auto nearest =
-      std::min_element(types.begin(), types.end(), [&](const AgentType& a, const AgentType& b) {
-        return edit_distance(name, a.name) < edit_distance(name, b.name);
-      });
+  const auto nearest = nearest_named(name, types, [](const AgentType& type) { return type.name; });
   throw Error(where, "'" + name.substr(0, 60) + "' is no agent type, the nearest known one is '" +
                          nearest->name + "'");
 }

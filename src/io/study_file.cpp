@@ -46,9 +46,7 @@ class StudyDocument {
     for (const auto& [key, value] : table) {
       const std::string name(key.str());
       if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      const auto nearest = std::min_element(known.begin(), known.end(), [&](auto* a, auto* b) {
-        return edit_distance(name, a) < edit_distance(name, b);
-      });
+      const auto nearest = nearest_named(name, known, [](const char* one) { return one; });
       fail(value, "unknown key '" + name + "' of " + where + ", the nearest known one is '" +
                       *nearest + "'");
     }
@@ -393,10 +391,8 @@ void choose_baseline(const StudyDocument& document, Study& study) {
   const auto found = std::find_if(variants.begin(), variants.end(),
                                   [&](const StudyVariant& one) { return one.name == name; });
   if (found == variants.end()) {
-    const auto nearest = std::min_element(
-        variants.begin(), variants.end(), [&](const StudyVariant& a, const StudyVariant& b) {
-          return edit_distance(name, a.name) < edit_distance(name, b.name);
-        });
+    const auto nearest =
+        nearest_named(name, variants, [](const StudyVariant& variant) { return variant.name; });
     document.fail(
         *node, "no variant is called '" + name + "', the nearest one is '" + nearest->name + "'");
   }

@@ -21,9 +21,7 @@ void check_names(const RepairSet& names) {
   const std::vector<RepairName> known = all_repairs();
   for (const std::string& name : names) {
     const auto nearest =
-        std::min_element(known.begin(), known.end(), [&](const RepairName& a, const RepairName& b) {
-          return edit_distance(name, a.name) < edit_distance(name, b.name);
-        });
+        nearest_named(name, known, [](const RepairName& repair) { return repair.name; });
     if (nearest->name != name)
       throw Error("--without " + name, "no repair of this name: did you mean " +
                                            std::string(nearest->name) +

@@ -110,13 +110,12 @@ std::vector<ScoreMethodInfo> score_methods() { return {kMethods.begin(), kMethod
 
 void require_score_method(const std::string& name) {
   std::string known;
-  const ScoreMethodInfo* nearest = nullptr;
   for (const ScoreMethodInfo& info : kMethods) {
     if (name == info.name) return;
     known += (known.empty() ? "" : ", ") + std::string(info.name);
-    if (!nearest || edit_distance(name, info.name) < edit_distance(name, nearest->name))
-      nearest = &info;
   }
+  const auto nearest =
+      nearest_named(name, kMethods, [](const ScoreMethodInfo& info) { return info.name; });
   throw Error("--method " + name, "is no method of scores, did you mean " +
                                       std::string(nearest->name) + "? There are " + known);
 }

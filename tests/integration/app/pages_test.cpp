@@ -12,6 +12,7 @@
 #include "io/replay.h"
 #include "io/replay_page.h"
 #include "io/results.h"
+#include "support/headless.h"
 #include "support/small_net.h"
 #include "support/synthetic_traffic.h"
 
@@ -59,20 +60,9 @@ class Pages : public ::testing::Test {
   /// scripts in `console`.
   std::string dom_of(const fs::path& page, const std::string& wish, std::string& console) const {
     ProcessRequest request;
-    request.arguments = {find_program("chromium").string(),
-                         "--headless",
-                         "--no-sandbox",
-                         "--disable-gpu",
-                         "--no-first-run",
-                         "--disable-background-networking",
-                         "--disable-component-update",
-                         "--disable-sync",
-                         "--user-data-dir=" + (folder_ / "chromium").string(),
-                         "--virtual-time-budget=5000",
-                         "--window-size=1200,800",
-                         "--enable-logging=stderr",
-                         "--dump-dom",
-                         "file://" + page.string() + "#" + wish};
+    request.arguments = testing::headless_chromium(
+        folder_ / "chromium", {"--virtual-time-budget=5000", "--window-size=1200,800",
+                               "file://" + page.string() + "#" + wish});
     request.time_limit = 120;
     const ProcessResult result = run_process(request);
     EXPECT_TRUE(result.ok()) << describe_end(result, request.time_limit);

@@ -16,6 +16,7 @@
 
 #include "base/subprocess.h"
 #include "io/output_file.h"
+#include "support/headless.h"
 
 namespace sumogamma {
 namespace {
@@ -165,19 +166,9 @@ TEST_F(LiveRun, PlaysInChromium) {
   });
   { const Socket there = Socket::connected(free_port_); }
   ProcessRequest request;
-  request.arguments = {"chromium",
-                       "--headless",
-                       "--no-sandbox",
-                       "--disable-gpu",
-                       "--no-first-run",
-                       "--disable-background-networking",
-                       "--disable-component-update",
-                       "--disable-sync",
-                       "--user-data-dir=" + (folder_ / "chromium").string(),
-                       "--timeout=6000",
-                       "--enable-logging=stderr",
-                       "--dump-dom",
-                       "http://127.0.0.1:" + std::to_string(free_port_) + "/"};
+  request.arguments = testing::headless_chromium(
+      folder_ / "chromium",
+      {"--timeout=6000", "http://127.0.0.1:" + std::to_string(free_port_) + "/"});
   request.time_limit = 120;
   // it looks for as long as it likes, which may be too short to see much
   ProcessResult seen;
