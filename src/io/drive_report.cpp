@@ -29,7 +29,7 @@ struct FigureKind {
 constexpr FigureKind kFigures[] = {
     {"contact", "", "episodes with a contact", true},
     {"restricted_time_s", "s", "time to the goal, at most the limit", false},
-    {"speed_change_per_m", "m/s a m", "acceleration: |dv| over what was driven", false},
+    {"speed_change_per_m", "m/s per m", "changes of speed per metre driven", false},
     {"contact_moving", "", "contacts while the ego moved", true},
     {"contact_at_fault", "", "contacts at fault", true},
     {"near_miss", "", "episodes with a gap under 1 m", true},
@@ -121,7 +121,7 @@ std::string text_of(const IntervalEstimate& estimate) {
 
 /// One panel: a point and its interval for each drive.
 std::string panel_of(const DriveFigure& figure, const std::vector<std::string>& names) {
-  constexpr double kWidth = 300, kHeight = 220, kFoot = 40, kHead = 34;
+  constexpr double kWidth = 320, kHeight = 236, kFoot = 56, kHead = 34;
   double most = 0;
   for (const IntervalEstimate& one : figure.of) most = std::max(most, one.high);
   if (most <= 0.0) most = 1.0;
@@ -143,7 +143,9 @@ std::string panel_of(const DriveFigure& figure, const std::vector<std::string>& 
         "<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" y2=\"{2:.1f}\" stroke=\"#246\" "
         "stroke-width=\"2\"/><circle cx=\"{0:.1f}\" cy=\"{3:.1f}\" r=\"5\" fill=\"#246\"/><text "
         "x=\"{0:.1f}\" y=\"{4}\" text-anchor=\"middle\">{5}</text>",
-        x, height(one.low), height(one.high), height(one.value), kHeight - 18, escaped(names[k]));
+        x, height(one.low), height(one.high), height(one.value),
+        // every other name a line lower, so that long ones don't run into each other
+        kHeight - 34 + (k % 2 == 1 ? 16 : 0), escaped(names[k]));
   }
   return svg + "</svg>";
 }
