@@ -118,6 +118,12 @@ bool asks_for_more(const DemandRequest& request) {
   return request.window || !request.trips.empty() || !request.counts.empty();
 }
 
+/// How many of a type are alive on all of the map, with its trips weighed as they are in `pool`.
+double alive(const DemandRequest& request, const TypeDemand& demand, const TripPool& pool) {
+  const double asked = static_cast<double>(request.agents) * demand.report.share;
+  return request.window ? asked * mean_duration(pool) / mean_inside(pool) : asked;
+}
+
 /// How many of each type are alive while so many are asked for.
 void share_out(const DemandRequest& request, std::vector<TypeDemand>& demands) {
   double total_share = 0;
@@ -132,8 +138,7 @@ void share_out(const DemandRequest& request, std::vector<TypeDemand>& demands) {
       pool.agents = total_weight(pool) / 3600 * mean_duration(pool);
       continue;
     }
-    pool.agents = static_cast<double>(request.agents) * demand.report.share;
-    if (request.window) pool.agents *= mean_duration(pool) / mean_inside(pool);
+    pool.agents = alive(request, demand, pool);
   }
 }
 
@@ -144,6 +149,8 @@ BusiestLane weigh(const RoadNetwork& road, const DemandRequest& request,
   std::vector<TripPool> pools;
   for (TypeDemand& demand : demands) pools.push_back(std::move(demand.pool));
   BusiestLane busiest = weigh_trips(road, pools);
+  for (std::size_t i = 0; i < demands.size(); ++i)
+    if (!pools[i].fixed) pools[i].agents = alive(request, demands[i], pools[i]);
   if (!request.counts.empty()) {
     std::vector<TripPool*> vehicles;
     for (std::size_t i = 0; i < demands.size(); ++i)

@@ -76,9 +76,12 @@ void measure(const RoadNetwork& road, const TypeDemand& demand, std::span<const 
   for (std::size_t i = 0; i < route.size(); ++i) {
     const std::size_t edge = index_of(route[i]);
     trip.length += demand.graph.length[edge];
-    trip.duration += edge_duration(demand, edge);
+    trip.times.push_back(edge_duration(demand, edge));
+    trip.duration += trip.times.back();
     if (i == 0 || demand.walks) continue;
-    trip.duration += junction_delay(road, route[i - 1], route[i], mask);
+    const double lost = junction_delay(road, route[i - 1], route[i], mask);
+    trip.times.back() += lost;
+    trip.duration += lost;
     trip.steps.push_back(ways_between(road, route[i - 1], route[i], mask));
   }
 }

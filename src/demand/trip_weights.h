@@ -13,8 +13,9 @@ struct RoutedTrip {
       steps;            ///< from each edge to the next: the ways that the type may take, one a lane
   double length = 0;    ///< [m]
   double duration = 0;  ///< [s] on the empty road
-  double inside = 0;    ///< of the duration, within the window where there is one [s]
-  double weight = 1;    ///< how often it is driven, beside others of its type
+  std::vector<double> times;  ///< of the duration, by edge, with what is lost before it [s]
+  double inside = 0;          ///< of the duration, within the window where there is one [s]
+  double weight = 1;          ///< how often it is driven, beside others of its type
 };
 
 /// One type's trips while they are weighed.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "demand/trip_routing.h"
-
 namespace sumogamma {
 
 namespace {
@@ -29,11 +27,11 @@ void keep_trips_through(const RoadNetwork& road, const TripWindow& window, TypeD
   std::vector<double> shares(road.edges.size(), -1.0);
   for (RoutedTrip& trip : demand.pool.trips) {
     trip.inside = 0;
-    for (const std::string& name : trip.edges) {
-      const EdgeId edge = road.edge_by_name.at(name);
+    for (std::size_t i = 0; i < trip.edges.size(); ++i) {
+      const EdgeId edge = road.edge_by_name.at(trip.edges[i]);
       double& share = shares[index_of(edge)];
       if (share < 0) share = share_inside(road, window, edge);
-      trip.inside += share * edge_duration(demand, index_of(edge));
+      trip.inside += share * trip.times[i];
     }
   }
   std::erase_if(demand.pool.trips, [](const RoutedTrip& trip) { return trip.inside <= 0; });
