@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/spawn.h"
+
 namespace sumogamma {
 
 /// A program that runs beside this one and is talked to through pipes. Not started by a shell; what
@@ -42,7 +44,8 @@ class PipedProcess {
 
   Request request_;
   pid_t pid_ = -1;
-  int to_ = -1, from_ = -1, status_ = 0;
+  Pipe to_, from_;
+  int status_ = 0;
   bool ended_ = false;
   std::string unread_;
 };

@@ -1,9 +1,7 @@
 #include "base/subprocess.h"
 
-#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +16,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/spawn.h"
 
 namespace sumogamma {
 namespace {
@@ -30,100 +29,16 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// A pipe whose ends close themselves and are not inherited.
-struct Pipe {
-  int read_end = -1, write_end = -1;
-  Pipe() {
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("pipe", std::strerror(errno));
-    read_end = ends[0];
-    write_end = ends[1];
-  }
-  ~Pipe() {
-    close_read();
-    close_write();
-  }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-  void close_read() { close_end(read_end); }
-  void close_write() { close_end(write_end); }
-  static void close_end(int& end) {
-    if (end >= 0) close(end);
-    end = -1;
-  }
-};
-
-/// The spawn calls' two attribute objects, freed in every case.
-struct SpawnSetup {
-  posix_spawn_file_actions_t actions{};
-  posix_spawnattr_t attributes{};
-  SpawnSetup(const Pipe& out, const Pipe& err, const ProcessRequest& request) {
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    if (request.log.empty()) {
-      posix_spawn_file_actions_adddup2(&actions, out.write_end, STDOUT_FILENO);
-      posix_spawn_file_actions_adddup2(&actions, err.write_end, STDERR_FILENO);
-    } else {
-      posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, request.log.c_str(),
-                                       O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0644);
-      posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-    }
-    if (!request.folder.empty())
-      posix_spawn_file_actions_addchdir_np(&actions, request.folder.c_str());
-    posix_spawnattr_init(&attributes);
-    // own group, so that a child's children end with it; default signals, since ours ignores
-    // SIGPIPE
-    sigset_t defaults, none;
-    sigemptyset(&defaults);
-    for (int signal_number : {SIGINT, SIGTERM, SIGPIPE, SIGCHLD})
-      sigaddset(&defaults, signal_number);
-    sigemptyset(&none);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setsigdefault(&attributes, &defaults);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setflags(
-        &attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-  }
-  ~SpawnSetup() {
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
-  }
-  SpawnSetup(const SpawnSetup&) = delete;
-  SpawnSetup& operator=(const SpawnSetup&) = delete;
-};
-
-std::vector<std::string> merged_environment(const ProcessRequest& request) {
-  std::vector<std::string> merged;
-  for (char** entry = environ; *entry != nullptr; ++entry) {
-    const std::string_view text(*entry);
-    bool replaced = false;
-    for (const auto& [key, value] : request.environment)
-      replaced = replaced || (text.size() > key.size() && text.substr(0, key.size()) == key &&
-                              text[key.size()] == '=');
-    if (!replaced) merged.emplace_back(text);
-  }
-  for (const auto& [key, value] : request.environment) merged.push_back(key + "=" + value);
-  return merged;
-}
-
-std::vector<char*> c_strings(std::vector<std::string>& strings) {
-  std::vector<char*> pointers;
-  pointers.reserve(strings.size() + 1);
-  for (std::string& text : strings) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
 pid_t spawn(const ProcessRequest& request, const Pipe& out, const Pipe& err) {
-  SpawnSetup setup(out, err, request);
-  std::vector<std::string> arguments = request.arguments, environment = merged_environment(request);
-  const std::vector<char*> argv = c_strings(arguments), envp = c_strings(environment);
-  pid_t pid = -1;
-  const int failure =
-      posix_spawnp(&pid, argv[0], &setup.actions, &setup.attributes, argv.data(), envp.data());
-  if (failure != 0)
-    throw Error(request.arguments[0], std::string("cannot be started: ") + std::strerror(failure));
-  return pid;
+  Spawn program;
+  if (request.log.empty()) {
+    program.give(out.write_end, STDOUT_FILENO);
+    program.give(err.write_end, STDERR_FILENO);
+  } else {
+    program.log_into(request.log);
+  }
+  if (!request.folder.empty()) program.run_in(request.folder);
+  return program.start(request.arguments, request.environment);
 }
 
 /// Process groups of the children that run now.
