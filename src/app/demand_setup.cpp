@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/number_text.h"
 #include "base/print.h"
 #include "io/demand_files.h"
 #include "osm/geo_projection.h"
@@ -56,8 +55,8 @@ TripWindow window_on(const RoadNetwork& road, const std::vector<double>& degrees
 }
 
 long agents_alive(const DemandRequest& request, const DemandReport& report) {
-  const bool as_asked = !request.window && request.trips.empty() && request.counts.empty();
-  return as_asked ? request.agents : std::max(1L, std::lround(std::ceil(report.agents)));
+  return request.asks_for_more() ? std::max(1L, std::lround(std::ceil(report.agents)))
+                                 : request.agents;
 }
 
 void print_demand(std::FILE* out, const DemandReport& report) {

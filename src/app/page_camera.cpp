@@ -10,6 +10,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "base/subprocess.h"
@@ -95,55 +96,54 @@ PageCamera::PageCamera(const std::filesystem::path& page, const Shot& shot) {
 }
 
 void PageCamera::open(const std::filesystem::path& page, const Shot& shot) {
-  const Json target = Json::parse(ask("Target.createTarget", R"({"url": "about:blank"})"));
-  const Json attach = {{"targetId", target.at("targetId")}, {"flatten", true}};
-  session_ = Json::parse(ask("Target.attachToTarget", attach.dump())).at("sessionId");
-  const Json metrics = {
-      {"width", shot.width}, {"height", shot.height}, {"deviceScaleFactor", 1}, {"mobile", false}};
-  ask("Emulation.setDeviceMetricsOverride", metrics.dump());
-  ask("Page.navigate", Json{{"url", url_of(page) + "#" + shot.view}}.dump());
+  const Json target = ask("Target.createTarget", {{"url", "about:blank"}});
+  session_ = ask("Target.attachToTarget", {{"targetId", target.at("targetId")}, {"flatten", true}})
+                 .at("sessionId");
+  ask("Emulation.setDeviceMetricsOverride", {{"width", shot.width},
+                                             {"height", shot.height},
+                                             {"deviceScaleFactor", 1},
+                                             {"mobile", false}});
+  ask("Page.navigate", {{"url", url_of(page) + "#" + shot.view}});
   constexpr int kTries = 1200;  // a minute
   std::string state;
   for (int i = 0; i < kTries && state != "ready"; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    state =
-        Json::parse(evaluate("document.documentElement?.dataset.state ?? ''")).get<std::string>();
+    state = evaluate("document.documentElement?.dataset.state ?? ''").get<std::string>();
     if (state == "empty") throw Error(page.string(), "its recording holds no step");
     if (state == "error") throw Error(page.string(), "its recording can't be read");
   }
   if (state != "ready") throw Error(page.string(), "isn't shown within a minute");
-  const Json span = Json::parse(evaluate("window.replay.span()"));
+  const Json span = evaluate("window.replay.span()");
   begin_ = span.at(0);
   end_ = span.at(1);
 }
 
-std::string PageCamera::ask(const std::string& method, const std::string& parameters) {
-  Json message = {{"id", ++asked_}, {"method", method}, {"params", Json::parse(parameters)}};
+Json PageCamera::ask(const std::string& method, const Json& parameters) {
+  Json message = {{"id", ++asked_}, {"method", method}, {"params", parameters}};
   if (!session_.empty()) message["sessionId"] = session_;
   browser_->write(message.dump() + '\0');
   for (;;) {
-    const Json answer = Json::parse(browser_->read_until('\0'));
+    Json answer = Json::parse(browser_->read_until('\0'));
     if (answer.value("id", 0) != asked_) continue;  // an event
     if (answer.contains("error"))
       throw Error("chromium", method + ": " + answer["error"].value("message", "failed"));
-    return answer.at("result").dump();
+    return std::move(answer.at("result"));
   }
 }
 
-std::string PageCamera::evaluate(const std::string& expression) {
-  const Json answer = Json::parse(
-      ask("Runtime.evaluate", Json{{"expression", expression}, {"returnByValue", true}}.dump()));
+Json PageCamera::evaluate(const std::string& expression) {
+  const Json answer =
+      ask("Runtime.evaluate", {{"expression", expression}, {"returnByValue", true}});
   if (answer.contains("exceptionDetails"))
     throw Error("replay page", "its script failed at: " + expression);
-  return answer.at("result").value("value", Json()).dump();
+  return answer.at("result").value("value", Json());
 }
 
 std::string PageCamera::picture(double time, const std::string& format) {
   evaluate(fmt::format("window.replay.show({})", time));
   Json parameters = {{"format", format}};
   if (format == "jpeg") parameters["quality"] = 92;
-  const Json answer = Json::parse(ask("Page.captureScreenshot", parameters.dump()));
-  return decoded(answer.at("data"));
+  return decoded(ask("Page.captureScreenshot", parameters).at("data"));
 }
 
 }  // namespace sumogamma

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "base/piped_process.h"
@@ -40,8 +41,8 @@ class PageCamera {
   std::string picture(double time, const std::string& format);
 
  private:
-  std::string ask(const std::string& method, const std::string& parameters);
-  std::string evaluate(const std::string& expression);
+  nlohmann::json ask(const std::string& method, const nlohmann::json& parameters);
+  nlohmann::json evaluate(const std::string& expression);
   void open(const std::filesystem::path& page, const Shot& shot);
 
   ScratchFolder scratch_;

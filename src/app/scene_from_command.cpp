@@ -137,9 +137,7 @@ int make_scene(const SceneFromOptions& options, const CommonOptions& common) {
                 map.ends_with(".osm")
                     ? "is no SUMO network; Lanelet2 maps aren't read yet, expected NAME.net.xml"
                     : "is no SUMO network, expected NAME.net.xml or NAME.net.xml.gz");
-  if (!options.force && fs::exists(options.output / "scene.json"))
-    throw Error(options.output.string(),
-                "holds another scene.json, choose another folder or replace it with --force");
+  require_without(options.output, "scene.json", options.force);
   const RecordedScene scene =
       read_recorded_scene(options.recording, scene_reading(options.reading));
   const OutputFolder folder(options.output, options.force);

@@ -100,9 +100,7 @@ int score(const ScoreOptions& options, const CommonOptions& common) {
   settings.model = read_config({}, common.set).model;
   std::optional<OutputFolder> folder;
   if (!options.output.empty()) {
-    if (!options.force && fs::exists(options.output / "score.json"))
-      throw Error(options.output.string(),
-                  "holds another score.json, choose another folder or replace it with --force");
+    require_without(options.output, "score.json", options.force);
     folder.emplace(options.output, options.force);
   }
   std::vector<Scored> all;

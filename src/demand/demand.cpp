@@ -113,11 +113,6 @@ double car_units(const AgentType& type) {
   return type.length > 7.0 ? 2.0 : 1.0;
 }
 
-/// Does anything but the shares say how many of a type there are?
-bool asks_for_more(const DemandRequest& request) {
-  return request.window || !request.trips.empty() || !request.counts.empty();
-}
-
 /// How many of a type are alive on all of the map, with its trips weighed as they are in `pool`.
 double alive(const DemandRequest& request, const TypeDemand& demand, const TripPool& pool) {
   const double asked = static_cast<double>(request.agents) * demand.report.share;
@@ -162,7 +157,7 @@ BusiestLane weigh(const RoadNetwork& road, const DemandRequest& request,
   for (std::size_t i = 0; i < demands.size(); ++i) {
     TypeDemand& demand = demands[i];
     demand.pool = std::move(pools[i]);
-    if (asks_for_more(request)) demand.report.share = demand.pool.agents / report.agents;
+    if (request.asks_for_more()) demand.report.share = demand.pool.agents / report.agents;
     demand.report.mean_duration = mean_duration(demand.pool);
     demand.report.mean_length = mean_length(demand.pool);
   }

@@ -50,6 +50,9 @@ struct DemandRequest {
   double min_distance = 150.0;  ///< [m] of a trip, where the map allows
   double slowness = 1.3;        ///< mean trip duration over that of the empty road
   std::function<bool()> should_stop;
+
+  /// Does anything but the shares say how many of a type there are?
+  bool asks_for_more() const { return window || !trips.empty() || !counts.empty(); }
 };
 
 /// What came of one type.

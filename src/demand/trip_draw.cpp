@@ -130,8 +130,9 @@ void draw_trips_over(std::size_t edge, std::uint64_t seed, TypeDemand& demand) {
   int found = 0;
   for (int attempt = 0; attempt < kAttempts && found < kTrips; ++attempt) {
     const std::size_t from = graph.edges[draws.index(graph.edges.size())];
+    if (graph.length[from] < demand.type->length + 3.0) continue;
     const std::vector<double> distance = distances_from(graph, from);
-    if (graph.length[from] < demand.type->length + 3.0 || distance[edge] == kUnreachable) continue;
+    if (distance[edge] == kUnreachable) continue;
     std::vector<std::size_t> targets;
     std::vector<double> cumulative;
     double total = 0;

@@ -57,6 +57,13 @@ double worst_load(const RoadNetwork& road, const RoutedTrip& trip,
   return worst;
 }
 
+/// Mean over a pool by weight, with what others cost [s].
+double mean_time(const TripPool& pool, double RoutedTrip::*time) {
+  double seconds = 0;
+  for (const RoutedTrip& trip : pool.trips) seconds += trip.weight * trip.*time * pool.slowness;
+  return seconds / total_weight(pool);
+}
+
 /// Gives each fifth of the trips, by length, its share again.
 void restore_lengths(std::vector<RoutedTrip>& trips) {
   std::vector<std::size_t> by_length(trips.size());
@@ -88,17 +95,9 @@ double mean_length(const TripPool& pool) {
   return mean;
 }
 
-double mean_duration(const TripPool& pool) {
-  double seconds = 0;
-  for (const RoutedTrip& trip : pool.trips) seconds += trip.weight * trip.duration * pool.slowness;
-  return seconds / total_weight(pool);
-}
+double mean_duration(const TripPool& pool) { return mean_time(pool, &RoutedTrip::duration); }
 
-double mean_inside(const TripPool& pool) {
-  double seconds = 0;
-  for (const RoutedTrip& trip : pool.trips) seconds += trip.weight * trip.inside * pool.slowness;
-  return seconds / total_weight(pool);
-}
+double mean_inside(const TripPool& pool) { return mean_time(pool, &RoutedTrip::inside); }
 
 BusiestLane weigh_trips(const RoadNetwork& road, std::vector<TripPool>& pools) {
   std::vector<double> load(road.lanes.size());

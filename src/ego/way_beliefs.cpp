@@ -12,6 +12,13 @@ constexpr std::uint64_t kStranger = 1;  // seed of what nobody knows of anybody
 
 constexpr std::size_t kOn = 0;  // of ways on foot; the last one is to stop
 
+/// Where the belief about somebody is, or would be.
+template <typename Beliefs>
+auto place_of(Beliefs& beliefs, AgentId id) {
+  return std::lower_bound(beliefs.begin(), beliefs.end(), id,
+                          [](const WayBelief& belief, AgentId other) { return belief.id < other; });
+}
+
 /// Did a walker take another way than on or to a halt?
 bool has_turned(const WayBelief& belief) {
   const auto likeliest = static_cast<std::size_t>(
@@ -124,9 +131,7 @@ void send_along(const WayOn& way, std::size_t row, Fork& fork) {
 }
 
 const WayBelief* WayBeliefs::of(AgentId id) const {
-  const auto found =
-      std::lower_bound(beliefs_.begin(), beliefs_.end(), id,
-                       [](const WayBelief& belief, AgentId other) { return belief.id < other; });
+  const auto found = place_of(beliefs_, id);
   return found == beliefs_.end() || found->id != id ? nullptr : &*found;
 }
 
@@ -190,9 +195,7 @@ void WayBeliefs::take_in(const EgoView& view) {
   std::sort(rows.begin(), rows.end());
   for (const std::size_t row : rows) {
     const AgentId id = scene.id[row];
-    auto found =
-        std::lower_bound(beliefs_.begin(), beliefs_.end(), id,
-                         [](const WayBelief& belief, AgentId other) { return belief.id < other; });
+    auto found = place_of(beliefs_, id);
     const bool known = found != beliefs_.end() && found->id == id;
     if (known) found->seen = scene.time;
     const AgentType& type = type_of(view.world.model.types, scene.type[row]);

@@ -10,7 +10,6 @@
 #include "base/csv_text.h"
 #include "base/edit_distance.h"
 #include "base/error.h"
-#include "base/number_text.h"
 #include "io/output_file.h"
 
 namespace sumogamma {

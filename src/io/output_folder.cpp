@@ -63,6 +63,12 @@ bool is_being_written(const fs::path& folder) {
   return held;
 }
 
+void require_without(const fs::path& folder, std::string_view file, bool force) {
+  if (force || !fs::exists(folder / file)) return;
+  throw Error(folder.string(), "holds another " + std::string(file) +
+                                   ", choose another folder or replace it with --force");
+}
+
 OutputFolder::OutputFolder(fs::path folder, bool force)
     : folder_(std::move(folder)), existed_(fs::exists(folder_)) {
   make_output_folder(folder_);

@@ -39,6 +39,9 @@ class OutputFolder {
   std::optional<FolderLock> lock_;
 };
 
+/// Throws Error where a folder holds this file of somebody else, unless `force`.
+void require_without(const std::filesystem::path& folder, std::string_view file, bool force);
+
 /// Does a run write into the folder now? False where it isn't there.
 bool is_being_written(const std::filesystem::path& folder);
 
