@@ -48,6 +48,11 @@ constexpr double kTurnSteps = 4096.0, kNormalSteps = 65536.0;
 constexpr double kCentimetre = 0.01, kMillimetre = 0.001;
 constexpr unsigned kOnRoad = 16, kControlUnit = 32, kFoeFollows = 128;
 
+void append_count(std::uint64_t value, std::string& bytes) {
+  for (; value >= 0x80; value >>= 7) bytes.push_back(static_cast<char>((value & 0x7f) | 0x80));
+  bytes.push_back(static_cast<char>(value));
+}
+
 std::int64_t angle_steps(double angle, double steps) {
   return std::llround(angle / (2.0 * kPi) * steps) & (static_cast<std::int64_t>(steps) - 1);
 }
@@ -68,13 +73,7 @@ bool keeps_rules(const ReplayStep& step, std::size_t row) {
 
 }  // namespace
 
-void ReplayEncoder::put_count(std::uint64_t value) {
-  while (value >= 0x80) {
-    put_byte(static_cast<unsigned>(value) | 0x80u);
-    value >>= 7;
-  }
-  put_byte(static_cast<unsigned>(value));
-}
+void ReplayEncoder::put_count(std::uint64_t value) { append_count(value, buffer_); }
 
 void ReplayEncoder::put_signed(std::int64_t value) {
   put_count((static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63));
@@ -251,11 +250,7 @@ std::string replay_header(const std::string& title, const RoadNetwork& network,
                           const AgentTypeTable& types) {
   const std::string map = replay_map_json(title, network, types);
   std::string header = "SGR2";
-  // a count, as put_count has it
-  for (std::size_t size = map.size();; size >>= 7) {
-    header.push_back(static_cast<char>(size >= 0x80 ? (size & 0x7f) | 0x80 : size));
-    if (size < 0x80) break;
-  }
+  append_count(map.size(), header);
   return header + map;
 }
 
