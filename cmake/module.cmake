@@ -22,6 +22,29 @@ endif()
 target_include_directories(sumogamma_options INTERFACE ${PROJECT_SOURCE_DIR}/src)
 target_link_libraries(sumogamma_options INTERFACE Eigen3::Eigen Threads::Threads)
 
+option(SUMOGAMMA_PRECOMPILED_HEADERS "Parse what most sources include once" ON)
+if(SUMOGAMMA_PRECOMPILED_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # g++ 12 forgets that a precompiled header is the system's: it warns of libstdc++'s own moves of short strings
+  target_compile_options(sumogamma_options INTERFACE -Wno-array-bounds)
+endif()
+set(SUMOGAMMA_COMMON_HEADERS <algorithm> <array> <charconv> <chrono> <cmath> <filesystem> <fstream> <functional> <limits>
+  <map> <memory> <numeric> <optional> <set> <span> <sstream> <string> <string_view> <unordered_map> <vector>
+  <Eigen/Core> <fmt/format.h>)
+# sumogamma_precompile(TARGET KIND [HEADER...]): the first target of a kind (same flags) precompiles the common headers and
+# those named here, the others take them from it. They hide what a source forgot to include, so clang's presets go without.
+function(sumogamma_precompile target kind)
+  if(NOT SUMOGAMMA_PRECOMPILED_HEADERS)
+    return()
+  endif()
+  get_property(owner GLOBAL PROPERTY SUMOGAMMA_PRECOMPILED_${kind})
+  if(owner)
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  else()
+    target_precompile_headers(${target} PRIVATE ${SUMOGAMMA_COMMON_HEADERS} ${ARGN})
+    set_property(GLOBAL PROPERTY SUMOGAMMA_PRECOMPILED_${kind} ${target})
+  endif()
+endfunction()
+
 # sumogamma_module(NAME [DEPENDS MODULE...]): src/NAME/**/*.cpp becomes sumogamma_NAME. External libraries of a
 # module stand in cmake/dependencies.cmake as SUMOGAMMA_LIBS_<NAME>.
 function(sumogamma_module name)
@@ -32,6 +55,7 @@ function(sumogamma_module name)
   if(sources)
     add_library(sumogamma_${name} STATIC ${sources})
     target_link_libraries(sumogamma_${name} PUBLIC sumogamma_options ${ARG_DEPENDS} ${SUMOGAMMA_LIBS_${name}})
+    sumogamma_precompile(sumogamma_${name} modules)
   else()
     add_library(sumogamma_${name} INTERFACE)
     target_link_libraries(sumogamma_${name} INTERFACE sumogamma_options ${ARG_DEPENDS} ${SUMOGAMMA_LIBS_${name}})
