@@ -16,6 +16,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <system_error>
 
@@ -214,6 +215,14 @@ bool SumoProcess::running() {
   if (ended == pid_) wait_status_ = status;
   if (ended < 0 && errno == ECHILD) wait_status_ = 0;  // somebody else reaped it
   return !wait_status_;
+}
+
+double SumoProcess::cpu_seconds() const {
+  clockid_t clock{};
+  timespec used{};
+  if (wait_status_ || clock_getcpuclockid(pid_, &clock) != 0 || clock_gettime(clock, &used) != 0)
+    return 0.0;
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
 void SumoProcess::drain() {

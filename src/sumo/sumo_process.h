@@ -64,6 +64,8 @@ class SumoProcess {
   pid_t pid() const { return pid_; }
   /// Reaps the child if it has ended.
   bool running();
+  /// CPU time that it has used [s]; 0 once it has ended.
+  double cpu_seconds() const;
   /// Waits up to `seconds` for the end, reading its output meanwhile; true: ended.
   bool wait(double seconds);
   /// SIGTERM, `grace` seconds of patience, then SIGKILL; reaped on return.

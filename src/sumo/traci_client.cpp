@@ -49,12 +49,12 @@ Addresses resolve(const std::string& host, int port) {
 }
 
 // a connected socket, or -1 with errno
-int try_connect(const addrinfo& address, double deadline) {
+int try_connect(const addrinfo& address, Deadline& deadline) {
   const int fd = socket(address.ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (fd < 0) return -1;
   int error = 0;
   if (connect(fd, address.ai_addr, address.ai_addrlen) != 0) error = errno;
-  while (error == EINPROGRESS && now() < deadline) {
+  while (error == EINPROGRESS && deadline.left() > 0) {
     pollfd wait{fd, POLLOUT, 0};
     if (poll(&wait, 1, kSliceMs) > 0) {
       socklen_t size = sizeof error;
@@ -73,13 +73,28 @@ int try_connect(const addrinfo& address, double deadline) {
 
 }  // namespace
 
+Deadline::Deadline(double timeout, const SumoProcess* child)
+    : child_(child),
+      timeout_(timeout),
+      end_(now() + timeout),
+      cpu_before_(child != nullptr ? child->cpu_seconds() : 0.0) {}
+
+double Deadline::left() {
+  const double left = end_ - now();
+  if (left > 0 || child_ == nullptr || delays_ == kMostDelays) return left;
+  const double cpu = child_->cpu_seconds();
+  if (cpu - cpu_before_ < kBusyShare * timeout_) return left;
+  cpu_before_ = cpu;
+  ++delays_;
+  end_ = now() + timeout_;
+  return timeout_;
+}
+
 TraciClient::TraciClient(const std::string& host, int port, double timeout, SumoProcess* child)
     : where_(host + ":" + std::to_string(port)), child_(child) {
   const Addresses addresses = resolve(host, port);
-  const double deadline = now() + timeout;
-  // a child that loads its network isn't there yet; where nobody listens nobody may ever
-  const double patience =
-      child_ != nullptr ? deadline : std::min(deadline, now() + kRefusalPatience);
+  Deadline deadline(timeout, child_);
+  const double refused = now() + kRefusalPatience;
   int reason = ECONNREFUSED;
   while (true) {
     for (const addrinfo* address = addresses.get(); address != nullptr;
@@ -92,7 +107,9 @@ TraciClient::TraciClient(const std::string& host, int port, double timeout, Sumo
       child_->drain();
       if (!child_->running()) throw SumoError("SUMO", "ended while it was starting");
     }
-    if (now() >= (reason == ECONNREFUSED ? patience : deadline))
+    // a child that loads its network isn't there yet; where nobody listens nobody may ever
+    const bool nobody = child_ == nullptr && reason == ECONNREFUSED && now() >= refused;
+    if (nobody || deadline.left() <= 0)
       throw SumoError(where_, "no connection to SUMO: " + std::generic_category().message(reason));
     std::this_thread::sleep_for(std::chrono::milliseconds(child_ != nullptr ? 10 : 50));
   }
@@ -110,9 +127,9 @@ void TraciClient::fail(const std::string& what) {
   throw SumoError("SUMO", what);
 }
 
-void TraciClient::wait_for(short events, double deadline) {
+void TraciClient::wait_for(short events, Deadline& deadline) {
   while (true) {
-    const double left = deadline - now();
+    const double left = deadline.left();
     timed_out_ = left <= 0;
     if (timed_out_) fail("no answer within the time limit; it hangs or is stopped");
     pollfd fds[2] = {{fd_, events, 0}, {child_ != nullptr ? child_->output_fd() : -1, POLLIN, 0}};
@@ -124,7 +141,7 @@ void TraciClient::wait_for(short events, double deadline) {
   }
 }
 
-void TraciClient::send_all(std::span<const std::uint8_t> bytes, double deadline) {
+void TraciClient::send_all(std::span<const std::uint8_t> bytes, Deadline& deadline) {
   while (!bytes.empty()) {
     const ssize_t sent = send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent > 0) {
@@ -137,7 +154,7 @@ void TraciClient::send_all(std::span<const std::uint8_t> bytes, double deadline)
   }
 }
 
-void TraciClient::receive(std::size_t bytes, double deadline) {
+void TraciClient::receive(std::size_t bytes, Deadline& deadline) {
   // grow with what really arrives: a length that lies must not make us allocate
   std::size_t have = 0;
   reply_.resize(std::max(reply_.size(), std::min(bytes, kFirstAllocation)));
@@ -159,7 +176,7 @@ void TraciClient::receive(std::size_t bytes, double deadline) {
 
 std::span<const std::uint8_t> TraciClient::exchange(TraciWriter& message, double timeout) {
   if (fd_ < 0) throw SumoError("SUMO", "the connection is closed");
-  const double deadline = now() + timeout;
+  Deadline deadline(timeout, child_);
   constexpr std::size_t kHeader = 4;
   send_all(message.frame(), deadline);
   receive(kHeader, deadline);

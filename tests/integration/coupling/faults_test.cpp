@@ -132,6 +132,20 @@ TEST(Faults, ASlowStartIsWaitedFor) {
   EXPECT_GT(step.time, 0);
 }
 
+// a large network takes longer than any limit: who computes isn't given up
+TEST(Faults, AStartThatComputesIsWaitedForBeyondTheLimit) {
+  SumoStart start = request(
+      script("busy", "i=0\nwhile [ $i -lt 2000000 ]; do i=$((i+1)); done\nexec sumo \"$@\"\n"));
+  start.start_timeout = 0.4;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto sumo = start_traci_backend(start);
+  EXPECT_GT(seconds_since(begin), start.start_timeout)
+      << "the script is too quick to test anything";
+  SumoStep step;
+  sumo->step({}, {}, step);
+  EXPECT_GT(step.time, 0);
+}
+
 TEST(Faults, ATakenPortIsReplacedByAnother) {
   const std::string tries = scenario().folder().file("tries");
   const auto sumo = start_traci_backend(
