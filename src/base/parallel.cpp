@@ -1,5 +1,6 @@
 #include "base/parallel.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -8,60 +9,78 @@
 
 namespace sumogamma {
 
+namespace {
+
+// Waking a thread that sleeps takes longer than a loop over a hundred agents, and a tick has a
+// dozen such loops one after the other: who waits looks about for a while before it goes to sleep.
+constexpr int kLooks = 400;
+
+template <typename Happened>
+bool look_about_for(const Happened& happened) {
+  for (int look = 0; look < kLooks; ++look) {
+    if (happened()) return true;
+    std::this_thread::yield();  // a core that others need is theirs
+  }
+  return happened();
+}
+
+std::size_t range_begin(std::size_t worker, std::size_t count, std::size_t rows) {
+  return worker * rows / count;
+}
+
+}  // namespace
+
 struct Workers::Pool {
   std::mutex mutex;
   std::condition_variable work_ready;
   std::condition_variable work_done;
+  // written while nobody works; a new generation makes them known
   const std::function<void(std::size_t, std::size_t, std::size_t)>* body = nullptr;
   std::size_t rows = 0;
-  std::size_t generation = 0;
-  std::size_t pending = 0;
-  bool stopping = false;
-  std::exception_ptr failure;
+  std::atomic<std::size_t> generation = 0;
+  std::atomic<std::size_t> pending = 0;
+  std::atomic<bool> stopping = false;
+  std::exception_ptr failure;  // the mutex's
   std::vector<std::thread> threads;
+
+  template <typename Happened>
+  void wait(std::condition_variable& signal, const Happened& happened) {
+    if (look_about_for(happened)) return;
+    std::unique_lock lock(mutex);
+    signal.wait(lock, happened);
+  }
+  void work(std::size_t worker, std::size_t count);
 };
 
-namespace {
-std::size_t range_begin(std::size_t worker, std::size_t count, std::size_t rows) {
-  return worker * rows / count;
+void Workers::Pool::work(std::size_t worker, std::size_t count) {
+  for (std::size_t seen = 0;; ++seen) {
+    wait(work_ready, [&] { return stopping || generation != seen; });
+    if (stopping) return;
+    try {
+      const std::size_t begin = range_begin(worker, count, rows);
+      const std::size_t end = range_begin(worker + 1, count, rows);
+      if (begin < end) (*body)(worker, begin, end);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+    }
+    if (--pending > 0) continue;
+    const std::lock_guard lock(mutex);  // who is about to sleep sleeps, and is woken
+    work_done.notify_one();
+  }
 }
-}  // namespace
 
 Workers::Workers(std::size_t count) : count_(count == 0 ? 1 : count) {
   if (count_ == 1) return;
   pool_ = std::make_unique<Pool>();
-  for (std::size_t worker = 1; worker < count_; ++worker) {
-    pool_->threads.emplace_back([this, worker] {
-      Pool& pool = *pool_;
-      std::size_t seen = 0;
-      std::unique_lock lock(pool.mutex);
-      for (;;) {
-        pool.work_ready.wait(lock, [&] { return pool.stopping || pool.generation != seen; });
-        if (pool.stopping) return;
-        seen = pool.generation;
-        const auto* body = pool.body;
-        const std::size_t rows = pool.rows;
-        lock.unlock();
-        std::exception_ptr failure;
-        try {
-          const std::size_t begin = range_begin(worker, count_, rows);
-          const std::size_t end = range_begin(worker + 1, count_, rows);
-          if (begin < end) (*body)(worker, begin, end);
-        } catch (...) {
-          failure = std::current_exception();
-        }
-        lock.lock();
-        if (failure && !pool.failure) pool.failure = failure;
-        if (--pool.pending == 0) pool.work_done.notify_one();
-      }
-    });
-  }
+  for (std::size_t worker = 1; worker < count_; ++worker)
+    pool_->threads.emplace_back([this, worker] { pool_->work(worker, count_); });
 }
 
 Workers::~Workers() {
   if (!pool_) return;
   {
-    std::lock_guard lock(pool_->mutex);
+    const std::lock_guard lock(pool_->mutex);
     pool_->stopping = true;
   }
   pool_->work_ready.notify_all();
@@ -76,12 +95,12 @@ void Workers::for_each_range(
     return;
   }
   Pool& pool = *pool_;
+  pool.body = &body;
+  pool.rows = rows;
+  pool.failure = nullptr;
+  pool.pending = count_ - 1;
   {
-    std::lock_guard lock(pool.mutex);
-    pool.body = &body;
-    pool.rows = rows;
-    pool.failure = nullptr;
-    pool.pending = count_ - 1;
+    const std::lock_guard lock(pool.mutex);
     ++pool.generation;
   }
   pool.work_ready.notify_all();
@@ -92,8 +111,7 @@ void Workers::for_each_range(
   } catch (...) {
     own_failure = std::current_exception();
   }
-  std::unique_lock lock(pool.mutex);
-  pool.work_done.wait(lock, [&] { return pool.pending == 0; });
+  pool.wait(pool.work_done, [&] { return pool.pending == 0; });
   if (own_failure) std::rethrow_exception(own_failure);
   if (pool.failure) std::rethrow_exception(pool.failure);
 }
