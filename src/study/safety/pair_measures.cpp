@@ -76,9 +76,20 @@ Vec2 position_after(const MovingBody& body, double time) {
   return body.position + Vec2(change.y(), -change.x()) / body.turn_rate;
 }
 
-/// Could the outlines touch within the horizon, as far as the circles around them tell? Most pairs
-/// couldn't, and circles cost no polygons.
-bool may_touch(const MovingBody& a, const MovingBody& b, double horizon) {
+/// How long until two bodies can have come nearer by a gap [s]: to the speed with which they do so
+/// now (`swing` [m/s] more for outlines that turn) comes at most what either's turning adds.
+double time_to_close(const MovingBody& a, const MovingBody& b, double gap, double swing) {
+  const double speed = (a.velocity - b.velocity).norm() + swing;
+  const double change = a.velocity.norm() * std::abs(a.turn_rate) +
+                        b.velocity.norm() * std::abs(b.turn_rate);  // [m/s^2]
+  // the root of speed t + change t^2 / 2 = gap, written so that it holds without a change, too
+  const double root = speed + std::sqrt(speed * speed + 2.0 * change * gap);
+  return root > 0.0 ? 2.0 * gap / root : kNever;
+}
+
+/// When the circles around two outlines come so near that these could touch [s]; never where not
+/// within the horizon, as of most pairs. Circles cost no polygons.
+double time_to_circles(const MovingBody& a, const MovingBody& b, double horizon) {
   constexpr double kUnclear = 0.05, kLeastStep = 0.04;  // nearer circles tell nothing [m]
   const double reach = a.footprint.radius + b.footprint.radius + kUnclear;
   const Vec2 offset = b.position - a.position, relative = a.velocity - b.velocity;
@@ -86,26 +97,26 @@ bool may_touch(const MovingBody& a, const MovingBody& b, double horizon) {
     const double square = relative.squaredNorm();
     const double nearest =
         square > 0.0 ? std::clamp(offset.dot(relative) / square, 0.0, horizon) : 0.0;
-    return (offset - nearest * relative).norm() <= reach;
+    return (offset - nearest * relative).norm() <= reach ? 0.0 : kNever;
   }
-  const double closing = a.velocity.norm() + b.velocity.norm();
   for (double time = 0; time <= horizon;) {
-    const double apart = (position_after(b, time) - position_after(a, time)).norm() - reach;
-    if (apart <= 0.0 || closing <= 0.0) return apart <= 0.0;
-    time += std::max(apart, kLeastStep) / closing;
+    const MovingBody one = moved(a, time), other = moved(b, time);
+    const double apart = (other.position - one.position).norm() - reach;
+    if (apart <= 0.0) return time;
+    time += time_to_close(one, other, std::max(apart, kLeastStep), 0.0);
   }
-  return false;
+  return kNever;
 }
 
-double time_on_arcs(const MovingBody& a, const MovingBody& b, double horizon) {
-  const double closing = a.velocity.norm() + b.velocity.norm() +
-                         a.footprint.radius * std::abs(a.turn_rate) +
-                         b.footprint.radius * std::abs(b.turn_rate);
-  if (closing <= 0.0) return outline_gap(a, b) > 0.0 ? kNever : 0.0;
-  for (double time = 0; time <= horizon;) {
-    const double gap = outline_gap(moved(a, time), moved(b, time));
+/// `time`: before that they can't touch [s].
+double time_on_arcs(const MovingBody& a, const MovingBody& b, double time, double horizon) {
+  const double swing =
+      a.footprint.radius * std::abs(a.turn_rate) + b.footprint.radius * std::abs(b.turn_rate);
+  while (time <= horizon) {
+    const MovingBody one = moved(a, time), other = moved(b, time);
+    const double gap = outline_gap(one, other);
     if (gap <= kTouch) return time;
-    time += gap / closing;
+    time += time_to_close(one, other, gap, swing);
   }
   return kNever;
 }
@@ -126,8 +137,9 @@ double outline_gap(const MovingBody& a, const MovingBody& b) {
 }
 
 double time_to_collision(const MovingBody& a, const MovingBody& b, double horizon) {
-  if (!may_touch(a, b, horizon)) return kNever;
-  if (turns(a) || turns(b)) return time_on_arcs(a, b, horizon);
+  const double earliest = time_to_circles(a, b, horizon);
+  if (earliest > horizon) return kNever;
+  if (turns(a) || turns(b)) return time_on_arcs(a, b, earliest, horizon);
   // A moves against a B that stands
   const double time = time_to_enter(difference_of(a, b), a.velocity - b.velocity);
   return time <= horizon ? time : kNever;
