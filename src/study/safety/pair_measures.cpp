@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/closing.h"
 #include "geometry/heading.h"
 #include "geometry/rotation.h"
 #include "geometry/segment.h"
@@ -76,15 +77,12 @@ Vec2 position_after(const MovingBody& body, double time) {
   return body.position + Vec2(change.y(), -change.x()) / body.turn_rate;
 }
 
-/// How long until two bodies can have come nearer by a gap [s]: to the speed with which they do so
-/// now (`swing` [m/s] more for outlines that turn) comes at most what either's turning adds.
-double time_to_close(const MovingBody& a, const MovingBody& b, double gap, double swing) {
-  const double speed = (a.velocity - b.velocity).norm() + swing;
-  const double change = a.velocity.norm() * std::abs(a.turn_rate) +
-                        b.velocity.norm() * std::abs(b.turn_rate);  // [m/s^2]
-  // the root of speed t + change t^2 / 2 = gap, written so that it holds without a change, too
-  const double root = speed + std::sqrt(speed * speed + 2.0 * change * gap);
-  return root > 0.0 ? 2.0 * gap / root : kNever;
+/// How long two bodies stay apart by a gap at least [s], whatever they turn; `swing` [m/s]: of
+/// their outlines' ends.
+double time_apart(const MovingBody& a, const MovingBody& b, double gap, double swing) {
+  const double change =
+      a.velocity.norm() * std::abs(a.turn_rate) + b.velocity.norm() * std::abs(b.turn_rate);
+  return time_to_close(gap, (a.velocity - b.velocity).norm() + swing, change);
 }
 
 /// When the circles around two outlines come so near that these could touch [s]; never where not
@@ -103,7 +101,7 @@ double time_to_circles(const MovingBody& a, const MovingBody& b, double horizon)
     const MovingBody one = moved(a, time), other = moved(b, time);
     const double apart = (other.position - one.position).norm() - reach;
     if (apart <= 0.0) return time;
-    time += time_to_close(one, other, std::max(apart, kLeastStep), 0.0);
+    time += time_apart(one, other, std::max(apart, kLeastStep), 0.0);
   }
   return kNever;
 }
@@ -116,7 +114,7 @@ double time_on_arcs(const MovingBody& a, const MovingBody& b, double time, doubl
     const MovingBody one = moved(a, time), other = moved(b, time);
     const double gap = outline_gap(one, other);
     if (gap <= kTouch) return time;
-    time += time_to_close(one, other, gap, swing);
+    time += time_apart(one, other, gap, swing);
   }
   return kNever;
 }

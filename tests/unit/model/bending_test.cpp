@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "base/units.h"
 
@@ -15,6 +16,7 @@ AgentGeometry car(const Vec2& position, double heading, double speed) {
   agent.position = position;
   agent.forward = direction_of(heading);
   agent.guarded_half = Vec2(2.25, 0.9);
+  agent.radius = agent.guarded_half.norm();
   agent.speed = speed;
   agent.velocity = speed * agent.forward;
   return agent;
@@ -68,6 +70,30 @@ TEST(BendPast, TwoAbreastBendTogether) {
       bend_past(Arc(outer, bend_with(40, 4)), 4, Arc(inner, bend_with(36.8, 4)), 3.7, kBendTime));
   EXPECT_FALSE(bend_past(Arc(outer, bend_with(40, 4)), 4, Arc(inner, Vec2(1, 0)), 4, 4 * kBendTime))
       << "one goes straight on";
+}
+
+// moments that are left out, as the two can't have met until then, would have told the same
+TEST(BendPast, IsWhatEveryMomentSays) {
+  std::mt19937_64 random(7);
+  const auto draw = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int past = 0;
+  constexpr int kPairs = 4000;
+  for (int pair = 0; pair < kPairs; ++pair) {
+    const AgentGeometry one = car({0, 0}, draw(-kPi, kPi), draw(0, 30)),
+                        two = car({draw(-25, 25), draw(-8, 8)}, draw(-kPi, kPi), draw(0, 30));
+    const Arc a(one, draw(0.3, 1) * direction_of(draw(-1, 1))),
+        b(two, draw(0.3, 1) * direction_of(draw(-1, 1)));
+    const double speed_a = draw(0, 30), speed_b = draw(0, 30), time = draw(0.5, kBendTime);
+    bool apart = true;
+    for (double at = 0.15; at < time + 0.075; at += 0.15)
+      apart = apart && separation(a.body_after(speed_a * at), b.body_after(speed_b * at)) > 0.0;
+    EXPECT_EQ(bend_past(a, speed_a, b, speed_b, time), apart) << "pair " << pair;
+    past += apart ? 1 : 0;
+  }
+  EXPECT_GT(past, kPairs / 10);
+  EXPECT_LT(past, kPairs - kPairs / 10);
 }
 
 }  // namespace
