@@ -77,12 +77,15 @@ Vec2 position_after(const MovingBody& body, double time) {
   return body.position + Vec2(change.y(), -change.x()) / body.turn_rate;
 }
 
+/// How fast a body's velocity turns [m/s^2].
+double change_of(const MovingBody& body) {
+  return turns(body) ? body.velocity.norm() * std::abs(body.turn_rate) : 0.0;
+}
+
 /// How long two bodies stay apart by a gap at least [s], whatever they turn; `swing` [m/s]: of
 /// their outlines' ends.
 double time_apart(const MovingBody& a, const MovingBody& b, double gap, double swing) {
-  const double change =
-      a.velocity.norm() * std::abs(a.turn_rate) + b.velocity.norm() * std::abs(b.turn_rate);
-  return time_to_close(gap, (a.velocity - b.velocity).norm() + swing, change);
+  return time_to_close(gap, (a.velocity - b.velocity).norm() + swing, change_of(a) + change_of(b));
 }
 
 /// When the circles around two outlines come so near that these could touch [s]; never where not
@@ -90,13 +93,14 @@ double time_apart(const MovingBody& a, const MovingBody& b, double gap, double s
 double time_to_circles(const MovingBody& a, const MovingBody& b, double horizon) {
   constexpr double kUnclear = 0.05, kLeastStep = 0.04;  // nearer circles tell nothing [m]
   const double reach = a.footprint.radius + b.footprint.radius + kUnclear;
+  // straight ahead, give or take what their turning takes them aside
   const Vec2 offset = b.position - a.position, relative = a.velocity - b.velocity;
-  if (!turns(a) && !turns(b)) {
-    const double square = relative.squaredNorm();
-    const double nearest =
-        square > 0.0 ? std::clamp(offset.dot(relative) / square, 0.0, horizon) : 0.0;
-    return (offset - nearest * relative).norm() <= reach ? 0.0 : kNever;
-  }
+  const double square = relative.squaredNorm();
+  const double nearest =
+      square > 0.0 ? std::clamp(offset.dot(relative) / square, 0.0, horizon) : 0.0;
+  const double aside = 0.5 * horizon * horizon * (change_of(a) + change_of(b));
+  if ((offset - nearest * relative).norm() > reach + aside) return kNever;
+  if (!turns(a) && !turns(b)) return 0.0;
   for (double time = 0; time <= horizon;) {
     const MovingBody one = moved(a, time), other = moved(b, time);
     const double apart = (other.position - one.position).norm() - reach;
