@@ -80,6 +80,7 @@ Json settings_json(const Drive& drive, const CommonOptions& common) {
           {"agents_seen", ego.agents_seen},
           {"scenarios", ego.scenarios},
           {"depth", ego.depth},
+          {"trees", ego.trees},
           {"scene_steps", ego.scene_steps},
           {"deadline", ego.deadline},
           {"trusted", ego.trusted},

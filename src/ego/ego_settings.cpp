@@ -50,6 +50,8 @@ void check_search(const EgoSettings& settings) {
   for (const auto& [name, count] : counts)
     if (count < 1)
       throw Error("[ego] " + std::string(name) + " " + std::to_string(count), "must be 1 or more");
+  if (settings.trees != 1 && settings.trees != 2)
+    throw Error("[ego] trees " + std::to_string(settings.trees), "must be 1 or 2");
 }
 
 }  // namespace

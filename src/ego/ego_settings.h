@@ -23,6 +23,7 @@ struct EgoSettings {
   int agents_seen = 20;    ///< of those within kSeen the nearest: who planners reckon with
   int scenarios = 5;       ///< K of a search
   int depth = 12;          ///< D of a search [steps of 1/3 s]
+  int trees = 1;           ///< 2: over half of the scenarios each, in two threads
   int scene_steps = 3000;  ///< of a search, counted: the same plan anywhere
   double deadline = 0;     ///< of a search [s] on the clock; 0: none, else plans can't be repeated
   bool trusted = true;     ///< others count on it to do its share

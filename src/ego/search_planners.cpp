@@ -15,6 +15,7 @@ PlanSize size_of(const EgoSettings& settings) {
   size.search.depth = settings.depth;
   size.scene_steps = settings.scene_steps;
   size.deadline = settings.deadline;
+  size.trees = settings.trees;
   return size;
 }
 
@@ -25,7 +26,8 @@ DrivingSearch::DrivingSearch(SearchPlanner kind, PlanSize size, DrivingParameter
       size_(size),
       driving_(driving),
       others_(kind == SearchPlanner::PomdpSimple ? OthersModel::ConstantSpeed : OthersModel::Gamma),
-      beliefs_(others_) {
+      beliefs_(others_),
+      workers_(static_cast<std::size_t>(size.trees)) {
   driving_.discount = size_.search.discount;
 }
 
@@ -33,11 +35,12 @@ SearchDecision DrivingSearch::decide(const EgoView& view) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   const bool knows = kind_ == SearchPlanner::Oracle, rolls = kind_ == SearchPlanner::RolloutGamma;
-  forward_.follow(view.world.model);
+  for (int tree = 0; tree < size_.trees; ++tree)
+    forward_[static_cast<std::size_t>(tree)].follow(view.world.model);
   // the default policy looks at where everybody is and how fast, whatever they mean
-  if (!knows && kind_ != SearchPlanner::Policy) beliefs_.observe(view, forward_);
+  if (!knows && kind_ != SearchPlanner::Policy) beliefs_.observe(view, forward_[0]);
   const PlanRoot root = plan_root(view, beliefs_, knows, driving_.observed);
-  DrivingProblem problem(view, root, others_, driving_, forward_);
+  DrivingProblem problem(view, root, others_, driving_, forward_[0]);
 
   const std::uint32_t count = rolls ? size_.rollout_scenarios : size_.scenarios;
   const std::uint64_t key =
@@ -45,7 +48,7 @@ SearchDecision DrivingSearch::decide(const EgoView& view) {
   states_.resize(count);
   weights_.assign(count, 1.0 / count);
   for (std::uint32_t i = 0; i < count; ++i)
-    draw_scenario(forward_.model(), root, key, i, count, states_[i]);
+    draw_scenario(forward_[0].model(), root, key, i, count, states_[i]);
   SearchParameters parameters = size_.search;
   SearchBudget budget{.steps = size_.scene_steps};
   if (rolls) {  // each action once, and what the default policy makes of it
@@ -61,6 +64,10 @@ SearchDecision DrivingSearch::decide(const EgoView& view) {
     const std::vector<SearchParticle> particle = {{1.0, 0, 0, 0}};
     found.action = problem.default_action(ScenarioGroup<DrivingState>(particle, states_.data()));
     found.statistics.by_default = true;
+  } else if (size_.trees == 2 && count >= 2 && !rolls) {
+    DrivingProblem other(view, root, others_, driving_, forward_[1]);
+    found =
+        trees_.search({&problem, &other}, {states_, weights_, key}, parameters, budget, workers_);
   } else {
     found = tree_.search(problem, {states_, weights_, key}, parameters, budget);
   }

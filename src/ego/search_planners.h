@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "ego/driving_problem.h"
 #include "ego/planners.h"
+#include "planning/paired_search.h"
 #include "planning/search_budget.h"
 
 namespace sumogamma {
@@ -24,6 +26,7 @@ struct PlanSize {
   SearchParameters search{.depth = 12, .discount = 0.95, .gap_share = 0.97, .pruning = 0.001};
   std::int64_t scene_steps = 3000;  ///< a plan; counted, so that it is the same plan anywhere
   double deadline = 0;              ///< ends a search [s] on the clock; 0: none
+  int trees = 1;                    ///< 2: each over half of the scenarios, in a thread of its own
 };
 
 struct SearchDecision {
@@ -48,8 +51,10 @@ class DrivingSearch {
   DrivingParameters driving_;
   OthersModel others_;
   WayBeliefs beliefs_;
-  ForwardModel forward_;
+  std::array<ForwardModel, 2> forward_;  ///< one a tree
   BeliefTree<DrivingProblem> tree_;
+  PairedSearch<DrivingProblem> trees_;
+  Workers workers_;
   std::vector<DrivingState> states_;
   std::vector<double> weights_;
 };

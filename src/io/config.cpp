@@ -132,6 +132,7 @@ void bind_ego(EgoSettings& ego, std::vector<Binding>& bindings) {
   bindings.push_back({"ego.agents_seen", &ego.agents_seen, 1, false, 1000});
   bindings.push_back({"ego.scenarios", &ego.scenarios, 1, false, 10000});
   bindings.push_back({"ego.depth", &ego.depth, 1, false, 1000});
+  bindings.push_back({"ego.trees", &ego.trees, 1, false, 2});
   bindings.push_back({"ego.scene_steps", &ego.scene_steps, 1, false, 1e9});
   bindings.push_back({"ego.deadline", &ego.deadline, 0, false, 1e6});
   bindings.push_back({"ego.trusted", &ego.trusted});

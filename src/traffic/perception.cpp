@@ -15,10 +15,15 @@ namespace {
 void add_user(const TrafficView& view, const Path& path, std::size_t other, double reach,
               double aside, Surroundings& around) {
   const Scene& scene = view.scene;
-  const PolylinePosition place =
-      path.line.project(scene.position[other], around.along - reach, around.along + reach);
+  const double from = around.along - reach, to = around.along + reach;
   const double farthest = aside + scene.footprint[other].radius;
-  if (place.distance > farthest && place.along > 0.0) return;
+  PolylinePosition place = path.line.project_near(scene.position[other], from, to, farthest);
+  if (place.distance > farthest) {
+    // far aside, unless it is behind the path's begin
+    if (path.line.segment_at(from) > 0) return;
+    place = path.line.project(scene.position[other], from, to);
+    if (place.along > 0.0) return;
+  }
   const Vec2 direction = path.line.direction_at(place.along);
   const Vec2 from_line = scene.position[other] - path.line.point_at(place.along);
   // a path may begin close behind its agent: who is further back is there straight on

@@ -7,6 +7,8 @@ jobs=${JOBS:-$(nproc)}
 # a compiler cache is used where there is one, and never asked for
 if [[ -z ${CMAKE_CXX_COMPILER_LAUNCHER-} ]] && command -v ccache > /dev/null; then
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  # else it leaves out what is compiled with precompiled headers
+  export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS:-pch_defines,time_macros,include_file_mtime,include_file_ctime}
 fi
 
 headline() { printf '\n== %s (%d:%02d) ==\n' "$*" $((SECONDS / 60)) $((SECONDS % 60)); }

@@ -170,6 +170,28 @@ TEST_F(DrivingTest, ADeadlineCutsASearchAndIsSaid) {
   EXPECT_TRUE(decide(search).statistics.stopped);
 }
 
+// with two trees, too, and by both threads
+TEST_F(DrivingTest, TwoTreesDecideByHalfOfTheScenariosEach) {
+  add_ego(150, 6);
+  here_.add("car", {"WC", "CE"}, 165, 8);
+  here_.add("car", {"EC", "CS"}, 150, 8);
+  PlanSize size;
+  size.trees = 2;
+  DrivingSearch one(SearchPlanner::PomdpGamma, size), other(SearchPlanner::PomdpGamma, size),
+      single(SearchPlanner::PomdpGamma);
+  const SearchDecision first = decide(one);
+  --plan_;
+  const SearchDecision second = decide(other);
+  --plan_;
+  const SearchDecision by_one = decide(single);
+  EXPECT_EQ(first.action, second.action);
+  EXPECT_EQ(first.statistics.nodes, second.statistics.nodes);
+  EXPECT_EQ(first.statistics.lower, second.statistics.lower);
+  EXPECT_LE(first.statistics.steps, size.scene_steps + size.scene_steps / 10);
+  EXPECT_GT(first.statistics.steps, size.scene_steps / 2) << "it thinks as long";
+  EXPECT_NE(first.statistics.lower, by_one.statistics.lower) << "as two";
+}
+
 TEST_F(DrivingTest, APlanChangesNothingAndIsTheSameAgain) {
   add_ego(150, 6);
   here_.add("car", {"WC", "CE"}, 165, 8);
