@@ -20,6 +20,7 @@
 #include "prediction/methods.h"
 #include "prediction/plot.h"
 #include "prediction/report.h"
+#include "prediction/spread_training.h"
 #include "prediction/walking_training.h"
 
 namespace sumogamma {
@@ -34,7 +35,9 @@ struct PredictOptions {
   std::size_t samples = 0;
   double noise = 0;
   bool ablations = false;
-  std::string json, plots, walking_rows, exported;
+  std::string draws = "independent";
+  bool calibration = false;
+  std::string json, plots, walking_rows, spread_rows, exported;
   ReadingArguments reading;
   bool list_parameters = false;
 };
@@ -130,10 +133,18 @@ Batch read_batch(const PredictOptions& options, const Protocol& protocol, bool q
   return batch;
 }
 
-int write_training(const PredictOptions& options, const Batch& batch) {
-  std::ostringstream rows;
-  for (const TrackSet& set : batch.sets) write_walking_rows(rows, set, &set == &batch.sets.front());
-  write_text(options.walking_rows, rows.str());
+int write_training(const PredictOptions& options, const MethodSettings& settings,
+                   const Batch& batch) {
+  std::ostringstream walking, spread;
+  for (const TrackSet& set : batch.sets) {
+    const bool first = &set == &batch.sets.front();
+    if (!options.walking_rows.empty()) write_walking_rows(walking, set, first);
+    if (options.spread_rows.empty()) continue;
+    const TrackSet seen = options.noise > 0 ? with_noise(set, options.noise, settings.seed) : set;
+    write_spread_rows(spread, seen, set, settings.parameters, first);
+  }
+  if (!options.walking_rows.empty()) write_text(options.walking_rows, walking.str());
+  if (!options.spread_rows.empty()) write_text(options.spread_rows, spread.str());
   return kExitDone;
 }
 
@@ -152,11 +163,9 @@ nlohmann::ordered_json recording_json(const TrackSet& set) {
 void write_json(const PredictOptions& options, const CommonOptions& common, const Batch& batch,
                 const std::vector<Evaluation>& evaluations) {
   PredictorParameters parameters = parameters_from(common);
-  nlohmann::ordered_json json = {{"protocol", options.protocol},
-                                 {"memory", options.memory},
-                                 {"seed", common.seed},
-                                 {"samples", options.samples},
-                                 {"added_noise_m", options.noise}};
+  nlohmann::ordered_json json = {{"protocol", options.protocol}, {"memory", options.memory},
+                                 {"seed", common.seed},          {"samples", options.samples},
+                                 {"draws", options.draws},       {"added_noise_m", options.noise}};
   for (const NamedParameter& parameter : named_parameters(parameters))
     json["parameters"][parameter.name] = *parameter.value;
   json["recordings"] = nlohmann::ordered_json::array();
@@ -166,7 +175,7 @@ void write_json(const PredictOptions& options, const CommonOptions& common, cons
     json["left_out"].push_back({{"file", file}, {"why", why}});
   json["evaluations"] = nlohmann::ordered_json::array();
   for (const Evaluation& evaluation : evaluations)
-    json["evaluations"].push_back(to_json(evaluation, common.seed));
+    json["evaluations"].push_back(to_json(evaluation, evaluations, common.seed));
   write_text(options.json, json.dump(2) + "\n");
 }
 
@@ -219,13 +228,17 @@ int run(const PredictOptions& options, const CommonOptions& common) {
     throw Error("predict", "no recording given, expected one or more files");
   if (options.samples == 1)
     throw Error("--samples 1", "one sample is no distribution, expected 0 or at least 2");
+  if (options.calibration && options.samples == 0)
+    throw Error("--calibration", "is measured on samples, expected --samples N, too");
   const Protocol protocol = protocol_from_letter(options.protocol);
   const Memory memory = memory_from_name(options.memory);
-  const MethodSettings settings{parameters, options.samples, common.seed};
+  const MethodSettings settings{parameters, options.samples, common.seed,
+                                draws_from_name(options.draws)};
   const std::vector<std::string> names =
       options.methods.empty() ? default_methods(options.ablations, memory) : options.methods;
   const Batch batch = read_batch(options, protocol, common.quiet);
-  if (!options.walking_rows.empty()) return write_training(options, batch);
+  if (!options.walking_rows.empty() || !options.spread_rows.empty())
+    return write_training(options, settings, batch);
   ExportFile exported(options.exported);
   std::vector<Evaluation> evaluations;
   for (const TrackSet& truth : batch.sets) {
@@ -242,6 +255,7 @@ int run(const PredictOptions& options, const CommonOptions& common) {
   if (!options.plots.empty())
     for (const TrackSet& set : batch.sets) write_plots(options.plots, set, protocol, settings);
   print(common.out, "{}", to_table(evaluations, protocol, common.seed));
+  if (options.calibration) print(common.out, "{}", calibration_table(evaluations));
   if (!options.json.empty()) write_json(options, common, batch, evaluations);
   return batch.left_out.empty() ? kExitDone : kExitNotHeld;
 }
@@ -278,6 +292,16 @@ CommandRunner add_predict_command(CLI::App& parent) {
       ->check(whole_number(0, 10000))
       ->capture_default_str();
   command
+      ->add_option(
+          "--draws", options->draws,
+          "how samples are drawn: independent, or even (a sunflower over the distribution, "
+          "which flatters the best of few)")
+      ->capture_default_str();
+  command->add_flag(
+      "--calibration", options->calibration,
+      "with --samples: how often the truth lies in the 50 and 90 % regions, by class, "
+      "speed and step");
+  command
       ->add_option("--noise", options->noise,
                    "disturb what is observed by normal noise of this deviation [m]")
       ->check(finite_number(0.0, 10.0))
@@ -289,6 +313,8 @@ CommandRunner add_predict_command(CLI::App& parent) {
                       "write pictures (SVG) of the fullest frames to this folder");
   command->add_option("--walking-rows", options->walking_rows,
                       "write what tools/train_walking_model.py learns from to this file and end");
+  command->add_option("--spread-rows", options->spread_rows,
+                      "write what tools/train_spread.py learns from to this file and end");
   command->add_flag("--parameters", options->list_parameters, "print the parameters and end");
   return [options](const CommonOptions& common) { return run(*options, common); };
 }

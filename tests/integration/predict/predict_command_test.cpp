@@ -100,6 +100,38 @@ TEST(PredictCommand, SaysWhichMemoryAndKeepsPublishedRowsBesideStrict) {
   EXPECT_EQ(predict({named.string(), "--memory", "none"}).exit_code, 2);
 }
 
+TEST(PredictCommand, MeasuresSamplesByClassSpeedAndStep) {
+  const auto json_path = std::filesystem::temp_directory_path() / "sumogamma_samples.json";
+  for (const std::string draws : {"independent", "even"}) {
+    SCOPED_TRACE(draws);
+    const ProcessResult result =
+        predict({small_recording(), "--method", "gamma,cv", "--samples", "6", "--draws", draws,
+                 "--calibration", "--json", json_path.string()});
+    ASSERT_TRUE(result.ok()) << result.errors;
+    EXPECT_NE(result.output.find(draws + " draws"), std::string::npos) << result.output;
+    EXPECT_NE(result.output.find("Calibration:"), std::string::npos);
+    const auto json = nlohmann::json::parse(std::ifstream(json_path));
+    EXPECT_EQ(json.at("draws"), draws);
+    const auto& gamma = json.at("evaluations")[0];
+    EXPECT_EQ(gamma.at("draws"), draws);
+    EXPECT_EQ(gamma.at("against").at("method"), "cv");
+    const double difference =
+        gamma.at("ade").get<double>() - json.at("evaluations")[1].at("ade").get<double>();
+    EXPECT_NEAR(gamma.at("against").at("ade").get<double>(), difference, 1e-9);
+    EXPECT_FALSE(json.at("evaluations")[1].contains("against"));
+    std::size_t windows = 0;
+    double inside = 0;
+    for (const auto& stratum : gamma.at("calibration")) {
+      windows += stratum.at("windows").get<std::size_t>();
+      ASSERT_EQ(stratum.at("inside_90").size(), 12u);
+      for (const auto& share : stratum.at("inside_90"))
+        inside += share.get<double>() * stratum.at("windows").get<double>() / 12.0;
+    }
+    EXPECT_EQ(windows, gamma.at("windows").get<std::size_t>());
+    EXPECT_NEAR(inside / static_cast<double>(windows), gamma.at("inside_90").get<double>(), 1e-9);
+  }
+}
+
 TEST(PredictCommand, NamesEveryMethodInItsHelp) {
   const ProcessResult help = predict({"--help"});
   for (const char* name :
@@ -198,6 +230,8 @@ TEST(PredictCommand, RefusesBadInputWithOneLine) {
                                              {small_recording(), "--protocol", "Z"},
                                              {small_recording(), "--method", "magic"},
                                              {small_recording(), "--samples", "1"},
+                                             {small_recording(), "--draws", "lots"},
+                                             {small_recording(), "--calibration"},
                                              {small_recording(), "--set", "predict.luck=1"}}) {
     const ProcessResult result = predict(arguments);
     EXPECT_EQ(result.exit_code, 2);

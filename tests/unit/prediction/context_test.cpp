@@ -56,7 +56,13 @@ TEST(Companions, DoNotIncludeWheels) {
 /// Truth spreads `factor` times as far as was assumed: the scale must find out.
 double learned_scale(double factor) {
   SpreadCalibration calibration;
-  const Spread spread{Vec2(0, 1), 0.2, 0.1, 1.5};
+  Spread spread;
+  spread.forward = Vec2(0, 1);
+  for (std::size_t k = 0; k < kSpreadSteps; ++k) {
+    const double time = std::pow(0.4 * static_cast<double>(k + 1), 1.5);
+    spread.along[k] = 0.2 * time;
+    spread.across[k] = 0.1 * time;
+  }
   for (std::uint32_t agent = 0; agent < 400; ++agent) {
     const Vec2 normal(random_normal(3, agent, 0, Draw::ProcessNoise),
                       random_normal(3, agent, 1, Draw::ProcessNoise));
@@ -66,7 +72,7 @@ double learned_scale(double factor) {
       const double time = std::pow(0.4 * frame, 1.5);
       calibration.resolve(
           agent, Vec2(0, 0.5 * frame) + factor * time * Vec2(0.1 * normal.x(), 0.2 * normal.y()));
-      calibration.remember(agent, 0, straight, spread, 0.4);
+      calibration.remember(agent, 0, straight, spread);
       calibration.end_frame();
       // only the first prediction is compared: later ones start elsewhere
       for (Vec2& point : straight) point = Vec2(std::numeric_limits<double>::quiet_NaN(), 0);
