@@ -81,6 +81,8 @@ GammaPredictor::GammaPredictor(const AgentTypeTable& types, const PredictorParam
       parameters_(parameters),
       options_(options),
       period_(period),
+      walker_times_(parameters.walker.shape, period),
+      wheels_times_(parameters.wheels.shape, period),
       flow_(options.flow_cell_capacity) {
   if (options.use_obstacles) model_.obstacles = ObstacleIndex(obstacles);
   if (road == nullptr) return;
@@ -116,10 +118,10 @@ void GammaPredictor::measure_noise(const ObservedScene& scene) {
 }
 
 void GammaPredictor::forget() {
-  noise_ = {};
-  flow_ = FlowMemory(options_.flow_cell_capacity);
+  noise_.clear();
+  flow_.clear();
   calibration_ = {};
-  experts_ = {};
+  experts_.clear();
   memory_.clear();
   seen_ = {};
   rows_.clear();
@@ -232,10 +234,11 @@ void GammaPredictor::spread_rows() {
 }
 
 void GammaPredictor::ways(const ObservedAgent& agent, Row& row) const {
-  const KindParameters& kind = kind_of(agent.type);
+  const IntentionTimes& times =
+      walks(type_of(model_.types, agent.type)) ? walker_times_ : wheels_times_;
   const std::size_t known = has_road_ ? kIntentions : kFreeIntentions;
   for (std::size_t k = 0; k < known; ++k)
-    intended_path(static_cast<IntentionHypothesis>(k), row.motion, kind.shape, period_,
+    intended_path(static_cast<IntentionHypothesis>(k), row.motion, times,
                   std::span(row.way[k]).first(need_.steps));
   const double speed = row.motion.velocity.norm();
   row.on_road = false;
@@ -300,6 +303,7 @@ std::array<double, kExperts> GammaPredictor::expert_weights_of(std::uint32_t id,
 
 void GammaPredictor::expert_paths(const ObservedAgent& agent, const Row& row, std::size_t r,
                                   std::array<ExpertPath, kExperts>& paths) const {
+  static const FadedSteps kBrief(3), kLong(6), kFresh(8);
   auto path = [&](Expert expert) {
     return std::span(paths[static_cast<std::size_t>(expert)]).first(need_.steps);
   };
@@ -309,9 +313,9 @@ void GammaPredictor::expert_paths(const ObservedAgent& agent, const Row& row, st
   straight_path(mean_displacement(agent.position, 3), path(Expert::MeanDisplacement));
   straight_path(period_ * row.motion.velocity, path(Expert::Kalman));
   accelerating_path(agent.position, path(Expert::Acceleration));
-  turning_path(agent.position, 2, 3, path(Expert::BriefTurn));
-  turning_path(agent.position, 2, 6, path(Expert::LongTurn));
-  turning_path(agent.position, 1, 8, path(Expert::FreshTurn));
+  turning_path(agent.position, 2, kBrief, path(Expert::BriefTurn));
+  turning_path(agent.position, 2, kLong, path(Expert::LongTurn));
+  turning_path(agent.position, 1, kFresh, path(Expert::FreshTurn));
 }
 
 void GammaPredictor::weigh_experts(const ObservedScene& scene) {
@@ -379,13 +383,15 @@ void GammaPredictor::infer(const ObservedScene& scene) {
     AgentMemory& memory = memory_.at(agent.id);
     memory.expectation = {};
     if (agent.position.size() >= 2)
-      memory.expectation = expect_next({model_, scene_, geometry_, r, wanted, agent.now(), period_},
-                                       memory.belief, work_);
+      memory.expectation =
+          expect_next({model_, scene_, geometry_, r, wanted, agent.now(), period_, nearby_},
+                      memory.belief, work_);
   }
 }
 
 void GammaPredictor::set_scene(const ObservedScene& observed, Scene& scene) const {
   std::vector<Vec2> velocity;
+  velocity.reserve(rows_.size());
   for (const Row& row : rows_) velocity.push_back(row.motion.velocity);
   build_scene(model_.types, observed, velocity, scene);
   for (std::size_t r = 0; r < rows_.size(); ++r) {

@@ -171,6 +171,7 @@ class GammaPredictor {
   ObservationNoise noise_;
   double walker_noise_ = 0.02, wheels_noise_ = 0.02;  ///< deviations assumed now [m]
   MotionFilter walker_filter_, wheels_filter_;
+  IntentionTimes walker_times_, wheels_times_;
   FlowMemory flow_;
   SpreadCalibration calibration_;
   ExpertWeights experts_;
@@ -191,6 +192,7 @@ class GammaPredictor {
   Scene rolling_;
   TickGeometry geometry_;
   Workspace work_;
+  Nearby nearby_;
   Workers workers_{1};
   RollOut roll_out_;
 };
