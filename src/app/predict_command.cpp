@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/prediction_export.h"
 #include "app/reading_options.h"
 #include "app/validators.h"
 #include "base/error.h"
@@ -179,43 +180,11 @@ void write_json(const PredictOptions& options, const CommonOptions& common, cons
   write_text(options.json, json.dump(2) + "\n");
 }
 
-/// What --export writes, beside the file until it is whole.
-class ExportFile {
- public:
-  explicit ExportFile(const std::string& path) : path_(path), part_(path + ".part") {
-    if (path.empty()) return;
-    file_.open(part_);
-    file_ << "set,memory,method,agent,type,frame,step,sample,weight,x_m,y_m,true_x_m,true_y_m\n";
-    if (!file_) throw Error(path, "cannot be written");
-  }
-  ForecastSink sink(const std::string& prefix) {
-    if (path_.empty()) return {};
-    return [this, prefix](const ScoredForecast& told) {
-      const auto now = static_cast<std::size_t>(told.frame - told.truth.first);
-      for (std::size_t k = 0; k < told.predicted.size(); ++k) {
-        const Vec2 &at = told.predicted[k], &truth = told.truth.position[now + 1 + k];
-        print(file_, "{},{},{},{},{},{},{:.9g},{:.6f},{:.6f},{:.6f},{:.6f}\n", prefix,
-              told.truth.id, type_of(types_, told.truth.type).name, told.frame, k + 1, told.sample,
-              told.weight, at.x(), at.y(), truth.x(), truth.y());
-      }
-    };
-  }
-  void close() {
-    if (path_.empty()) return;
-    if (!file_.flush()) throw Error(path_, "cannot be written");
-    file_.close();
-    std::filesystem::rename(part_, path_);
-  }
-
- private:
-  template <typename... Fields>
-  static void print(std::ofstream& file, fmt::format_string<Fields...> format, Fields&&... fields) {
-    file << fmt::format(format, std::forward<Fields>(fields)...);
-  }
-  std::string path_, part_;
-  std::ofstream file_;
-  AgentTypeTable types_ = recorded_agent_types();
-};
+/// What is told to an export, where there is one.
+ForecastSink export_sink(ExportTable* table, const ExportLabels& labels) {
+  if (table == nullptr) return {};
+  return [table, labels](const ScoredForecast& told) { table->add(labels, told); };
+}
 
 int run(const PredictOptions& options, const CommonOptions& common) {
   PredictorParameters parameters = parameters_from(common);
@@ -239,19 +208,20 @@ int run(const PredictOptions& options, const CommonOptions& common) {
   const Batch batch = read_batch(options, protocol, common.quiet);
   if (!options.walking_rows.empty() || !options.spread_rows.empty())
     return write_training(options, settings, batch);
-  ExportFile exported(options.exported);
+  const std::unique_ptr<ExportTable> exported =
+      options.exported.empty() ? nullptr : make_export_table(options.exported);
   std::vector<Evaluation> evaluations;
   for (const TrackSet& truth : batch.sets) {
     const TrackSet seen = options.noise > 0 ? with_noise(truth, options.noise, common.seed) : truth;
     for (const std::string& name : names) {
       if (interrupted()) return kExitInterrupted;
       if (!common.quiet) print(stderr, "{}: {}\n", truth.name, name);
-      const std::string prefix = truth.name + "," + options.memory + "," + name;
-      evaluations.push_back(evaluate(make_method(name, settings, truth), seen, truth, protocol,
-                                     memory, exported.sink(prefix)));
+      evaluations.push_back(
+          evaluate(make_method(name, settings, truth), seen, truth, protocol, memory,
+                   export_sink(exported.get(), {truth.name, options.memory, name})));
     }
   }
-  exported.close();
+  if (exported) exported->close();
   if (!options.plots.empty())
     for (const TrackSet& set : batch.sets) write_plots(options.plots, set, protocol, settings);
   print(common.out, "{}", to_table(evaluations, protocol, common.seed));
@@ -306,8 +276,10 @@ CommandRunner add_predict_command(CLI::App& parent) {
                    "disturb what is observed by normal noise of this deviation [m]")
       ->check(finite_number(0.0, 10.0))
       ->capture_default_str();
-  command->add_option("--export", options->exported,
-                      "write a row for each agent, window, step and sample to this CSV file");
+  command->add_option(
+      "--export", options->exported,
+      "write a row for each agent, window, step and sample to this file: Parquet where "
+      "its name ends so, or else CSV");
   command->add_option("--json", options->json, "write all figures to this file");
   command->add_option("--plots", options->plots,
                       "write pictures (SVG) of the fullest frames to this folder");

@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <zstd.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "base/subprocess.h"
 
@@ -83,6 +86,58 @@ TEST(PredictCommand, ExportsWhatAnIndependentScorerNeeds) {
         }
     }
   }
+}
+
+/// Numbers of a column of a small Parquet file as ParquetWriter makes it, decoded by hand: one
+/// group, plain doubles compressed by zstd, the columns' pages one after the other.
+std::vector<std::vector<double>> parquet_pages(const std::string& path, std::size_t rows) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  std::vector<std::vector<double>> pages;
+  const std::string magic = "\x28\xb5\x2f\xfd";  // of a zstd frame
+  for (std::size_t at = bytes.find(magic); at != std::string::npos;) {
+    const std::size_t size = ZSTD_findFrameCompressedSize(bytes.data() + at, bytes.size() - at);
+    if (ZSTD_isError(size) != 0) break;
+    std::string plain(ZSTD_getFrameContentSize(bytes.data() + at, size), '\0');
+    ZSTD_decompress(plain.data(), plain.size(), bytes.data() + at, size);
+    std::vector<double> values;
+    if (plain.size() == rows * sizeof(double)) {
+      values.resize(rows);
+      std::memcpy(values.data(), plain.data(), plain.size());
+    }
+    pages.push_back(std::move(values));
+    at = bytes.find(magic, at + size);
+  }
+  return pages;
+}
+
+TEST(PredictCommand, ExportsTheSameToParquet) {
+  const auto folder = std::filesystem::temp_directory_path();
+  const std::string csv = (folder / "sumogamma_export.csv").string();
+  const std::string parquet = (folder / "sumogamma_export.parquet").string();
+  for (const std::string& file : {csv, parquet})
+    ASSERT_TRUE(predict({small_recording(), "--method", "cv,mean", "--export", file}).ok());
+  std::ifstream file(csv);
+  std::string line;
+  std::getline(file, line);
+  std::vector<std::vector<std::string>> rows;
+  while (std::getline(file, line)) {
+    std::vector<std::string>& fields = rows.emplace_back();
+    std::istringstream text(line);
+    for (std::string field; std::getline(text, field, ',');) fields.push_back(field);
+    ASSERT_EQ(fields.size(), 13u);
+  }
+  ASSERT_GT(rows.size(), 100u);
+  const auto pages = parquet_pages(parquet, rows.size());
+  ASSERT_EQ(pages.size(), 13u);
+  for (const std::size_t column : {3u, 5u, 6u, 7u, 8u, 9u, 10u, 11u, 12u}) {
+    ASSERT_EQ(pages[column].size(), rows.size()) << column;
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      ASSERT_NEAR(pages[column][row], std::stod(rows[row][column]), 1e-6) << column << " " << row;
+  }
+  EXPECT_FALSE(std::filesystem::exists(parquet + ".part"));
+  EXPECT_EQ(predict({small_recording(), "--export", "/nowhere/x.parquet"}).exit_code, 2);
+  EXPECT_EQ(predict({small_recording(), "--export", "/nowhere/x.csv"}).exit_code, 2);
 }
 
 TEST(PredictCommand, SaysWhichMemoryAndKeepsPublishedRowsBesideStrict) {
