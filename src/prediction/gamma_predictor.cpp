@@ -120,6 +120,7 @@ void GammaPredictor::measure_noise(const ObservedScene& scene) {
 void GammaPredictor::forget() {
   noise_.clear();
   flow_.clear();
+  trust_.clear();
   calibration_ = {};
   experts_.clear();
   memory_.clear();
@@ -142,6 +143,7 @@ void GammaPredictor::take_in(const ObservedScene& scene) {
   measure_noise(scene);
   for (const ObservedAgent& agent : scene.agents) {
     flow_.resolve(agent.id, agent.now());
+    trust_.resolve(agent.id, agent.now());
     calibration_.resolve(agent.id, agent.now());
     experts_.resolve(agent.id, agent.now(), kind_of(agent.type).experts);
   }
@@ -182,12 +184,16 @@ void GammaPredictor::remember(const ObservedScene& scene) {
     std::array<Vec2, FlowMemory::kSteps> expected = row.mean;
     for (std::size_t k = 0; k < need_.steps; ++k) expected[k] += row.learned[k] + row.together[k];
     flow_.remember(agent.id, agent.now(), row.motion.velocity, expected);
-    if (agent.position.size() < kCalibrated || !options_.learn_spread) continue;
-    for (std::size_t k = 0; k < expected.size(); ++k) expected[k] += row.flow[k] + agent.now();
+    if (agent.position.size() < kCalibrated) continue;
+    for (Vec2& point : expected) point += agent.now();
     const std::size_t kind = walks(type_of(model_.types, agent.type)) ? 0 : 1;
+    if (options_.use_flow) trust_.remember(agent.id, kind, expected, row.flow);
+    if (!options_.learn_spread) continue;
+    for (std::size_t k = 0; k < expected.size(); ++k) expected[k] += row.flow_share * row.flow[k];
     calibration_.remember(agent.id, kind, expected, spreads_[r]);
   }
   flow_.end_frame();
+  trust_.end_frame();
   calibration_.end_frame();
 }
 
@@ -339,6 +345,7 @@ void GammaPredictor::weigh_experts(const ObservedScene& scene) {
 
 void GammaPredictor::predecessors(const ObservedAgent& agent, Row& row) const {
   row.flow.fill(Vec2::Zero());
+  row.flow_share = trust_.share(walks(type_of(model_.types, agent.type)) ? 0 : 1);
   if (!options_.use_flow || !need_.forecast) return;
   row.flow = flow_.correction(agent.id, agent.now(), row.motion.velocity, kind_of(agent.type).flow);
 }
@@ -414,7 +421,7 @@ Forecast GammaPredictor::roll_out(const std::vector<Vec2>& path, std::size_t ste
 }
 
 Vec2 GammaPredictor::corrected(const Row& row, std::size_t step) {
-  return row.learned[step] + row.together[step] + row.flow[step];
+  return row.learned[step] + row.together[step] + row.flow_share * row.flow[step];
 }
 
 Forecast GammaPredictor::forecast(std::size_t steps) {

@@ -8,6 +8,7 @@
 #include "prediction/companions.h"
 #include "prediction/expert_weights.h"
 #include "prediction/flow_memory.h"
+#include "prediction/flow_trust.h"
 #include "prediction/observed_scene.h"
 #include "prediction/predictor_parameters.h"
 #include "prediction/road_guess.h"
@@ -125,6 +126,7 @@ class GammaPredictor {
     std::array<Vec2, FlowMemory::kSteps> learned;   ///< what the experts make of it [m]
     std::array<Vec2, FlowMemory::kSteps> together;  ///< correction by companions [m]
     std::array<Vec2, FlowMemory::kSteps> flow;      ///< correction by predecessors [m]
+    double flow_share = 1;                          ///< of it that is believed
   };
 
   /// What a frame's work is for.
@@ -173,6 +175,7 @@ class GammaPredictor {
   MotionFilter walker_filter_, wheels_filter_;
   IntentionTimes walker_times_, wheels_times_;
   FlowMemory flow_;
+  FlowTrust trust_;
   SpreadCalibration calibration_;
   ExpertWeights experts_;
   std::vector<WalkingFeatures> walking_;
