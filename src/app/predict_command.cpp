@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/prediction_export.h"
 #include "app/reading_options.h"
 #include "app/validators.h"
 #include "base/error.h"
@@ -20,6 +21,7 @@
 #include "prediction/methods.h"
 #include "prediction/plot.h"
 #include "prediction/report.h"
+#include "prediction/spread_training.h"
 #include "prediction/walking_training.h"
 
 namespace sumogamma {
@@ -34,7 +36,9 @@ struct PredictOptions {
   std::size_t samples = 0;
   double noise = 0;
   bool ablations = false;
-  std::string json, plots, walking_rows, exported;
+  std::string draws = "independent";
+  bool calibration = false;
+  std::string json, plots, walking_rows, spread_rows, exported;
   ReadingArguments reading;
   bool list_parameters = false;
 };
@@ -130,10 +134,18 @@ Batch read_batch(const PredictOptions& options, const Protocol& protocol, bool q
   return batch;
 }
 
-int write_training(const PredictOptions& options, const Batch& batch) {
-  std::ostringstream rows;
-  for (const TrackSet& set : batch.sets) write_walking_rows(rows, set, &set == &batch.sets.front());
-  write_text(options.walking_rows, rows.str());
+int write_training(const PredictOptions& options, const MethodSettings& settings,
+                   const Batch& batch) {
+  std::ostringstream walking, spread;
+  for (const TrackSet& set : batch.sets) {
+    const bool first = &set == &batch.sets.front();
+    if (!options.walking_rows.empty()) write_walking_rows(walking, set, first);
+    if (options.spread_rows.empty()) continue;
+    const TrackSet seen = options.noise > 0 ? with_noise(set, options.noise, settings.seed) : set;
+    write_spread_rows(spread, seen, set, settings.parameters, first);
+  }
+  if (!options.walking_rows.empty()) write_text(options.walking_rows, walking.str());
+  if (!options.spread_rows.empty()) write_text(options.spread_rows, spread.str());
   return kExitDone;
 }
 
@@ -152,11 +164,9 @@ nlohmann::ordered_json recording_json(const TrackSet& set) {
 void write_json(const PredictOptions& options, const CommonOptions& common, const Batch& batch,
                 const std::vector<Evaluation>& evaluations) {
   PredictorParameters parameters = parameters_from(common);
-  nlohmann::ordered_json json = {{"protocol", options.protocol},
-                                 {"memory", options.memory},
-                                 {"seed", common.seed},
-                                 {"samples", options.samples},
-                                 {"added_noise_m", options.noise}};
+  nlohmann::ordered_json json = {{"protocol", options.protocol}, {"memory", options.memory},
+                                 {"seed", common.seed},          {"samples", options.samples},
+                                 {"draws", options.draws},       {"added_noise_m", options.noise}};
   for (const NamedParameter& parameter : named_parameters(parameters))
     json["parameters"][parameter.name] = *parameter.value;
   json["recordings"] = nlohmann::ordered_json::array();
@@ -166,47 +176,15 @@ void write_json(const PredictOptions& options, const CommonOptions& common, cons
     json["left_out"].push_back({{"file", file}, {"why", why}});
   json["evaluations"] = nlohmann::ordered_json::array();
   for (const Evaluation& evaluation : evaluations)
-    json["evaluations"].push_back(to_json(evaluation, common.seed));
+    json["evaluations"].push_back(to_json(evaluation, evaluations, common.seed));
   write_text(options.json, json.dump(2) + "\n");
 }
 
-/// What --export writes, beside the file until it is whole.
-class ExportFile {
- public:
-  explicit ExportFile(const std::string& path) : path_(path), part_(path + ".part") {
-    if (path.empty()) return;
-    file_.open(part_);
-    file_ << "set,memory,method,agent,type,frame,step,sample,weight,x_m,y_m,true_x_m,true_y_m\n";
-    if (!file_) throw Error(path, "cannot be written");
-  }
-  ForecastSink sink(const std::string& prefix) {
-    if (path_.empty()) return {};
-    return [this, prefix](const ScoredForecast& told) {
-      const auto now = static_cast<std::size_t>(told.frame - told.truth.first);
-      for (std::size_t k = 0; k < told.predicted.size(); ++k) {
-        const Vec2 &at = told.predicted[k], &truth = told.truth.position[now + 1 + k];
-        print(file_, "{},{},{},{},{},{},{:.9g},{:.6f},{:.6f},{:.6f},{:.6f}\n", prefix,
-              told.truth.id, type_of(types_, told.truth.type).name, told.frame, k + 1, told.sample,
-              told.weight, at.x(), at.y(), truth.x(), truth.y());
-      }
-    };
-  }
-  void close() {
-    if (path_.empty()) return;
-    if (!file_.flush()) throw Error(path_, "cannot be written");
-    file_.close();
-    std::filesystem::rename(part_, path_);
-  }
-
- private:
-  template <typename... Fields>
-  static void print(std::ofstream& file, fmt::format_string<Fields...> format, Fields&&... fields) {
-    file << fmt::format(format, std::forward<Fields>(fields)...);
-  }
-  std::string path_, part_;
-  std::ofstream file_;
-  AgentTypeTable types_ = recorded_agent_types();
-};
+/// What is told to an export, where there is one.
+ForecastSink export_sink(ExportTable* table, const ExportLabels& labels) {
+  if (table == nullptr) return {};
+  return [table, labels](const ScoredForecast& told) { table->add(labels, told); };
+}
 
 int run(const PredictOptions& options, const CommonOptions& common) {
   PredictorParameters parameters = parameters_from(common);
@@ -219,29 +197,35 @@ int run(const PredictOptions& options, const CommonOptions& common) {
     throw Error("predict", "no recording given, expected one or more files");
   if (options.samples == 1)
     throw Error("--samples 1", "one sample is no distribution, expected 0 or at least 2");
+  if (options.calibration && options.samples == 0)
+    throw Error("--calibration", "is measured on samples, expected --samples N, too");
   const Protocol protocol = protocol_from_letter(options.protocol);
   const Memory memory = memory_from_name(options.memory);
-  const MethodSettings settings{parameters, options.samples, common.seed};
+  const MethodSettings settings{parameters, options.samples, common.seed,
+                                draws_from_name(options.draws)};
   const std::vector<std::string> names =
       options.methods.empty() ? default_methods(options.ablations, memory) : options.methods;
   const Batch batch = read_batch(options, protocol, common.quiet);
-  if (!options.walking_rows.empty()) return write_training(options, batch);
-  ExportFile exported(options.exported);
+  if (!options.walking_rows.empty() || !options.spread_rows.empty())
+    return write_training(options, settings, batch);
+  const std::unique_ptr<ExportTable> exported =
+      options.exported.empty() ? nullptr : make_export_table(options.exported);
   std::vector<Evaluation> evaluations;
   for (const TrackSet& truth : batch.sets) {
     const TrackSet seen = options.noise > 0 ? with_noise(truth, options.noise, common.seed) : truth;
     for (const std::string& name : names) {
       if (interrupted()) return kExitInterrupted;
       if (!common.quiet) print(stderr, "{}: {}\n", truth.name, name);
-      const std::string prefix = truth.name + "," + options.memory + "," + name;
-      evaluations.push_back(evaluate(make_method(name, settings, truth), seen, truth, protocol,
-                                     memory, exported.sink(prefix)));
+      evaluations.push_back(
+          evaluate(make_method(name, settings, truth), seen, truth, protocol, memory,
+                   export_sink(exported.get(), {truth.name, options.memory, name})));
     }
   }
-  exported.close();
+  if (exported) exported->close();
   if (!options.plots.empty())
     for (const TrackSet& set : batch.sets) write_plots(options.plots, set, protocol, settings);
   print(common.out, "{}", to_table(evaluations, protocol, common.seed));
+  if (options.calibration) print(common.out, "{}", calibration_table(evaluations));
   if (!options.json.empty()) write_json(options, common, batch, evaluations);
   return batch.left_out.empty() ? kExitDone : kExitNotHeld;
 }
@@ -278,17 +262,31 @@ CommandRunner add_predict_command(CLI::App& parent) {
       ->check(whole_number(0, 10000))
       ->capture_default_str();
   command
+      ->add_option(
+          "--draws", options->draws,
+          "how samples are drawn: independent, or even (a sunflower over the distribution, "
+          "which flatters the best of few)")
+      ->capture_default_str();
+  command->add_flag(
+      "--calibration", options->calibration,
+      "with --samples: how often the truth lies in the 50 and 90 % regions, by class, "
+      "speed and step");
+  command
       ->add_option("--noise", options->noise,
                    "disturb what is observed by normal noise of this deviation [m]")
       ->check(finite_number(0.0, 10.0))
       ->capture_default_str();
-  command->add_option("--export", options->exported,
-                      "write a row for each agent, window, step and sample to this CSV file");
+  command->add_option(
+      "--export", options->exported,
+      "write a row for each agent, window, step and sample to this file: Parquet where "
+      "its name ends so, or else CSV");
   command->add_option("--json", options->json, "write all figures to this file");
   command->add_option("--plots", options->plots,
                       "write pictures (SVG) of the fullest frames to this folder");
   command->add_option("--walking-rows", options->walking_rows,
                       "write what tools/train_walking_model.py learns from to this file and end");
+  command->add_option("--spread-rows", options->spread_rows,
+                      "write what tools/train_spread.py learns from to this file and end");
   command->add_flag("--parameters", options->list_parameters, "print the parameters and end");
   return [options](const CommonOptions& common) { return run(*options, common); };
 }

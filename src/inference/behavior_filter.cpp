@@ -33,8 +33,9 @@ Vec2 pass(const Question& asked, std::size_t intention, std::size_t attention,
   behavior.attention =
       attention_of(type_of(asked.model.types, asked.scene.type[asked.row]), attention);
   behavior.responsibility = responsibility_of(responsibility);
-  return asked.position + asked.period * gamma_velocity(asked.model, asked.scene, asked.geometry,
-                                                        asked.row, behavior, work);
+  return asked.position + asked.period * gamma_velocity_among(asked.model, asked.scene,
+                                                              asked.geometry, behavior,
+                                                              asked.nearby, work);
 }
 
 bool neighbour_binds_in(const Workspace& work) {
@@ -49,11 +50,14 @@ Expectation expect_next(const Question& asked, const Belief& belief, Workspace& 
   const std::size_t responsibility = belief.responsibility.most_likely();
   Expectation expectation;
   expectation.valid = true;
+  const AgentType& type = type_of(asked.model.types, asked.scene.type[asked.row]);
+  find_nearby(asked.model.road, asked.geometry, asked.row, attention_of(type, kAttentions - 1),
+              asked.nearby);
   bool neighbour_binds = false;
   for (std::size_t k = 0; k < kIntentions; ++k) {
     expectation.by_intention[k] = asked.position;
     // what the prior rules out needs no pass
-    if (belief.intention.log_weight[k] <= -1e299) continue;
+    if (belief.intention.ruled_out(k)) continue;
     expectation.by_intention[k] = pass(asked, k, attention, responsibility, work);
     if (k == likeliest) neighbour_binds = neighbour_binds_in(work);
   }
@@ -71,11 +75,16 @@ Expectation expect_next(const Question& asked, const Belief& belief, Workspace& 
 
 namespace {
 template <std::size_t N>
-std::array<double, N> log_likelihoods(const std::array<Vec2, N>& expected, const Vec2& seen,
+std::array<double, N> log_likelihoods(const HypothesisWeights<N>& belief,
+                                      const std::array<Vec2, N>& expected, const Vec2& seen,
                                       double deviation) {
   std::array<double, N> result{};
-  for (std::size_t k = 0; k < N; ++k)
-    result[k] = log_likelihood((seen - expected[k]).norm(), deviation);
+  for (std::size_t k = 0; k < N; ++k) {
+    if (belief.ruled_out(k)) continue;
+    // mostly nothing tells the hypotheses apart
+    const bool same = k > 0 && !belief.ruled_out(k - 1) && expected[k] == expected[k - 1];
+    result[k] = same ? result[k - 1] : log_likelihood((seen - expected[k]).norm(), deviation);
+  }
   return result;
 }
 }  // namespace
@@ -87,9 +96,12 @@ void update_belief(const FilterParameters& parameters, const Expectation& expect
   belief.responsibility.forget(parameters.change_of_mind, parameters.responsibility_prior);
   if (!expectation.valid) return;
   const double deviation = std::hypot(parameters.deviation, noise);
-  belief.intention.update(log_likelihoods(expectation.by_intention, seen, deviation));
-  belief.attention.update(log_likelihoods(expectation.by_attention, seen, deviation));
-  belief.responsibility.update(log_likelihoods(expectation.by_responsibility, seen, deviation));
+  belief.intention.update(
+      log_likelihoods(belief.intention, expectation.by_intention, seen, deviation));
+  belief.attention.update(
+      log_likelihoods(belief.attention, expectation.by_attention, seen, deviation));
+  belief.responsibility.update(
+      log_likelihoods(belief.responsibility, expectation.by_responsibility, seen, deviation));
 }
 
 }  // namespace sumogamma

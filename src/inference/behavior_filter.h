@@ -4,7 +4,7 @@
 
 #include "inference/belief.h"
 #include "inference/hypotheses.h"
-#include "model/gamma_velocity.h"
+#include "model/nearby.h"
 
 namespace sumogamma {
 
@@ -47,6 +47,7 @@ struct Question {
   const std::array<Vec2, kIntentions>& wanted;  ///< velocity by intention over the period [m/s]
   Vec2 position;                                ///< the observed point that moves with it [m]
   double period;                                ///< [s]
+  Nearby& nearby;                               ///< scratch
 };
 
 /// Eq. 8 for one row: one pass of gamma_velocity a hypothesis. Attention and responsibility are

@@ -25,9 +25,13 @@ struct HypothesisWeights {
 
   std::array<double, N> weights() const {
     std::array<double, N> w{};
-    for (std::size_t k = 0; k < N; ++k) w[k] = std::exp(log_weight[k]);
+    for (std::size_t k = 0; k < N; ++k)
+      if (!ruled_out(k)) w[k] = std::exp(log_weight[k]);
     return w;
   }
+
+  /// A hypothesis that the prior left nothing.
+  bool ruled_out(std::size_t k) const { return log_weight[k] <= -1e299; }
 
   /// Index of the largest weight, the first of equals.
   std::size_t most_likely() const {
@@ -62,10 +66,12 @@ struct HypothesisWeights {
     double most = log_weight[0];
     for (const double w : log_weight) most = w > most ? w : most;
     double sum = 0;
-    for (const double w : log_weight) sum += std::exp(w - most);
+    for (std::size_t k = 0; k < N; ++k)
+      if (!ruled_out(k)) sum += std::exp(log_weight[k] - most);
     if (!std::isfinite(sum) || !std::isfinite(most) || most <= -1e299) return false;
     const double scale = most + std::log(sum);
-    for (double& w : log_weight) w = w <= -1e299 ? -1e300 : w - scale;
+    for (std::size_t k = 0; k < N; ++k)
+      log_weight[k] = ruled_out(k) ? -1e300 : log_weight[k] - scale;
     return true;
   }
 };

@@ -1,6 +1,7 @@
 #include "inference/hypotheses.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "geometry/rotation.h"
@@ -34,39 +35,51 @@ double faded_time(double rate, double time) {
 }
 
 /// Speed and direction, each with its own fading change. Integrated by the midpoint of each period.
-void turning_path(const MotionEstimate& motion, const IntentionShape& shape, double period,
+void turning_path(const MotionEstimate& motion, const IntentionTimes& times,
                   std::span<Vec2> displacement) {
   const double speed = motion.velocity.norm();
   const Vec2 forward = speed > 1e-9 ? Vec2(motion.velocity / speed) : Vec2(1, 0);
   const double pull = motion.acceleration.dot(forward);
   Vec2 place = Vec2::Zero();
   for (std::size_t k = 0; k < displacement.size(); ++k) {
-    const double middle = (static_cast<double>(k) + 0.5) * period;
-    const double turned = motion.turn_rate * faded_time(1.0 / shape.turn_decay, middle);
-    const double gained = pull * faded_time(1.0 / shape.acceleration_decay, middle);
-    const double kept = speed * std::exp(-shape.speed_decay * middle);
-    place += std::max(0.0, kept + gained) * period * from_body(rotation(turned), forward);
+    const double turned = motion.turn_rate * times.turn[k];
+    const double gained = pull * times.faster[k];
+    const double kept = speed * times.kept[k];
+    place += std::max(0.0, kept + gained) * times.period * from_body(rotation(turned), forward);
     displacement[k] = place;
   }
 }
 }  // namespace
 
+IntentionTimes::IntentionTimes(const IntentionShape& shape, double step)
+    : period(step), acceleration_decay(shape.acceleration_decay) {
+  for (std::size_t k = 0; k < kMost; ++k) {
+    const double time = (static_cast<double>(k) + 1.0) * period;
+    const double middle = (static_cast<double>(k) + 0.5) * period;
+    way[k] = faded_time(shape.speed_decay, time);
+    gain[k] = time - faded_time(1.0 / shape.acceleration_decay, time);
+    stop[k] = faded_time(1.0 / shape.stop_time, time);
+    turn[k] = faded_time(1.0 / shape.turn_decay, middle);
+    faster[k] = faded_time(1.0 / shape.acceleration_decay, middle);
+    kept[k] = std::exp(-shape.speed_decay * middle);
+  }
+}
+
 void intended_path(IntentionHypothesis intention, const MotionEstimate& motion,
-                   const IntentionShape& shape, double period, std::span<Vec2> displacement) {
+                   const IntentionTimes& times, std::span<Vec2> displacement) {
+  assert(displacement.size() <= IntentionTimes::kMost);
   if (intention == IntentionHypothesis::ConstantTurnRate) {
-    turning_path(motion, shape, period, displacement);
+    turning_path(motion, times, displacement);
     return;
   }
   for (std::size_t k = 0; k < displacement.size(); ++k) {
-    const double time = (static_cast<double>(k) + 1.0) * period;
     if (intention == IntentionHypothesis::Stop) {
-      displacement[k] = motion.velocity * faded_time(1.0 / shape.stop_time, time);
+      displacement[k] = motion.velocity * times.stop[k];
       continue;
     }
-    displacement[k] = motion.velocity * faded_time(shape.speed_decay, time);
+    displacement[k] = motion.velocity * times.way[k];
     if (intention != IntentionHypothesis::KeepVelocity)
-      displacement[k] += motion.acceleration * shape.acceleration_decay *
-                         (time - faded_time(1.0 / shape.acceleration_decay, time));
+      displacement[k] += motion.acceleration * times.acceleration_decay * times.gain[k];
   }
 }
 

@@ -37,11 +37,27 @@ struct IntentionShape {
   double stop_time = 1.0;           ///< over which somebody who stops loses speed [s]
 };
 
+/// How changes fade over the periods to come: what intended_path needs of a shape alone.
+struct IntentionTimes {
+  static constexpr std::size_t kMost = 12;  ///< periods
+  IntentionTimes() = default;
+  IntentionTimes(const IntentionShape& shape, double period);
+
+  double period = 0.4;              ///< [s]
+  double acceleration_decay = 0.8;  ///< [s]
+  /// By period's end: way at unit speed that loses it, that of an acceleration over its decay, and
+  /// way at unit speed of who stops [s].
+  std::array<double, kMost> way{}, gain{}, stop{};
+  /// By its middle: turn at unit rate, speed gained at unit acceleration [s], and share kept.
+  std::array<double, kMost> turn{}, faster{}, kept{};
+};
+
 /// Displacement of one intention at 1, 2, ... periods from now [m], without anybody in the way.
 /// Equivariant under rotation. The Stop hypothesis never turns back. The ways of the road are not
 /// known here: theirs is that of KeepAcceleration.
+/// At most IntentionTimes::kMost of them.
 void intended_path(IntentionHypothesis intention, const MotionEstimate& motion,
-                   const IntentionShape& shape, double period, std::span<Vec2> displacement);
+                   const IntentionTimes& times, std::span<Vec2> displacement);
 
 /// r_front of a type under hypothesis k (the paper's two: 6 and 8 m on foot, 8 and 10 m on wheels);
 /// r_rear is the type's own.

@@ -54,12 +54,19 @@ class ObservationNoise {
   /// Present estimate, updated once a frame after all agents [m].
   void update();
   double deviation() const { return deviation_; }
+  /// As new.
+  void clear() {
+    kept_.clear();
+    next_ = 0;
+    deviation_ = kAssumed;
+  }
 
  private:
   static constexpr std::size_t kKept = 400;
+  static constexpr double kAssumed = 0.02;  // before anything was seen [m]
   std::vector<double> kept_, scratch_;
   std::size_t next_ = 0;
-  double deviation_ = 0.02;
+  double deviation_ = kAssumed;
 };
 
 }  // namespace sumogamma

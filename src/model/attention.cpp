@@ -6,6 +6,8 @@
 #include <emmintrin.h>
 #endif
 
+#include "model/nearby.h"
+
 namespace sumogamma {
 
 namespace {
@@ -128,6 +130,49 @@ void find_neighbours(const RoadNetwork& network, const TickGeometry& geometry, s
   // in order of id, so that nothing depends on where the grid's cells happen to lie
   std::sort(neighbours.attended.begin(), neighbours.attended.end(),
             [](const Attended& a, const Attended& b) { return a.row < b.row; });
+}
+
+void find_nearby(const RoadNetwork& network, const TickGeometry& geometry, std::size_t row,
+                 const AttentionRange& farthest, Nearby& nearby) {
+  nearby.row = row;
+  nearby.agents.clear();
+  const AgentGeometry& own = geometry.agent[row];
+  const double seen = std::max({farthest.front + own.stopping, farthest.rear, 0.0}) + own.radius;
+  const std::size_t count =
+      find_within(geometry, own.position, std::max(seen, own.next_reach), nearby.found);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t other_row = nearby.found[k];
+    if (other_row == row) continue;
+    const AgentGeometry& other = geometry.agent[other_row];
+    if (on_other_storey(network, own.ground, other.ground)) continue;
+    const Vec2 offset = other.position - own.position;
+    const double square = offset.squaredNorm();
+    const double reach = reach_towards(own, other, farthest, offset);
+    if (square > reach * reach) continue;
+    const double distance = std::sqrt(square);
+    nearby.agents.push_back({other_row, own.forward.dot(offset) >= 0,
+                             other.forward.dot(offset) < 0 ? other.stopping : 0.0, other.radius,
+                             distance, square, distance - own.radius - other.radius,
+                             own.velocity.dot(offset), other.velocity.dot(offset), offset});
+  }
+  std::sort(nearby.agents.begin(), nearby.agents.end(),
+            [](const Nearby::Agent& a, const Nearby::Agent& b) { return a.row < b.row; });
+}
+
+void attend_among(const Nearby& nearby, const AgentGeometry& own, const AttentionRange& range,
+                  const Vec2& preferred, double horizon, std::vector<Attended>& attended) {
+  attended.clear();
+  for (const Nearby::Agent& other : nearby.agents) {
+    const double far = other.ahead ? range.front + own.stopping : range.rear;
+    const double reach = far + other.stopping + own.radius + other.radius;
+    if (other.square > reach * reach) continue;
+    const double approach =
+        std::max(other.own_approach, preferred.dot(other.offset)) - other.flight;
+    if (other.gap > 0 &&
+        other.gap * other.distance > horizon * (approach + kSideStep * other.distance))
+      continue;
+    attended.push_back({other.row, other.distance});
+  }
 }
 
 }  // namespace sumogamma

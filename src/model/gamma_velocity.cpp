@@ -1,12 +1,14 @@
 #include "model/gamma_velocity.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "geometry/rotation.h"
 #include "model/context.h"
 #include "model/geometric_constraints.h"
 #include "model/kinematic_set.h"
+#include "model/nearby.h"
 #include "model/obstacle_constraints.h"
 #include "model/preferred_velocity.h"
 
@@ -82,16 +84,16 @@ std::span<const HalfPlane> planes_for_creeping(const Scene& scene, std::size_t r
   return work.firm;
 }
 
-}  // namespace
-
-Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& geometry,
-                    std::size_t row, const BehaviorState& behavior, Workspace& work) {
-  const AgentType& type = type_of(model.types, scene.type[row]);
+void set_preferred(const Model& model, const Scene& scene, std::size_t row,
+                   const BehaviorState& behavior, Workspace& work) {
   work.preferred = preferred_velocity(model, scene, row, behavior.intention);
   if (!work.preferred.allFinite()) work.preferred = Vec2::Zero();
-  find_neighbours(model.road, geometry, row, behavior.attention, work.preferred, type.horizon,
-                  work.neighbours);
+}
 
+/// Eq. 7 among the neighbours that were found.
+void solve(const Model& model, const Scene& scene, const TickGeometry& geometry, std::size_t row,
+           const BehaviorState& behavior, Workspace& work) {
+  const AgentType& type = type_of(model.types, scene.type[row]);
   ConstraintSet& constraints = work.constraints;
   constraints.clear();
   append_kinematic_constraints(model, scene, row, geometry.agent[row].forward,
@@ -103,17 +105,38 @@ Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& 
                                work.neighbours.attended, constraints);  // G, III-B
 
   const Vec2 target = look_aside(model.options, scene, row, geometry.agent[row], work.preferred);
-  const double fastest = speed_limit(type, scene, geometry.agent[row], row, work.preferred);
-  work.fastest = fastest;
+  work.fastest = speed_limit(type, scene, geometry.agent[row], row, work.preferred);
   work.result =
-      closest_point(constraints.planes, constraints.hard_count, target, fastest, work.program);
-  if (scene.context[row].active && geometry.agent[row].on_wheels) ease_violation(fastest, work);
+      closest_point(constraints.planes, constraints.hard_count, target, work.fastest, work.program);
+  if (scene.context[row].active && geometry.agent[row].on_wheels)
+    ease_violation(work.fastest, work);
+}
+
+}  // namespace
+
+Vec2 gamma_velocity_among(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                          const BehaviorState& behavior, const Nearby& nearby, Workspace& work) {
+  const std::size_t row = nearby.row;
+  assert(!model.options.use_guard);
+  set_preferred(model, scene, row, behavior, work);
+  attend_among(nearby, geometry.agent[row], behavior.attention, work.preferred,
+               type_of(model.types, scene.type[row]).horizon, work.neighbours.attended);
+  solve(model, scene, geometry, row, behavior, work);
+  return work.result.point;
+}
+
+Vec2 gamma_velocity(const Model& model, const Scene& scene, const TickGeometry& geometry,
+                    std::size_t row, const BehaviorState& behavior, Workspace& work) {
+  set_preferred(model, scene, row, behavior, work);
+  find_neighbours(model.road, geometry, row, behavior.attention, work.preferred,
+                  type_of(model.types, scene.type[row]).horizon, work.neighbours);
+  solve(model, scene, geometry, row, behavior, work);
   if (!model.options.use_guard) return work.result.point;
 
   // differs from the paper: what half-planes can't say about turning and braking bodies
   work.guard.prepare(model, scene, geometry, row, work.neighbours.near);
   const std::span hard = planes_for_creeping(scene, row, work);
-  const double wish = work.preferred.norm();
+  const double wish = work.preferred.norm(), fastest = work.fastest;
   const Vec2 allowed = wish > fastest ? Vec2(work.preferred * (fastest / wish)) : work.preferred;
   return guarded_velocity(work.guard, model, scene, geometry, row, work.result.point, allowed,
                           hard);

@@ -10,7 +10,7 @@ constexpr double kReach = 9.0;
 }  // namespace
 
 void join_paths(std::span<const Companion> agents, const CompanionKernel& kernel, SpatialGrid& grid,
-                std::vector<std::array<Vec2, FlowMemory::kSteps>>& joint) {
+                std::vector<std::array<Vec2, FlowMemory::kSteps>>& joint, std::size_t steps) {
   joint.resize(agents.size());
   std::vector<Vec2> positions;
   for (std::size_t k = 0; k < agents.size(); ++k) {
@@ -33,10 +33,10 @@ void join_paths(std::span<const Companion> agents, const CompanionKernel& kernel
       if (apart > kReach) return;
       const double weight = kernel.weight * std::exp(-0.5 * apart);
       total += weight;
-      for (std::size_t k = 0; k < other.path.size(); ++k) joint[self][k] += weight * other.path[k];
+      for (std::size_t k = 0; k < steps; ++k) joint[self][k] += weight * other.path[k];
     };
     grid.visit_within(agent.position, std::sqrt(kReach) * kernel.distance, add);
-    for (Vec2& step : joint[self]) step /= total;
+    for (std::size_t k = 0; k < steps; ++k) joint[self][k] /= total;
   }
 }
 

@@ -28,8 +28,9 @@ struct Companion {
 /// people near by who move alike, weighted by a normal kernel of distance and velocity difference.
 /// People who walk together keep together, and two observers of one motion see it better than one.
 /// `joint` [like `agents`]: the path itself where nobody is alike. Frozen: reads all, then writes.
-/// Cost linear in the agents at a given density.
+/// The first `steps` of the paths are looked at. Cost linear in the agents at a given density.
 void join_paths(std::span<const Companion> agents, const CompanionKernel& kernel, SpatialGrid& grid,
-                std::vector<std::array<Vec2, FlowMemory::kSteps>>& joint);
+                std::vector<std::array<Vec2, FlowMemory::kSteps>>& joint,
+                std::size_t steps = FlowMemory::kSteps);
 
 }  // namespace sumogamma

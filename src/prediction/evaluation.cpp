@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "prediction/distribution.h"
 #include "prediction/predictor_parameters.h"
 
 namespace sumogamma {
@@ -39,6 +38,7 @@ void score_samples(const Track& truth, int frame, std::size_t row,
     score.energy += point.energy;
     score.inside_50 += point.inside_50;
     score.inside_90 += point.inside_90;
+    score.by_step.push_back(point);
   }
   const double n = static_cast<double>(steps);
   score.log_loss /= n;
@@ -100,9 +100,14 @@ WindowScore score_window(const TrackSet& truth, const Window& window, const Told
 /// Lets a method know only the frames [first, last] of a recording.
 void show_window(const Method& method, const TrackSet& window) {
   if (method.forget) method.forget();
-  if (!method.observe) return;
-  for (int frame = window.first_frame; frame <= window.last_frame; ++frame)
-    method.observe(observe(window, frame));
+  if (!method.observe && !method.observe_in_window) return;
+  for (int frame = window.first_frame; frame <= window.last_frame; ++frame) {
+    const ObservedScene scene = observe(window, frame);
+    if (method.observe_in_window)
+      method.observe_in_window(scene, static_cast<std::size_t>(window.last_frame - frame));
+    else
+      method.observe(scene);
+  }
 }
 
 }  // namespace
@@ -120,6 +125,7 @@ Evaluation evaluate(const Method& method, const TrackSet& set, const TrackSet& t
   result.memory = memory;
   result.in_training = trained_on(content_of(truth));
   result.has_samples = static_cast<bool>(method.sample);
+  result.draws = method.draws;
   std::size_t next = 0;
   for (int frame = set.first_frame; frame <= set.last_frame; ++frame) {
     const bool strict = memory == Memory::Strict;
@@ -144,6 +150,8 @@ Evaluation evaluate(const Method& method, const TrackSet& set, const TrackSet& t
     if (next >= windows.size() || windows[next].frame != frame) continue;
     std::vector<Forecast> samples;
     if (method.sample) samples = method.sample(scene, steps);
+    for (const Forecast& sample : samples)
+      result.sample_collisions.add(count_collisions(types, scene, sample, predicted.rows, scored));
     const Told told{scene, predicted, forecast, samples, protocol, sink};
     for (; next < windows.size() && windows[next].frame == frame; ++next)
       result.windows.push_back(score_window(truth, windows[next], told));
@@ -173,6 +181,27 @@ Summary summarize(const Evaluation& evaluation,
         &sum.energy, &sum.inside_50, &sum.inside_90})
     *value /= static_cast<double>(sum.windows);
   return sum;
+}
+
+std::vector<PointScore> summarize_steps(const Evaluation& evaluation,
+                                        const std::function<bool(const WindowScore&)>& chosen) {
+  std::vector<PointScore> mean;
+  double windows = 0;
+  for (const WindowScore& window : evaluation.windows) {
+    if (window.by_step.empty() || (chosen && !chosen(window))) continue;
+    windows += 1;
+    mean.resize(window.by_step.size());
+    for (std::size_t k = 0; k < mean.size(); ++k) {
+      mean[k].log_loss += window.by_step[k].log_loss;
+      mean[k].energy += window.by_step[k].energy;
+      mean[k].inside_50 += window.by_step[k].inside_50;
+      mean[k].inside_90 += window.by_step[k].inside_90;
+    }
+  }
+  for (PointScore& step : mean)
+    for (double* value : {&step.log_loss, &step.energy, &step.inside_50, &step.inside_90})
+      *value /= windows;
+  return mean;
 }
 
 }  // namespace sumogamma

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "prediction/accuracy.h"
+#include "prediction/distribution.h"
 #include "prediction/observed_scene.h"
 #include "prediction/protocol.h"
 
@@ -19,6 +20,10 @@ struct Method {
   std::function<Forecast(const ObservedScene&, std::size_t steps)> predict;
   std::function<std::vector<Forecast>(const ObservedScene&, std::size_t steps)> sample;
   std::function<void()> forget;
+  /// Where given, it is called in place of `observe` in strict windows, with the number of frames
+  /// of the window that are still to come.
+  std::function<void(const ObservedScene&, std::size_t later)> observe_in_window = {};
+  std::string draws = {};  ///< how samples are drawn
 };
 
 /// Scores of one window.
@@ -32,6 +37,7 @@ struct WindowScore {
   double log_loss = 0;                      ///< mean negative log density over the steps [nat]
   double energy = 0;                        ///< mean energy score over the steps [m]
   double inside_50 = 0, inside_90 = 0;      ///< share of the steps whose truth lies in the region
+  std::vector<PointScore> by_step;          ///< of the samples, where there are any
 };
 
 /// One method on one recording.
@@ -40,7 +46,9 @@ struct Evaluation {
   Memory memory = Memory::Strict;
   std::vector<WindowScore> windows;
   CollisionCount collisions, true_collisions;
+  CollisionCount sample_collisions;  ///< within each sample, all samples together
   bool has_samples = false;
+  std::string draws;             ///< how samples were drawn
   bool in_training = false;      ///< parameters were chosen on these very tracks
   double cpu_seconds = 0;        ///< in observe and predict, without samples
   std::int64_t predictions = 0;  ///< agents predicted with a full history
@@ -72,5 +80,9 @@ struct Summary {
 };
 Summary summarize(const Evaluation& evaluation,
                   const std::function<bool(const WindowScore&)>& chosen = {});
+
+/// Means by step over the windows for which `chosen` holds; empty for none or without samples.
+std::vector<PointScore> summarize_steps(const Evaluation& evaluation,
+                                        const std::function<bool(const WindowScore&)>& chosen);
 
 }  // namespace sumogamma

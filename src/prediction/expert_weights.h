@@ -47,6 +47,12 @@ class ExpertWeights {
                 std::span<const ExpertPath, kExperts> paths);
   /// Closes a frame: agents that weren't remembered are forgotten.
   void end_frame(const ExpertRate& walker, const ExpertRate& wheels);
+  /// As new.
+  void clear() {
+    history_.clear();
+    rounds_ = {};
+    loss_ = {};
+  }
 
  private:
   static constexpr std::size_t kAhead = 4, kSeen = 3;

@@ -9,9 +9,6 @@ namespace sumogamma {
 
 namespace {
 constexpr double kTurning = 0.12;  // shorter displacements have no direction [m]
-
-/// What a change that fades has come to after `k` steps.
-double faded(double fade, double k) { return fade > 0 ? fade * (1.0 - std::exp(-k / fade)) : k; }
 }  // namespace
 
 std::string_view name_of(Expert expert) {
@@ -52,7 +49,14 @@ void accelerating_path(std::span<const Vec2> position, std::span<Vec2> displacem
   }
 }
 
-void turning_path(std::span<const Vec2> position, std::size_t lag, double fade,
+FadedSteps::FadedSteps(double fade) : array() {
+  for (std::size_t k = 0; k < size(); ++k) {
+    const double step = static_cast<double>(k + 1);
+    (*this)[k] = fade > 0 ? fade * (1.0 - std::exp(-step / fade)) : step;
+  }
+}
+
+void turning_path(std::span<const Vec2> position, std::size_t lag, const FadedSteps& fade,
                   std::span<Vec2> displacement) {
   const Vec2 last = displacement_before(position, 0), before = displacement_before(position, lag);
   const double known = static_cast<double>(
@@ -64,7 +68,7 @@ void turning_path(std::span<const Vec2> position, std::size_t lag, double fade,
   const Vec2 forward = length > 1e-9 ? Vec2(last / length) : Vec2(1, 0);
   Vec2 place = Vec2::Zero();
   for (std::size_t k = 0; k < displacement.size(); ++k) {
-    const double passed = faded(fade, static_cast<double>(k + 1));
+    const double passed = fade[k];
     place += std::max(0.0, length + gain * passed) * from_body(rotation(turn * passed), forward);
     displacement[k] = place;
   }

@@ -36,9 +36,13 @@ Vec2 mean_displacement(std::span<const Vec2> position, std::size_t count);
 void straight_path(const Vec2& step, std::span<Vec2> displacement);
 /// The mean acceleration of the last two changes goes on; stops instead of turning back.
 void accelerating_path(std::span<const Vec2> position, std::span<Vec2> displacement);
+/// What a change has come to after 1, 2, ... steps if it fades over `fade` of them (0: never).
+struct FadedSteps : std::array<double, FlowMemory::kSteps> {
+  FadedSteps(double fade);
+};
 /// Speed and direction change as between the last displacement and that `lag` before it; the change
-/// fades over `fade` steps (0: never). Nobody turns back; who stands doesn't turn.
-void turning_path(std::span<const Vec2> position, std::size_t lag, double fade,
+/// fades. Nobody turns back; who stands doesn't turn.
+void turning_path(std::span<const Vec2> position, std::size_t lag, const FadedSteps& fade,
                   std::span<Vec2> displacement);
 
 }  // namespace sumogamma

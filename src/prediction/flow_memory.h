@@ -47,6 +47,13 @@ class FlowMemory {
   std::array<Vec2, kSteps> correction(std::uint32_t agent, const Vec2& position,
                                       const Vec2& velocity, const FlowKernel& kernel) const;
 
+  /// As new.
+  void clear() {
+    samples_.clear();
+    cells_.clear();
+    active_.clear();
+  }
+
   std::size_t size() const { return samples_.size(); }
 
  private:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/error.h"
 #include "base/random.h"
 #include "base/units.h"
 
@@ -80,6 +81,8 @@ GammaPredictor::GammaPredictor(const AgentTypeTable& types, const PredictorParam
       parameters_(parameters),
       options_(options),
       period_(period),
+      walker_times_(parameters.walker.shape, period),
+      wheels_times_(parameters.wheels.shape, period),
       flow_(options.flow_cell_capacity) {
   if (options.use_obstacles) model_.obstacles = ObstacleIndex(obstacles);
   if (road == nullptr) return;
@@ -115,19 +118,32 @@ void GammaPredictor::measure_noise(const ObservedScene& scene) {
 }
 
 void GammaPredictor::forget() {
-  noise_ = {};
-  flow_ = FlowMemory(options_.flow_cell_capacity);
+  noise_.clear();
+  flow_.clear();
+  trust_.clear();
   calibration_ = {};
-  experts_ = {};
+  experts_.clear();
   memory_.clear();
   seen_ = {};
   rows_.clear();
 }
 
 void GammaPredictor::observe(const ObservedScene& scene) {
+  need_ = {};
+  take_in(scene);
+}
+
+void GammaPredictor::observe_in_window(const ObservedScene& scene, std::size_t later) {
+  need_ = {later > 0 ? std::min(later, FlowMemory::kSteps) : FlowMemory::kSteps, later == 0,
+           later > 0};
+  take_in(scene);
+}
+
+void GammaPredictor::take_in(const ObservedScene& scene) {
   measure_noise(scene);
   for (const ObservedAgent& agent : scene.agents) {
     flow_.resolve(agent.id, agent.now());
+    trust_.resolve(agent.id, agent.now());
     calibration_.resolve(agent.id, agent.now());
     experts_.resolve(agent.id, agent.now(), kind_of(agent.type).experts);
   }
@@ -148,46 +164,88 @@ void GammaPredictor::observe(const ObservedScene& scene) {
   std::erase_if(memory_, [&](const auto& entry) { return entry.second.frame != scene.frame; });
 
   seen_ = scene;
+  spreads_.clear();
+  shared_.clear();
+  // who has been seen for long is predicted whether or not it is asked for, to be held against
+  for (const ObservedAgent& agent : scene.agents)
+    if (need_.memory && agent.position.size() >= kCalibrated) need_ = {};
   estimate_rows(scene);
+  if (!need_.memory) return;
   if (options_.use_inference) infer(scene);
   remember(scene);
 }
 
 void GammaPredictor::remember(const ObservedScene& scene) {
+  if (need_.forecast && options_.learn_spread) spread_rows();
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const ObservedAgent& agent = scene.agents[r];
     const Row& row = rows_[r];
     if (agent.position.size() < 3) continue;
     std::array<Vec2, FlowMemory::kSteps> expected = row.mean;
-    for (std::size_t k = 0; k < expected.size(); ++k)
-      expected[k] += row.learned[k] + row.together[k];
+    for (std::size_t k = 0; k < need_.steps; ++k) expected[k] += row.learned[k] + row.together[k];
     flow_.remember(agent.id, agent.now(), row.motion.velocity, expected);
-    for (std::size_t k = 0; k < expected.size(); ++k) expected[k] += row.flow[k] + agent.now();
+    if (agent.position.size() < kCalibrated) continue;
+    for (Vec2& point : expected) point += agent.now();
     const std::size_t kind = walks(type_of(model_.types, agent.type)) ? 0 : 1;
-    if (agent.position.size() >= kCalibrated)
-      calibration_.remember(agent.id, kind, expected, spread_of(agent, row), period_);
+    if (options_.use_flow) trust_.remember(agent.id, kind, expected, row.flow);
+    if (!options_.learn_spread) continue;
+    for (std::size_t k = 0; k < expected.size(); ++k) expected[k] += row.flow_share * row.flow[k];
+    calibration_.remember(agent.id, kind, expected, spreads_[r]);
   }
   flow_.end_frame();
+  trust_.end_frame();
   calibration_.end_frame();
 }
 
-Spread GammaPredictor::spread_of(const ObservedAgent& agent, const Row& row) const {
-  const KindParameters& kind = kind_of(agent.type);
-  const double speed = row.motion.velocity.norm();
-  Spread spread;
-  spread.forward =
-      speed > kMoving ? Vec2(row.motion.velocity / speed) : direction_of(agent.heading.back());
-  spread.along = kind.along_fixed + kind.along_by_speed * speed;
-  spread.across = kind.across_fixed + kind.across_by_speed * speed;
-  spread.growth = kind.growth;
-  return spread;
+Vec2 GammaPredictor::forward_of(std::size_t row) const {
+  const Vec2& velocity = rows_[row].motion.velocity;
+  const double speed = velocity.norm();
+  return speed > kMoving ? Vec2(velocity / speed) : direction_of(seen_.agents[row].heading.back());
+}
+
+std::vector<SharedDraw> shared_draws(std::span<const Vec2> position,
+                                     std::span<const Vec2> velocity) {
+  constexpr double kNear = 2.0, kAlike = 0.4;  // scales of distance [m] and velocity [m/s]
+  constexpr double kReach = 3.0;
+  SpatialGrid grid;
+  grid.rebuild(position);
+  std::vector<SharedDraw> shared;
+  for (std::size_t row = 0; row < position.size(); ++row)
+    grid.visit_within(position[row], kReach * kNear, [&](std::uint32_t other, double square) {
+      if (other == row) return;
+      const double apart = square / (kNear * kNear) +
+                           (velocity[other] - velocity[row]).squaredNorm() / (kAlike * kAlike);
+      if (apart < kReach * kReach) shared.push_back({row, other, std::exp(-0.5 * apart)});
+    });
+  return shared;
+}
+
+void mix_deviates(std::span<const SharedDraw> shared, std::span<const Vec2> own,
+                  std::vector<Vec2>& mixed) {
+  mixed.assign(own.begin(), own.end());
+  std::vector<double> square(own.size(), 1.0);
+  for (const SharedDraw& draw : shared) {
+    mixed[draw.row] += draw.weight * own[draw.other];
+    square[draw.row] += draw.weight * draw.weight;
+  }
+  for (std::size_t row = 0; row < mixed.size(); ++row) mixed[row] /= std::sqrt(square[row]);
+}
+
+void GammaPredictor::spread_rows() {
+  if (spreads_.size() == rows_.size()) return;
+  const std::vector<SpreadClues> clues = spread_clues(model_.types, seen_);
+  spreads_.clear();
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    spreads_.push_back(spread_for(clues[r], forward_of(r)));
 }
 
 void GammaPredictor::ways(const ObservedAgent& agent, Row& row) const {
-  const KindParameters& kind = kind_of(agent.type);
+  const IntentionTimes& times =
+      walks(type_of(model_.types, agent.type)) ? walker_times_ : wheels_times_;
   const std::size_t known = has_road_ ? kIntentions : kFreeIntentions;
   for (std::size_t k = 0; k < known; ++k)
-    intended_path(static_cast<IntentionHypothesis>(k), row.motion, kind.shape, period_, row.way[k]);
+    intended_path(static_cast<IntentionHypothesis>(k), row.motion, times,
+                  std::span(row.way[k]).first(need_.steps));
   const double speed = row.motion.velocity.norm();
   row.on_road = false;
   if (!has_road_ || speed < kMoving) return;
@@ -214,7 +272,7 @@ void GammaPredictor::mean_path(Row& row) const {
   row.mean.fill(Vec2::Zero());
   for (std::size_t k = 0; k < kIntentions; ++k) {
     if (row.weight[k] <= 0) continue;
-    for (std::size_t step = 0; step < row.mean.size(); ++step)
+    for (std::size_t step = 0; step < need_.steps; ++step)
       row.mean[step] += row.weight[k] * row.way[k][step];
   }
 }
@@ -251,39 +309,44 @@ std::array<double, kExperts> GammaPredictor::expert_weights_of(std::uint32_t id,
 
 void GammaPredictor::expert_paths(const ObservedAgent& agent, const Row& row, std::size_t r,
                                   std::array<ExpertPath, kExperts>& paths) const {
-  auto path = [&](Expert expert) -> ExpertPath& { return paths[static_cast<std::size_t>(expert)]; };
-  path(Expert::Model) = row.mean;
+  static const FadedSteps kBrief(3), kLong(6), kFresh(8);
+  auto path = [&](Expert expert) {
+    return std::span(paths[static_cast<std::size_t>(expert)]).first(need_.steps);
+  };
+  std::copy_n(row.mean.begin(), need_.steps, path(Expert::Model).begin());
   walking_path(walking_[r], path(Expert::Walking));
   straight_path(displacement_before(agent.position, 0), path(Expert::LastDisplacement));
   straight_path(mean_displacement(agent.position, 3), path(Expert::MeanDisplacement));
   straight_path(period_ * row.motion.velocity, path(Expert::Kalman));
   accelerating_path(agent.position, path(Expert::Acceleration));
-  turning_path(agent.position, 2, 3, path(Expert::BriefTurn));
-  turning_path(agent.position, 2, 6, path(Expert::LongTurn));
-  turning_path(agent.position, 1, 8, path(Expert::FreshTurn));
+  turning_path(agent.position, 2, kBrief, path(Expert::BriefTurn));
+  turning_path(agent.position, 2, kLong, path(Expert::LongTurn));
+  turning_path(agent.position, 1, kFresh, path(Expert::FreshTurn));
 }
 
 void GammaPredictor::weigh_experts(const ObservedScene& scene) {
   walking_features(model_.types, scene, walking_);
-  std::array<ExpertPath, kExperts> paths;
+  std::array<ExpertPath, kExperts>& paths = expert_paths_;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const ObservedAgent& agent = scene.agents[r];
     Row& row = rows_[r];
     expert_paths(agent, row, r, paths);
     const std::array<double, kExperts> weight = expert_weights_of(agent.id, agent.type);
-    for (std::size_t k = 0; k < row.learned.size(); ++k) {
+    for (std::size_t k = 0; k < need_.steps; ++k) {
       for (std::size_t e = 0; e < kExperts; ++e) row.learned[k] += weight[e] * paths[e][k];
       row.learned[k] -= row.mean[k];
     }
+    if (!need_.memory) continue;
     experts_.remember(agent.id, walks(type_of(model_.types, agent.type)) ? 0 : 1, agent.now(),
                       agent.position.size(), paths);
   }
-  experts_.end_frame(parameters_.walker.experts, parameters_.wheels.experts);
+  if (need_.memory) experts_.end_frame(parameters_.walker.experts, parameters_.wheels.experts);
 }
 
 void GammaPredictor::predecessors(const ObservedAgent& agent, Row& row) const {
   row.flow.fill(Vec2::Zero());
-  if (!options_.use_flow) return;
+  row.flow_share = trust_.share(walks(type_of(model_.types, agent.type)) ? 0 : 1);
+  if (!options_.use_flow || !need_.forecast) return;
   row.flow = flow_.correction(agent.id, agent.now(), row.motion.velocity, kind_of(agent.type).flow);
 }
 
@@ -293,23 +356,23 @@ void GammaPredictor::go_together(const ObservedScene& scene) {
   companions_.resize(rows_.size());
   // once for what they mean to do and once for what the place makes of it
   for (const bool flow : {false, true}) {
+    if (flow && !need_.forecast) break;
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const ObservedAgent& agent = scene.agents[r];
       companions_[r] = {agent.now(), rows_[r].motion.velocity,
                         walks(type_of(model_.types, agent.type)) && agent.position.size() >= 3,
                         flow ? rows_[r].flow : rows_[r].mean};
       if (flow) continue;
-      for (std::size_t k = 0; k < companions_[r].path.size(); ++k)
-        companions_[r].path[k] += rows_[r].learned[k];
+      for (std::size_t k = 0; k < need_.steps; ++k) companions_[r].path[k] += rows_[r].learned[k];
     }
-    join_paths(companions_, parameters_.companions, companion_grid_, joint_);
+    join_paths(companions_, parameters_.companions, companion_grid_, joint_, need_.steps);
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       Row& row = rows_[r];
       if (flow) {
         row.flow = joint_[r];
         continue;
       }
-      for (std::size_t k = 0; k < row.mean.size(); ++k)
+      for (std::size_t k = 0; k < need_.steps; ++k)
         row.together[k] = joint_[r][k] - row.mean[k] - row.learned[k];
     }
   }
@@ -327,13 +390,15 @@ void GammaPredictor::infer(const ObservedScene& scene) {
     AgentMemory& memory = memory_.at(agent.id);
     memory.expectation = {};
     if (agent.position.size() >= 2)
-      memory.expectation = expect_next({model_, scene_, geometry_, r, wanted, agent.now(), period_},
-                                       memory.belief, work_);
+      memory.expectation =
+          expect_next({model_, scene_, geometry_, r, wanted, agent.now(), period_, nearby_},
+                      memory.belief, work_);
   }
 }
 
 void GammaPredictor::set_scene(const ObservedScene& observed, Scene& scene) const {
   std::vector<Vec2> velocity;
+  velocity.reserve(rows_.size());
   for (const Row& row : rows_) velocity.push_back(row.motion.velocity);
   build_scene(model_.types, observed, velocity, scene);
   for (std::size_t r = 0; r < rows_.size(); ++r) {
@@ -356,7 +421,7 @@ Forecast GammaPredictor::roll_out(const std::vector<Vec2>& path, std::size_t ste
 }
 
 Vec2 GammaPredictor::corrected(const Row& row, std::size_t step) {
-  return row.learned[step] + row.together[step] + row.flow[step];
+  return row.learned[step] + row.together[step] + row.flow_share * row.flow[step];
 }
 
 Forecast GammaPredictor::forecast(std::size_t steps) {
@@ -380,14 +445,12 @@ Forecast GammaPredictor::forecast_intention(IntentionHypothesis intention, std::
 
 namespace {
 
-/// Point k of n of a sunflower turned into two deviates: even in angle and in probability. Normal
-/// for `tail` 1; a greater one stretches the tail and draws in the core, about the 90 % circle.
-Vec2 even_deviates(std::size_t k, std::size_t n, double turn, double tail) {
+double radius_within(double share) { return std::sqrt(-2.0 * std::log1p(-share)); }
+
+/// Point k of n of a sunflower: even in angle and in probability.
+Vec2 even_deviate(std::size_t k, std::size_t n, double turn) {
   constexpr double kGoldenAngle = 2.399963229728653;
-  constexpr double kCircle = 2.145966;  // that holds 90 % of a normal cloud
-  const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(n);
-  const double radius = std::sqrt(-2.0 * std::log1p(-share));
-  return kCircle * std::pow(radius / kCircle, tail) *
+  return radius_within((static_cast<double>(k) + 0.5) / static_cast<double>(n)) *
          direction_of(kGoldenAngle * static_cast<double>(k) + turn);
 }
 
@@ -403,35 +466,109 @@ std::size_t draw_intention(const std::array<double, kIntentions>& weight, double
   return 0;
 }
 
+/// One agent's draw for a sample.
+struct AgentDraw {
+  Vec2 deviate;      ///< standard normal
+  double intention;  ///< uniform
+};
+
+AgentDraw draw_for(std::uint64_t agent, std::uint64_t frame, std::size_t index, std::size_t count,
+                   const SampleDraws& draws) {
+  constexpr std::uint64_t kMostSamples = 65536;
+  const std::uint64_t at = frame * kMostSamples + index;
+  const double intention = random_uniform(draws.seed, agent, at, Draw::Intention);
+  if (draws.kind == Draws::Independent) {
+    const double share = random_uniform(draws.seed, agent, 2 * at, Draw::ProcessNoise);
+    const double turn = random_uniform(draws.seed, agent, 2 * at + 1, Draw::ProcessNoise);
+    return {radius_within(share) * direction_of(2.0 * kPi * turn), intention};
+  }
+  // the same order for nobody: agents are shuffled against each other
+  const double shift = random_uniform(draws.seed, agent, frame, Draw::ProcessNoise);
+  const std::size_t k =
+      (index + static_cast<std::size_t>(shift * static_cast<double>(count))) % count;
+  return {even_deviate(k, count, 2.0 * kPi * shift), intention};
+}
+
+/// How an axis of a spread is shared: intentions depart from their mean by this share of what they
+/// would, and noise makes that share of the spread.
+struct AxisShares {
+  double intention = 1, noise = 1;
+};
+
+AxisShares shares_of(double spread, double variance) {
+  constexpr double kMostByIntentions = 0.5;
+  const double square = spread * spread;
+  if (variance <= 0 || square <= 0) return {};
+  const double kept = std::min(1.0, kMostByIntentions * square / variance);
+  return {std::sqrt(kept), std::sqrt(1.0 - kept * variance / square)};
+}
+
 }  // namespace
 
+std::string_view name_of(Draws draws) {
+  return draws == Draws::Independent ? "independent" : "even";
+}
+
+Draws draws_from_name(std::string_view name) {
+  for (const Draws draws : {Draws::Independent, Draws::Even})
+    if (name == name_of(draws)) return draws;
+  throw Error("--draws", "\"" + std::string(name) + "\" is unknown, expected independent or even");
+}
+
+Vec2 GammaPredictor::departure_of(std::size_t r, std::size_t step, std::size_t intention,
+                                  const Vec2& deviate) const {
+  const Row& row = rows_[r];
+  const Spread& spread = spreads_[r];
+  const Vec2 left = left_of(spread.forward);
+  Vec2 variance = Vec2::Zero(), drawn = Vec2::Zero();
+  for (std::size_t k = 0; k < kIntentions; ++k) {
+    if (row.weight[k] <= 0) continue;
+    const Vec2 off = row.way[k][step] - row.mean[step];
+    const Vec2 axes(off.dot(spread.forward), off.dot(left));
+    variance += row.weight[k] * axes.cwiseProduct(axes);
+    if (k == intention) drawn = axes;
+  }
+  const AxisShares along = shares_of(spread.along[step], variance.x());
+  const AxisShares across = shares_of(spread.across[step], variance.y());
+  const double radius = deviate.norm();
+  const Vec2 noise =
+      Vec2(along.noise * deviate.x(), across.noise * deviate.y()) / std::max(radius, 1e-12);
+  return along.intention * drawn.x() * spread.forward + across.intention * drawn.y() * left +
+         spread.departure(step, radius, noise);
+}
+
 Forecast GammaPredictor::sample(std::size_t index, std::size_t count, std::size_t steps,
-                                std::uint64_t seed) {
-  std::vector<Vec2> path(rows_.size() * steps);
+                                const SampleDraws& draws) {
+  if (shared_.empty() && draws.kind == Draws::Independent) share_draws();
+  spread_rows();
   const auto frame = static_cast<std::uint64_t>(seen_.frame);
+  std::vector<AgentDraw> drawn;
+  std::vector<Vec2> own;
+  for (const ObservedAgent& agent : seen_.agents) {
+    drawn.push_back(draw_for(agent.id, frame, index, count, draws));
+    own.push_back(drawn.back().deviate);
+  }
+  mix_deviates(shared_, own, deviates_);
+  std::vector<Vec2> path(rows_.size() * steps);
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const ObservedAgent& agent = seen_.agents[r];
-    const KindParameters& kind = kind_of(agent.type);
     const Row& row = rows_[r];
-    // the same order for nobody: agents' draws are independent
-    const double shift = random_uniform(seed, agent.id, frame, Draw::ProcessNoise);
-    const std::size_t k =
-        (index + static_cast<std::size_t>(shift * static_cast<double>(count))) % count;
-    const Vec2 normal = even_deviates(k, count, 2.0 * kPi * shift, kind.tail);
-    const double u = random_uniform(seed, agent.id, frame * 4096 + index, Draw::Intention);
-    const auto& way = row.way[draw_intention(row.weight, u)];
-    const Spread spread = spread_of(agent, row);
-    const double scale =
-        kind.calibrated * calibration_.scale(walks(type_of(model_.types, agent.type)) ? 0 : 1);
-    const Vec2 noise = scale * (normal.x() * spread.along * spread.forward +
-                                normal.y() * spread.across * left_of(spread.forward));
-    for (std::size_t step = 0; step < steps; ++step) {
-      const double time = static_cast<double>(step + 1) * period_;
-      path[r * steps + step] =
-          agent.now() + way[step] + corrected(row, step) + std::pow(time, spread.growth) * noise;
-    }
+    const std::size_t intention = draw_intention(row.weight, drawn[r].intention);
+    const double scale = calibration_.scale(walks(type_of(model_.types, agent.type)) ? 0 : 1);
+    for (std::size_t step = 0; step < steps; ++step)
+      path[r * steps + step] = agent.now() + row.mean[step] + corrected(row, step) +
+                               scale * departure_of(r, step, intention, deviates_[r]);
   }
   return roll_out(path, steps);
+}
+
+void GammaPredictor::share_draws() {
+  std::vector<Vec2> position, velocity;
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    position.push_back(seen_.agents[r].now());
+    velocity.push_back(rows_[r].motion.velocity);
+  }
+  shared_ = shared_draws(position, velocity);
 }
 
 }  // namespace sumogamma

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -7,11 +8,13 @@
 #include "prediction/companions.h"
 #include "prediction/expert_weights.h"
 #include "prediction/flow_memory.h"
+#include "prediction/flow_trust.h"
 #include "prediction/observed_scene.h"
 #include "prediction/predictor_parameters.h"
 #include "prediction/road_guess.h"
 #include "prediction/roll_out.h"
 #include "prediction/spread_calibration.h"
+#include "prediction/spread_model.h"
 #include "prediction/walking_model.h"
 
 namespace sumogamma {
@@ -30,9 +33,37 @@ struct PredictorOptions {
   bool use_smoothing =
       true;                  ///< false: velocity and acceleration from the last displacements alone
   bool most_likely = false;  ///< the paper's choice: the single likeliest intention, not the mean
-  bool use_obstacles = true;             ///< hard constraints of solid things
+  bool use_obstacles = true;  ///< hard constraints of solid things
+  bool learn_spread = true;  ///< samples spread as wide as past predictions of the recording missed
   std::size_t flow_cell_capacity = 384;  ///< see FlowMemory
 };
+
+/// How the samples of an agent are drawn.
+enum class Draws : std::uint8_t {
+  Independent,  ///< each by itself
+  Even,  ///< a sunflower: few of them cover the distribution, which flatters the best of them
+};
+std::string_view name_of(Draws draws);
+/// Throws Error on a name that is unknown.
+Draws draws_from_name(std::string_view name);
+
+struct SampleDraws {
+  std::uint64_t seed = 1;
+  Draws kind = Draws::Independent;
+};
+
+/// Who goes near somebody else at the same velocity departs as the other does: a row's draw takes
+/// in another's with this weight, against 1 for its own.
+struct SharedDraw {
+  std::size_t row, other;
+  double weight;
+};
+std::vector<SharedDraw> shared_draws(std::span<const Vec2> position,
+                                     std::span<const Vec2> velocity);
+
+/// Mixes standard normal deviates, `own` by row, by `shared`: standard normal again.
+void mix_deviates(std::span<const SharedDraw> shared, std::span<const Vec2> own,
+                  std::vector<Vec2>& mixed);
 
 /// The prediction of the paper with the behaviour filter of III-E: fed with a scene frame by frame,
 /// it keeps a belief for everybody and predicts them jointly with the model. Nothing is known to it
@@ -50,15 +81,24 @@ class GammaPredictor {
   /// be consecutive; after a gap beliefs start anew.
   void observe(const ObservedScene& scene);
 
+  /// The same for a frame of a window after which `later` more come, then `forecast` or `sample`
+  /// are asked, and then all is forgotten. What nobody will ask for isn't worked out; forecasts and
+  /// samples have the bits that `observe` gives.
+  void observe_in_window(const ObservedScene& scene, std::size_t later);
+
   /// Expected motion of everybody in the last observed scene. Precondition: steps <=
   /// FlowMemory::kSteps.
   Forecast forecast(std::size_t steps);
 
-  /// One of `count` samples from the posterior: an intention drawn from the belief and a process
-  /// noise, rolled out jointly. The draws of one agent are spread evenly over the distribution (a
-  /// sunflower of normal deviates), so that few of them cover it; agents are shuffled against each
-  /// other.
-  Forecast sample(std::size_t index, std::size_t count, std::size_t steps, std::uint64_t seed);
+  /// One of `count` samples from the posterior: for each agent an intention drawn from the belief
+  /// and a departure drawn from its spread (spread_model.h), rolled out jointly, so that bodies
+  /// keep apart as in the forecast. Intentions make at most half of a spread's variance, the
+  /// departure what is left of it.
+  Forecast sample(std::size_t index, std::size_t count, std::size_t steps,
+                  const SampleDraws& draws);
+
+  /// Unit vector along which a row of the last scene moves, or points where it hardly moves.
+  Vec2 forward_of(std::size_t row) const;
 
   /// Every intention alone, for the oracle bound: what the best of them would have predicted.
   Forecast forecast_intention(IntentionHypothesis intention, std::size_t steps);
@@ -86,8 +126,16 @@ class GammaPredictor {
     std::array<Vec2, FlowMemory::kSteps> learned;   ///< what the experts make of it [m]
     std::array<Vec2, FlowMemory::kSteps> together;  ///< correction by companions [m]
     std::array<Vec2, FlowMemory::kSteps> flow;      ///< correction by predecessors [m]
+    double flow_share = 1;                          ///< of it that is believed
   };
 
+  /// What a frame's work is for.
+  struct Need {
+    std::size_t steps = FlowMemory::kSteps;  ///< that anybody will look at
+    bool forecast = true;                    ///< asked for at this frame
+    bool memory = true;                      ///< frames will follow
+  };
+  void take_in(const ObservedScene& scene);
   const KindParameters& kind_of(AgentTypeId type) const;
   const MotionFilter& filter_of(AgentTypeId type) const;
   void measure_noise(const ObservedScene& scene);
@@ -100,7 +148,13 @@ class GammaPredictor {
                     std::array<ExpertPath, kExperts>& paths) const;
   void predecessors(const ObservedAgent& agent, Row& row) const;
   void go_together(const ObservedScene& scene);
-  Spread spread_of(const ObservedAgent& agent, const Row& row) const;
+  /// Spread of every row of the last scene; once a scene.
+  void spread_rows();
+  /// Who shares draws in the last scene.
+  void share_draws();
+  /// How far a draw leads from the mean path at a step [m].
+  Vec2 departure_of(std::size_t row, std::size_t step, std::size_t intention,
+                    const Vec2& deviate) const;
   void remember(const ObservedScene& scene);
   /// What experts, companions and predecessors make of an intention's way [m].
   static Vec2 corrected(const Row& row, std::size_t step);
@@ -119,13 +173,20 @@ class GammaPredictor {
   ObservationNoise noise_;
   double walker_noise_ = 0.02, wheels_noise_ = 0.02;  ///< deviations assumed now [m]
   MotionFilter walker_filter_, wheels_filter_;
+  IntentionTimes walker_times_, wheels_times_;
   FlowMemory flow_;
+  FlowTrust trust_;
   SpreadCalibration calibration_;
   ExpertWeights experts_;
   std::vector<WalkingFeatures> walking_;
   std::unordered_map<std::uint32_t, AgentMemory>
       memory_;  ///< looked up; iterated only to drop entries
+  Need need_;
   ObservedScene seen_;
+  std::vector<Spread> spreads_;  ///< by row, empty where nobody asked yet
+  std::vector<SharedDraw> shared_;
+  std::vector<Vec2> deviates_;  ///< of a sample, by row
+  std::array<ExpertPath, kExperts> expert_paths_{};
   std::vector<Row> rows_;
   std::vector<Companion> companions_;
   std::vector<std::array<Vec2, FlowMemory::kSteps>> joint_;
@@ -134,6 +195,7 @@ class GammaPredictor {
   Scene rolling_;
   TickGeometry geometry_;
   Workspace work_;
+  Nearby nearby_;
   Workers workers_{1};
   RollOut roll_out_;
 };

@@ -17,7 +17,8 @@ constexpr std::size_t kLiveCellCapacity = 24;
 PredictorOptions live_options(bool has_road) {
   PredictorOptions options;
   options.use_flow = !has_road;
-  options.use_experts = false;  // where a map tells how one goes on, straight lines tell less
+  options.use_experts = false;   // where a map tells how one goes on, straight lines tell less
+  options.learn_spread = false;  // nobody draws samples
   options.flow_cell_capacity = kLiveCellCapacity;
   return options;
 }

@@ -8,7 +8,6 @@
 #include "base/units.h"
 #include "prediction/baselines.h"
 #include "prediction/flow_memory.h"
-#include "prediction/gamma_predictor.h"
 
 namespace sumogamma {
 
@@ -107,14 +106,19 @@ Method gamma_method(const Variant& variant, const MethodSettings& settings, cons
   Method method{variant.name, variant.title, {}, {}, {}, {}};
   method.forget = [predictor] { predictor->forget(); };
   method.observe = [predictor](const ObservedScene& scene) { predictor->observe(scene); };
+  method.observe_in_window = [predictor](const ObservedScene& scene, std::size_t later) {
+    predictor->observe_in_window(scene, later);
+  };
   method.predict = [predictor](const ObservedScene&, std::size_t steps) {
     return predictor->forecast(steps);
   };
+  method.draws = name_of(settings.draws);
   if (settings.samples > 1)
     method.sample = [predictor, settings](const ObservedScene&, std::size_t steps) {
       std::vector<Forecast> samples;
       for (std::size_t k = 0; k < settings.samples; ++k)
-        samples.push_back(predictor->sample(k, settings.samples, steps, settings.seed));
+        samples.push_back(
+            predictor->sample(k, settings.samples, steps, {settings.seed, settings.draws}));
       return samples;
     };
   return method;
@@ -130,6 +134,7 @@ Method oracle_method(const MethodSettings& settings, const TrackSet& set) {
   method.predict = [predictor](const ObservedScene&, std::size_t steps) {
     return predictor->forecast(steps);
   };
+  method.draws = "intentions";
   method.sample = [predictor](const ObservedScene&, std::size_t steps) {
     std::vector<Forecast> all;
     for (std::size_t k = 0; k < kFreeIntentions; ++k)
@@ -201,6 +206,7 @@ Method make_method(const std::string& name, const MethodSettings& settings, cons
   if (name == "oracle") return oracle_method(settings, set);
   if (name == "cv-fan") {
     Method method{"cv-fan", "constant velocity, fan of directions", {}, constant_velocity, {}, {}};
+    method.draws = "fan";
     if (settings.samples > 1)
       method.sample = [count = settings.samples](const ObservedScene& scene, std::size_t steps) {
         return velocity_fan(scene, count, steps);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "prediction/evaluation.h"
+#include "prediction/gamma_predictor.h"
 #include "prediction/predictor_parameters.h"
 
 namespace sumogamma {
@@ -14,6 +15,7 @@ struct MethodSettings {
   PredictorParameters parameters;
   std::size_t samples = 0;  ///< 0: no distribution; else 2 or more
   std::uint64_t seed = 1;
+  Draws draws = Draws::Independent;
 };
 
 /// Names for a table: gamma and the baselines (online: the simple ones with flow, too), or

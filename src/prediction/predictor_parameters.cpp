@@ -37,20 +37,6 @@ PredictorParameters default_predictor_parameters() {
   p.wheels.filter.intention_prior = {0.6, 1, 0.2121, 0.008839};
   p.wheels.filter.deviation = 0.1837;
   p.wheels.filter.change_of_mind = 0.07444;
-
-  // by hand, from the spread of the residuals on the training recordings
-  p.walker.along_fixed = 0.11;
-  p.walker.along_by_speed = 0.0;
-  p.walker.across_fixed = 0.06;
-  p.walker.across_by_speed = 0.045;
-  p.walker.growth = 1.3;
-  p.walker.tail = p.wheels.tail = 1.6;
-  p.walker.calibrated = p.wheels.calibrated = 0.85;
-  p.wheels.along_fixed = 0.075;
-  p.wheels.along_by_speed = 0.008;
-  p.wheels.across_fixed = 0.025;
-  p.wheels.across_by_speed = 0.012;
-  p.wheels.growth = 2.05;
   return p;
 }
 
@@ -112,13 +98,6 @@ void append_kind(const std::string& prefix, KindParameters& kind,
   add("expert_keep", kind.experts.keep);
   add("road_ahead", kind.road_ahead);
   add("road_turn", kind.road_turn);
-  add("along_fixed", kind.along_fixed);
-  add("along_by_speed", kind.along_by_speed);
-  add("across_fixed", kind.across_fixed);
-  add("across_by_speed", kind.across_by_speed);
-  add("growth", kind.growth);
-  add("tail", kind.tail);
-  add("calibrated", kind.calibrated);
 }
 }  // namespace
 

@@ -23,14 +23,6 @@ struct KindParameters {
   ExpertRate experts;
   /// prior of the road's ways where a network is known: straight on; each of left and right
   double road_ahead = 1.0, road_turn = 0.3;
-
-  // how far truth lies from the mean prediction, along the motion and across: fixed + by_speed * v
-  // at one second, growing with time to the power `growth` [m]
-  double along_fixed = 0.2, along_by_speed = 0.1, across_fixed = 0.15, across_by_speed = 0.1;
-  double growth = 1.3;
-  double tail = 1.0;        ///< power of the noise's radius: above 1 more at the core and far out
-  double calibrated = 1.0;  ///< share of the measured spread that process noise makes; intentions
-                            ///< make the rest
 };
 
 /// The one parameter set, chosen by tools/tune_prediction.py on the training recordings.

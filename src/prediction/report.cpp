@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace sumogamma {
 
@@ -121,6 +122,84 @@ Intervals intervals_of(const Evaluation& evaluation, std::uint64_t seed) {
   return {bootstrap_mean(average, agent, seed), bootstrap_mean(final, agent, seed)};
 }
 
+/// The simple baselines of docs/prediction.md, which need neither model nor memory.
+bool is_simple(const Evaluation& evaluation) {
+  constexpr std::string_view kSimple[] = {"cv", "mean", "kalman", "ca", "ctra"};
+  return std::find(std::begin(kSimple), std::end(kSimple), evaluation.method) != std::end(kSimple);
+}
+
+/// What an evaluation is compared with window by window: the simple baseline of the same recording
+/// with the least average error, null where there is none or it is the same.
+const Evaluation* best_simple(const Evaluation& evaluation,
+                              const std::vector<Evaluation>& evaluations) {
+  const Evaluation* best = nullptr;
+  double least = 0;
+  for (const Evaluation& other : evaluations) {
+    if (other.set != evaluation.set || !is_simple(other) ||
+        other.windows.size() != evaluation.windows.size())
+      continue;
+    const double error = summarize(other).average;
+    if (best == nullptr || error < least) {
+      best = &other;
+      least = error;
+    }
+  }
+  return best == &evaluation ? nullptr : best;
+}
+
+/// Differences to another evaluation of the same windows, bootstrapped over agents.
+Intervals paired_intervals(const Evaluation& evaluation, const Evaluation& other,
+                           std::uint64_t seed) {
+  std::vector<double> average, final;
+  std::vector<std::size_t> agent;
+  for (std::size_t k = 0; k < evaluation.windows.size(); ++k) {
+    average.push_back(evaluation.windows[k].error.average - other.windows[k].error.average);
+    final.push_back(evaluation.windows[k].error.final - other.windows[k].error.final);
+    agent.push_back(evaluation.windows[k].track);
+  }
+  return {bootstrap_mean(average, agent, seed), bootstrap_mean(final, agent, seed)};
+}
+
+/// Windows of a class and a speed band, where there are any.
+struct Stratum {
+  std::string type;
+  std::string_view band;
+  std::size_t windows = 0;
+  std::vector<PointScore> steps;
+};
+
+std::vector<Stratum> strata_of(const Evaluation& evaluation) {
+  const AgentTypeTable types = recorded_agent_types();
+  std::vector<Stratum> strata;
+  for (std::size_t t = 0; t < types.size(); ++t)
+    for (const Band& band : kBands) {
+      const auto inside = [&](const WindowScore& window) {
+        return static_cast<std::size_t>(window.type) == t && window.speed >= band.low &&
+               window.speed < band.high;
+      };
+      Stratum stratum{types[t].name, band.name, 0, summarize_steps(evaluation, inside)};
+      stratum.windows = summarize(evaluation, inside).windows;
+      if (!stratum.steps.empty()) strata.push_back(std::move(stratum));
+    }
+  return strata;
+}
+
+Json calibration_json(const Evaluation& evaluation) {
+  Json all = Json::array();
+  for (const Stratum& stratum : strata_of(evaluation)) {
+    Json json = {
+        {"class", stratum.type}, {"speed_mps", stratum.band}, {"windows", stratum.windows}};
+    for (const PointScore& step : stratum.steps) {
+      json["inside_50"].push_back(step.inside_50);
+      json["inside_90"].push_back(step.inside_90);
+      json["negative_log_likelihood"].push_back(step.log_loss);
+      json["energy_score"].push_back(step.energy);
+    }
+    all.push_back(std::move(json));
+  }
+  return all;
+}
+
 double microseconds(const Evaluation& evaluation) {
   return evaluation.predictions > 0
              ? 1e6 * evaluation.cpu_seconds / static_cast<double>(evaluation.predictions)
@@ -131,7 +210,8 @@ double microseconds(const Evaluation& evaluation) {
 
 std::span<const PublishedResult> published_results() { return kPublished; }
 
-nlohmann::ordered_json to_json(const Evaluation& evaluation, std::uint64_t seed) {
+nlohmann::ordered_json to_json(const Evaluation& evaluation,
+                               const std::vector<Evaluation>& evaluations, std::uint64_t seed) {
   const AgentTypeTable types = recorded_agent_types();
   Json json = {{"set", evaluation.set}, {"method", evaluation.method}, {"title", evaluation.title}};
   json["memory"] = name_of(evaluation.memory);
@@ -142,6 +222,19 @@ nlohmann::ordered_json to_json(const Evaluation& evaluation, std::uint64_t seed)
   json["collision_rate"] = evaluation.collisions.rate();
   json["collision_pairs"] = evaluation.collisions.pairs;
   json["true_collision_rate"] = evaluation.true_collisions.rate();
+  if (const Evaluation* other = best_simple(evaluation, evaluations)) {
+    const Intervals paired = paired_intervals(evaluation, *other, seed);
+    json["against"] = {{"method", other->method},
+                       {"ade", paired.average.mean},
+                       {"ade_95", to_json(paired.average)},
+                       {"fde", paired.final.mean},
+                       {"fde_95", to_json(paired.final)}};
+  }
+  if (evaluation.has_samples) {
+    json["draws"] = evaluation.draws;
+    json["sample_collision_rate"] = evaluation.sample_collisions.rate();
+    json["calibration"] = calibration_json(evaluation);
+  }
   json["in_training"] = evaluation.in_training;
   json["cpu_us_per_agent_prediction"] = microseconds(evaluation);
   Json by_class = Json::object(), by_speed = Json::object();
@@ -163,14 +256,15 @@ nlohmann::ordered_json to_json(const Evaluation& evaluation, std::uint64_t seed)
   return json;
 }
 
-std::string to_table(const std::vector<Evaluation>& evaluations, const Protocol& protocol,
-                     std::uint64_t seed) {
+namespace {
+
+/// What a table says once, above all rows.
+std::string preamble(const Protocol& protocol, bool strict) {
   std::string text = fmt::format(
       "Protocol {}: {} frames seen, {} scored{}. ADE/FDE in m, 95 % intervals by bootstrap over "
       "agents.\n",
       protocol.letter, protocol.observed, protocol.steps,
       protocol.counts_present ? ", the present counted as the first" : "");
-  const bool strict = evaluations.empty() || evaluations.front().memory == Memory::Strict;
   text += strict
               ? "Memory: strict. Each window by itself: what is seen of everybody in it, nothing "
                 "else. Published rows are of this kind.\n"
@@ -179,45 +273,98 @@ std::string to_table(const std::vector<Evaluation>& evaluations, const Protocol&
   text += "Parameters: one set, chosen on";
   for (const TrainingRecording& recording : training_recordings())
     text += " " + std::string(recording.name);
-  text += ".\n";
-  std::string set;
-  auto published = [&] {
-    if (!strict) return;
-    for (const PublishedResult& row : published_results()) {
-      // the paper's UNIV is both of its recordings together
-      const bool both = row.set == "univ" && (set == "univ001" || set == "univ003");
-      if (row.set == set || both)
-        text += fmt::format("  {:<40} {:7.2f} {:7.2f}   as published{}\n", row.method, row.average,
-                            row.final, both ? " for univ001 and univ003 together" : "");
-    }
-  };
+  return text +
+         ".\nagainst: ADE less that of the best simple baseline printed (cv, mean, kalman, ca, "
+         "ctra), window by window.\n";
+}
+
+/// Published rows for a recording.
+std::string published_rows(std::string_view set) {
+  std::string text;
+  for (const PublishedResult& row : published_results()) {
+    // the paper's UNIV is both of its recordings together
+    const bool both = row.set == "univ" && (set == "univ001" || set == "univ003");
+    if (row.set == set || both)
+      text += fmt::format("  {:<40} {:7.2f} {:7.2f}   as published{}\n", row.method, row.average,
+                          row.final, both ? " for univ001 and univ003 together" : "");
+  }
+  return text;
+}
+
+std::string head_of(const Evaluation& evaluation, bool has_samples) {
+  std::string text =
+      fmt::format("\n{}, {}: {} windows, COL of the truth {:.4f}, parameters chosen {} it\n",
+                  evaluation.set, name_of(evaluation.memory), evaluation.windows.size(),
+                  evaluation.true_collisions.rate(), evaluation.in_training ? "with" : "without");
+  text += fmt::format("  {:<40} {:>7} {:>7} {:>15} {:>6} {:>7} {:>8} {:>24}", "", "ADE", "FDE",
+                      "ADE 95 %", "miss", "COL", "us/pred", "against");
+  if (has_samples)
+    text += fmt::format(" {:>11} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6} {:>7}", "draws", "minADE",
+                        "minFDE", "NLL", "energy", "in 50", "in 90", "COL");
+  return text + "\n";
+}
+
+std::string row_of(const Evaluation& evaluation, const Evaluation* other, std::uint64_t seed) {
+  const Summary summary = summarize(evaluation);
+  const Interval average = intervals_of(evaluation, seed).average;
+  std::string against;
+  if (other != nullptr) {
+    const Interval paired = paired_intervals(evaluation, *other, seed).average;
+    against = fmt::format("{:+.3f} [{:+.3f}, {:+.3f}]", paired.mean, paired.low, paired.high);
+  }
+  std::string text = fmt::format(
+      "  {:<40} {:7.4f} {:7.4f} [{:.3f}, {:.3f}] {:6.3f} {:7.4f} {:8.1f} {:>24}", evaluation.title,
+      summary.average, summary.final, average.low, average.high, summary.miss_rate,
+      evaluation.collisions.rate(), microseconds(evaluation), against);
+  if (evaluation.has_samples) {
+    text += fmt::format(" {:>11} {:7.4f} {:7.4f}", evaluation.draws, summary.best_average,
+                        summary.best_final);
+    if (evaluation.method != "oracle")
+      text +=
+          fmt::format(" {:7.3f} {:7.4f} {:6.3f} {:6.3f} {:7.4f}", summary.log_loss, summary.energy,
+                      summary.inside_50, summary.inside_90, evaluation.sample_collisions.rate());
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string to_table(const std::vector<Evaluation>& evaluations, const Protocol& protocol,
+                     std::uint64_t seed) {
+  const bool strict = evaluations.empty() || evaluations.front().memory == Memory::Strict;
+  const bool has_samples =
+      std::any_of(evaluations.begin(), evaluations.end(),
+                  [](const Evaluation& evaluation) { return evaluation.has_samples; });
+  std::string text = preamble(protocol, strict), set;
   for (const Evaluation& evaluation : evaluations) {
     if (evaluation.set != set) {
-      published();
+      if (strict) text += published_rows(set);
       set = evaluation.set;
-      text += fmt::format(
-          "\n{}, {}: {} windows, COL of the truth {:.4f}, parameters chosen {} it\n", set,
-          name_of(evaluation.memory), evaluation.windows.size(), evaluation.true_collisions.rate(),
-          evaluation.in_training ? "with" : "without");
-      text += fmt::format("  {:<40} {:>7} {:>7} {:>15} {:>6} {:>7} {:>8}", "", "ADE", "FDE",
-                          "ADE 95 %", "miss", "COL", "us/pred");
-      if (evaluation.has_samples) text += "   minADE  minFDE     NLL  energy  in 50  in 90";
-      text += "\n";
+      text += head_of(evaluation, has_samples);
     }
-    const Summary summary = summarize(evaluation);
-    const Interval average = intervals_of(evaluation, seed).average;
-    text += fmt::format("  {:<40} {:7.4f} {:7.4f} [{:.3f}, {:.3f}] {:6.3f} {:7.4f} {:8.1f}",
-                        evaluation.title, summary.average, summary.final, average.low, average.high,
-                        summary.miss_rate, evaluation.collisions.rate(), microseconds(evaluation));
-    if (evaluation.method == "oracle")
-      text += fmt::format("  {:7.4f} {:7.4f}", summary.best_average, summary.best_final);
-    else if (evaluation.has_samples)
-      text += fmt::format("  {:7.4f} {:7.4f} {:7.3f} {:7.4f} {:6.3f} {:6.3f}", summary.best_average,
-                          summary.best_final, summary.log_loss, summary.energy, summary.inside_50,
-                          summary.inside_90);
-    text += "\n";
+    text += row_of(evaluation, best_simple(evaluation, evaluations), seed);
   }
-  published();
+  return strict ? text + published_rows(set) : text;
+}
+
+std::string calibration_table(const std::vector<Evaluation>& evaluations) {
+  std::string text =
+      "\nCalibration: of a hundred truths, how many lie in the 50 and in the 90 % region at each "
+      "step.\n";
+  for (const Evaluation& evaluation : evaluations) {
+    if (!evaluation.has_samples || evaluation.method == "oracle") continue;
+    text += fmt::format("\n{}, {}, {}, {} draws\n", evaluation.set, name_of(evaluation.memory),
+                        evaluation.title, evaluation.draws);
+    for (const Stratum& stratum : strata_of(evaluation))
+      for (const bool half : {true, false}) {
+        text += fmt::format("  {:<18} {:<11} {:>6} in {}", half ? stratum.type : "",
+                            half ? stratum.band : "", half ? std::to_string(stratum.windows) : "",
+                            half ? 50 : 90);
+        for (const PointScore& step : stratum.steps)
+          text += fmt::format(" {:5.1f}", 100.0 * (half ? step.inside_50 : step.inside_90));
+        text += "\n";
+      }
+  }
   return text;
 }
 

@@ -154,7 +154,7 @@ TrackSet resampled_tracks(const RawRecording& raw, const ReadOptions& options,
   const double step = own_step(raw, points);
   bool assumed = false;
   const double unit = unit_of(raw, options, step, assumed);
-  if (assumed) set.notes.push_back("tells no rate: a step every 0.4 s is assumed");
+  if (assumed) set.notes.emplace_back("tells no rate: a step every 0.4 s is assumed");
   set.own_period = unit * step;
   set.assumed_period = assumed;
   const auto [earliest, latest] =

@@ -50,7 +50,10 @@ void move(const std::vector<BodyState>& next, double period, Scene& scene) {
 
 void build_scene(const AgentTypeTable& types, const ObservedScene& seen,
                  std::span<const Vec2> velocity, Scene& scene) {
-  scene = Scene{};
+  // emptied, not made anew: its arrays keep their room
+  remove_agents(scene, std::vector<bool>(scene.size(), true));
+  scene.time = 0;
+  scene.tick = 0;
   for (std::size_t row = 0; row < seen.agents.size(); ++row) {
     const ObservedAgent& agent = seen.agents[row];
     const AgentType& type = type_of(types, agent.type);

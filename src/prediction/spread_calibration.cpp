@@ -39,17 +39,19 @@ double SpreadCalibration::quantile_scale(const Bins& errors, double total) {
 }
 
 void SpreadCalibration::remember(std::uint32_t agent, std::size_t kind,
-                                 std::span<const Vec2> predicted, const Spread& spread,
-                                 double period) {
+                                 std::span<const Vec2> predicted, const Spread& spread) {
   History& history = history_[agent];
   Pending& pending = history.recent[history.next];
-  for (std::size_t k = 0; k < kChecks; ++k)
-    pending.predicted[k] = predicted[std::min((k + 1) * kEvery, predicted.size()) - 1];
-  pending.spread = spread;
+  for (std::size_t k = 0; k < kChecks; ++k) {
+    const std::size_t step = (k + 1) * kEvery - 1;
+    pending.predicted[k] = predicted[std::min(step, predicted.size() - 1)];
+    pending.along[k] = spread.along[step];
+    pending.across[k] = spread.across[step];
+  }
+  pending.forward = spread.forward;
   history.next = (history.next + 1) % kSteps;
   history.count = std::min(history.count + 1, kSteps);
   history.kind = kind;
-  history.period = period;
   history.seen = true;
 }
 
@@ -62,10 +64,8 @@ void SpreadCalibration::resolve(std::uint32_t agent, const Vec2& position) {
     if (age > history.count) break;
     const Pending& pending = history.recent[(history.next + kSteps - age) % kSteps];
     const Vec2 error = position - pending.predicted[check];
-    const double time = std::pow(static_cast<double>(age) * history.period, pending.spread.growth);
-    const double along = error.dot(pending.spread.forward) / (pending.spread.along * time);
-    const double across =
-        error.dot(left_of(pending.spread.forward)) / (pending.spread.across * time);
+    const double along = error.dot(pending.forward) / pending.along[check];
+    const double across = error.dot(left_of(pending.forward)) / pending.across[check];
     const double deviations = std::hypot(along, across);
     if (!std::isfinite(deviations)) continue;
     errors_[history.kind][bin_of(deviations)] += 1.0;

@@ -5,17 +5,9 @@
 #include <span>
 #include <unordered_map>
 
-#include "geometry/vec2.h"
+#include "prediction/spread_model.h"
 
 namespace sumogamma {
-
-/// How wide a prediction is believed to be: standard deviations along and across a direction at one
-/// second [m], growing as time to the power `growth`.
-struct Spread {
-  Vec2 forward = Vec2(1, 0);
-  double along = 0.1, across = 0.1;
-  double growth = 1;
-};
 
 /// Learns from past predictions of the same recording by how much spreads have to be scaled: the 90
 /// % quantile of the errors met so far, in deviations, over that of the normal distribution that
@@ -27,9 +19,9 @@ class SpreadCalibration {
   double scale(std::size_t kind) const { return scale_[kind]; }
 
   /// What was predicted for the steps 3, 6, 9 and 12 to come (points, [m]) of an agent, each period
-  /// once. `period` [s].
+  /// once.
   void remember(std::uint32_t agent, std::size_t kind, std::span<const Vec2> predicted,
-                const Spread& spread, double period);
+                const Spread& spread);
   /// The agent was seen at `position`, one period later. Call before `remember` of that frame.
   void resolve(std::uint32_t agent, const Vec2& position);
   /// Takes the new errors into account; agents not remembered since the last call are forgotten.
@@ -41,12 +33,12 @@ class SpreadCalibration {
 
   struct Pending {
     std::array<Vec2, kChecks> predicted;
-    Spread spread;
+    std::array<double, kChecks> along, across;  ///< [m]
+    Vec2 forward;
   };
   struct History {
     std::array<Pending, kSteps> recent;  ///< a ring
     std::size_t count = 0, next = 0, kind = 0;
-    double period = 0.4;
     bool seen = false;
   };
   using Bins = std::array<double, kBins>;

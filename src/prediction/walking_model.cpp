@@ -77,24 +77,10 @@ struct Company {
   Vec2 alike = Vec2::Zero();
   double alike_weight = 0;
 
-  void add_companion(const Walker& self, const Walker& other, double square) {
-    const double near = bump(square, kCompanion);
-    const Vec2 mean_off = other.mean - self.mean, last_off = other.last - self.last;
-    const double mean_alike = near * bump(mean_off.squaredNorm(), kAlikeMean);
-    const double last_alike = near * bump(last_off.squaredNorm(), kAlikeLast);
-    mean += mean_alike * mean_off;
-    mean_weight += mean_alike;
-    last += last_alike * last_off;
-    last_weight += last_alike;
-  }
-
-  void add(const Walker& self, const Walker& other) {
-    const double square = (other.place - self.place).squaredNorm();
-    if (square > kReach * kReach * kFar * kFar) return;
-    if (square < kReach * kReach * kCompanion * kCompanion) add_companion(self, other, square);
+  /// `weight`: of the other at the near and the far scale.
+  void add_direction(const Walker& self, const Walker& other, const std::array<double, 2>& weight) {
     if (!other.moving) return;
     const double forward = other.direction.dot(self.mean);
-    const std::array<double, 2> weight = {bump(square, kNear), bump(square, kFar)};
     for (std::size_t k = 0; k < weight.size(); ++k) {
       axis[k] += weight[k] * forward * other.direction;
       axis_weight[k] += weight[k];
@@ -106,20 +92,58 @@ struct Company {
   }
 };
 
+/// Two who may be companions: what each sums up of the other.
+void add_companions(const Walker& one, const Walker& other, double square, Company& of_one,
+                    Company& of_other) {
+  const double near = bump(square, kCompanion);
+  const Vec2 mean_off = other.mean - one.mean, last_off = other.last - one.last;
+  const double mean_alike = near * bump(mean_off.squaredNorm(), kAlikeMean);
+  const double last_alike = near * bump(last_off.squaredNorm(), kAlikeLast);
+  of_one.mean += mean_alike * mean_off;
+  of_one.mean_weight += mean_alike;
+  of_one.last += last_alike * last_off;
+  of_one.last_weight += last_alike;
+  of_other.mean -= mean_alike * mean_off;
+  of_other.mean_weight += mean_alike;
+  of_other.last -= last_alike * last_off;
+  of_other.last_weight += last_alike;
+}
+
+/// Sums over the others for everybody. Pairs are weighed once for both; each one's sums run over
+/// the others in their order.
+std::vector<Company> companies_of(const std::vector<Walker>& walkers) {
+  std::vector<Company> companies(walkers.size());
+  for (std::size_t a = 0; a < walkers.size(); ++a) {
+    if (!walkers[a].known) continue;
+    for (std::size_t b = a + 1; b < walkers.size(); ++b) {
+      const Walker &one = walkers[a], &other = walkers[b];
+      if (!other.known) continue;
+      const double square = (other.place - one.place).squaredNorm();
+      if (square > kReach * kReach * kFar * kFar) continue;
+      if (square < kReach * kReach * kCompanion * kCompanion)
+        add_companions(one, other, square, companies[a], companies[b]);
+      if (!one.moving && !other.moving) continue;
+      const std::array<double, 2> weight = {bump(square, kNear), bump(square, kFar)};
+      companies[a].add_direction(one, other, weight);
+      companies[b].add_direction(other, one, weight);
+    }
+  }
+  return companies;
+}
+
 }  // namespace
 
 void walking_features(const AgentTypeTable& types, const ObservedScene& scene,
                       std::vector<WalkingFeatures>& features) {
   const std::vector<Walker> walkers = walkers_of(types, scene);
+  const std::vector<Company> companies = companies_of(walkers);
   const double trust = trust_in_means(scene, walkers);
   features.resize(walkers.size());
   for (std::size_t row = 0; row < walkers.size(); ++row) {
     features[row].fill(Vec2::Zero());
     const Walker& self = walkers[row];
     if (!self.known) continue;
-    Company company;
-    for (std::size_t other = 0; other < walkers.size(); ++other)
-      if (other != row && walkers[other].known) company.add(self, walkers[other]);
+    const Company& company = companies[row];
     const std::span<const Vec2> position = lately(scene.agents[row]);
     std::array<Vec2, 5> twice;
     auto d = [&](std::size_t j) { return displacement_before(position, j); };

@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <zstd.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "base/subprocess.h"
 
@@ -85,6 +88,58 @@ TEST(PredictCommand, ExportsWhatAnIndependentScorerNeeds) {
   }
 }
 
+/// Numbers of a column of a small Parquet file as ParquetWriter makes it, decoded by hand: one
+/// group, plain doubles compressed by zstd, the columns' pages one after the other.
+std::vector<std::vector<double>> parquet_pages(const std::string& path, std::size_t rows) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  std::vector<std::vector<double>> pages;
+  const std::string magic = "\x28\xb5\x2f\xfd";  // of a zstd frame
+  for (std::size_t at = bytes.find(magic); at != std::string::npos;) {
+    const std::size_t size = ZSTD_findFrameCompressedSize(bytes.data() + at, bytes.size() - at);
+    if (ZSTD_isError(size) != 0) break;
+    std::string plain(ZSTD_getFrameContentSize(bytes.data() + at, size), '\0');
+    ZSTD_decompress(plain.data(), plain.size(), bytes.data() + at, size);
+    std::vector<double> values;
+    if (plain.size() == rows * sizeof(double)) {
+      values.resize(rows);
+      std::memcpy(values.data(), plain.data(), plain.size());
+    }
+    pages.push_back(std::move(values));
+    at = bytes.find(magic, at + size);
+  }
+  return pages;
+}
+
+TEST(PredictCommand, ExportsTheSameToParquet) {
+  const auto folder = std::filesystem::temp_directory_path();
+  const std::string csv = (folder / "sumogamma_export.csv").string();
+  const std::string parquet = (folder / "sumogamma_export.parquet").string();
+  for (const std::string& file : {csv, parquet})
+    ASSERT_TRUE(predict({small_recording(), "--method", "cv,mean", "--export", file}).ok());
+  std::ifstream file(csv);
+  std::string line;
+  std::getline(file, line);
+  std::vector<std::vector<std::string>> rows;
+  while (std::getline(file, line)) {
+    std::vector<std::string>& fields = rows.emplace_back();
+    std::istringstream text(line);
+    for (std::string field; std::getline(text, field, ',');) fields.push_back(field);
+    ASSERT_EQ(fields.size(), 13u);
+  }
+  ASSERT_GT(rows.size(), 100u);
+  const auto pages = parquet_pages(parquet, rows.size());
+  ASSERT_EQ(pages.size(), 13u);
+  for (const std::size_t column : {3u, 5u, 6u, 7u, 8u, 9u, 10u, 11u, 12u}) {
+    ASSERT_EQ(pages[column].size(), rows.size()) << column;
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      ASSERT_NEAR(pages[column][row], std::stod(rows[row][column]), 1e-6) << column << " " << row;
+  }
+  EXPECT_FALSE(std::filesystem::exists(parquet + ".part"));
+  EXPECT_EQ(predict({small_recording(), "--export", "/nowhere/x.parquet"}).exit_code, 2);
+  EXPECT_EQ(predict({small_recording(), "--export", "/nowhere/x.csv"}).exit_code, 2);
+}
+
 TEST(PredictCommand, SaysWhichMemoryAndKeepsPublishedRowsBesideStrict) {
   const auto named = std::filesystem::temp_directory_path() / "hotel.txt";
   std::filesystem::copy_file(small_recording(), named,
@@ -98,6 +153,38 @@ TEST(PredictCommand, SaysWhichMemoryAndKeepsPublishedRowsBesideStrict) {
   EXPECT_NE(online.output.find("constant velocity + flow"), std::string::npos) << online.output;
   EXPECT_EQ(online.output.find("as published"), std::string::npos);
   EXPECT_EQ(predict({named.string(), "--memory", "none"}).exit_code, 2);
+}
+
+TEST(PredictCommand, MeasuresSamplesByClassSpeedAndStep) {
+  const auto json_path = std::filesystem::temp_directory_path() / "sumogamma_samples.json";
+  for (const std::string draws : {"independent", "even"}) {
+    SCOPED_TRACE(draws);
+    const ProcessResult result =
+        predict({small_recording(), "--method", "gamma,cv", "--samples", "6", "--draws", draws,
+                 "--calibration", "--json", json_path.string()});
+    ASSERT_TRUE(result.ok()) << result.errors;
+    EXPECT_NE(result.output.find(draws + " draws"), std::string::npos) << result.output;
+    EXPECT_NE(result.output.find("Calibration:"), std::string::npos);
+    const auto json = nlohmann::json::parse(std::ifstream(json_path));
+    EXPECT_EQ(json.at("draws"), draws);
+    const auto& gamma = json.at("evaluations")[0];
+    EXPECT_EQ(gamma.at("draws"), draws);
+    EXPECT_EQ(gamma.at("against").at("method"), "cv");
+    const double difference =
+        gamma.at("ade").get<double>() - json.at("evaluations")[1].at("ade").get<double>();
+    EXPECT_NEAR(gamma.at("against").at("ade").get<double>(), difference, 1e-9);
+    EXPECT_FALSE(json.at("evaluations")[1].contains("against"));
+    std::size_t windows = 0;
+    double inside = 0;
+    for (const auto& stratum : gamma.at("calibration")) {
+      windows += stratum.at("windows").get<std::size_t>();
+      ASSERT_EQ(stratum.at("inside_90").size(), 12u);
+      for (const auto& share : stratum.at("inside_90"))
+        inside += share.get<double>() * stratum.at("windows").get<double>() / 12.0;
+    }
+    EXPECT_EQ(windows, gamma.at("windows").get<std::size_t>());
+    EXPECT_NEAR(inside / static_cast<double>(windows), gamma.at("inside_90").get<double>(), 1e-9);
+  }
 }
 
 TEST(PredictCommand, NamesEveryMethodInItsHelp) {
@@ -198,6 +285,8 @@ TEST(PredictCommand, RefusesBadInputWithOneLine) {
                                              {small_recording(), "--protocol", "Z"},
                                              {small_recording(), "--method", "magic"},
                                              {small_recording(), "--samples", "1"},
+                                             {small_recording(), "--draws", "lots"},
+                                             {small_recording(), "--calibration"},
                                              {small_recording(), "--set", "predict.luck=1"}}) {
     const ProcessResult result = predict(arguments);
     EXPECT_EQ(result.exit_code, 2);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/geometric_constraints.h"
+#include "model/nearby.h"
 #include "model/velocity_obstacle.h"
 #include "support/open_scene.h"
 
@@ -42,6 +43,43 @@ TEST(GammaLaws, HardPlanesAlwaysHoldAndSpeedStaysInItsDisc) {
         ASSERT_GE(slack(plane, work.result.point), -1e-9);
     }
   }
+}
+
+/// One search for all hypotheses of a row finds what a search for each of them does.
+TEST(GammaLaws, OneSearchForManyHypothesesGivesTheSameBits) {
+  Model model = shared_model();
+  model.options.use_guard = false;
+  Workers workers(1);
+  TickGeometry geometry;
+  Workspace work, other_work;
+  Nearby nearby;
+  std::size_t bound = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene = random_scene(model, seed, 30, seed % 3 == 0 ? 8.0 : 25.0);
+    prepare_tick(model, scene, workers, geometry);
+    for (std::size_t row = 0; row < scene.size(); ++row) {
+      BehaviorState behavior = scene.behavior[row];
+      const AttentionRange own = behavior.attention;
+      find_nearby(model.road, geometry, row, {own.front + 2.0, own.rear}, nearby);
+      for (const double farther : {0.0, 2.0})
+        for (const double turn : {0.0, 1.0, -2.0}) {
+          behavior.attention.front = own.front + farther;
+          behavior.responsibility = farther > 0 ? 0.2 : 0.5;
+          behavior.intention.goal =
+              scene.position[row] +
+              from_body(scene.behavior[row].intention.goal - scene.position[row],
+                        direction_of(turn));
+          const Vec2 alone = gamma_velocity(model, scene, geometry, row, behavior, work);
+          const Vec2 among =
+              gamma_velocity_among(model, scene, geometry, behavior, nearby, other_work);
+          ASSERT_EQ(alone, among);
+          ASSERT_EQ(work.neighbours.attended.size(), other_work.neighbours.attended.size());
+          bound += work.binding_source() != nullptr;
+        }
+    }
+  }
+  EXPECT_GT(bound, 500u);
 }
 
 TEST(GammaLaws, TwoWhoTakeHalfEachDoNotCollideWithinTheHorizon) {

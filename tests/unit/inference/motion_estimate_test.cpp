@@ -83,10 +83,11 @@ TEST(IntendedPath, KeepsFadesTurnsAndStops) {
   const IntentionShape shape{
       .acceleration_decay = 1, .speed_decay = 0, .turn_decay = 2, .stop_time = 1};
   std::array<Vec2, 12> keep, gain, turn, stop;
-  intended_path(IntentionHypothesis::KeepVelocity, motion, shape, 0.4, keep);
-  intended_path(IntentionHypothesis::KeepAcceleration, motion, shape, 0.4, gain);
-  intended_path(IntentionHypothesis::ConstantTurnRate, motion, shape, 0.4, turn);
-  intended_path(IntentionHypothesis::Stop, motion, shape, 0.4, stop);
+  const IntentionTimes times(shape, 0.4);
+  intended_path(IntentionHypothesis::KeepVelocity, motion, times, keep);
+  intended_path(IntentionHypothesis::KeepAcceleration, motion, times, gain);
+  intended_path(IntentionHypothesis::ConstantTurnRate, motion, times, turn);
+  intended_path(IntentionHypothesis::Stop, motion, times, stop);
   EXPECT_NEAR(keep[11].x(), 9.6, 1e-12);
   // the acceleration adds at most 0.5 m/s in the end
   EXPECT_NEAR(gain[11].x() - gain[10].x(), 0.4 * 2.5, 0.01);

@@ -9,6 +9,7 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "prediction/companions.h"
+#include "prediction/flow_trust.h"
 #include "prediction/gamma_predictor.h"
 #include "prediction/live_predictor.h"
 #include "prediction/road_guess.h"
@@ -53,10 +54,46 @@ TEST(Companions, DoNotIncludeWheels) {
   EXPECT_EQ(joint[1][11], agents[1].path[11]);
 }
 
+/// Share of a flow of 1 m to the left that is believed after truth went `truth` m to the left.
+double believed(double truth) {
+  FlowTrust trust;
+  std::vector<Vec2> straight, flow(12, Vec2(0, 1));
+  for (int k = 1; k <= 12; ++k) straight.push_back({0.5 * k, 0});
+  for (std::uint32_t agent = 0; agent < 60; ++agent)
+    for (int frame = 0; frame <= 12; ++frame) {
+      const Vec2 start(0.5 * frame, truth * (frame % 3 == 0 ? 1.0 : 0.0));
+      trust.resolve(agent, start);
+      std::vector<Vec2> ahead;
+      for (const Vec2& point : straight) ahead.push_back(point + Vec2(start.x(), 0));
+      if (frame == 0) trust.remember(agent, 0, ahead, flow);
+      // later ones start from elsewhere: nothing to learn from them
+      if (frame > 0) trust.remember(agent, 0, ahead, std::vector<Vec2>(12, Vec2::Zero()));
+      trust.end_frame();
+    }
+  EXPECT_EQ(trust.share(1), 1.0);  // the other kind learned nothing
+  const double share = trust.share(0);
+  trust.clear();
+  EXPECT_EQ(trust.share(0), 1.0);
+  return share;
+}
+
+TEST(FlowTrust, BelievesWhatCameTrue) {
+  EXPECT_NEAR(believed(1.0), 1.0, 1e-9);
+  EXPECT_NEAR(believed(0.5), 0.5, 0.1);
+  EXPECT_EQ(believed(-1.0), 0.0);
+  EXPECT_EQ(believed(3.0), 1.0);
+}
+
 /// Truth spreads `factor` times as far as was assumed: the scale must find out.
 double learned_scale(double factor) {
   SpreadCalibration calibration;
-  const Spread spread{Vec2(0, 1), 0.2, 0.1, 1.5};
+  Spread spread;
+  spread.forward = Vec2(0, 1);
+  for (std::size_t k = 0; k < kSpreadSteps; ++k) {
+    const double time = std::pow(0.4 * static_cast<double>(k + 1), 1.5);
+    spread.along[k] = 0.2 * time;
+    spread.across[k] = 0.1 * time;
+  }
   for (std::uint32_t agent = 0; agent < 400; ++agent) {
     const Vec2 normal(random_normal(3, agent, 0, Draw::ProcessNoise),
                       random_normal(3, agent, 1, Draw::ProcessNoise));
@@ -66,7 +103,7 @@ double learned_scale(double factor) {
       const double time = std::pow(0.4 * frame, 1.5);
       calibration.resolve(
           agent, Vec2(0, 0.5 * frame) + factor * time * Vec2(0.1 * normal.x(), 0.2 * normal.y()));
-      calibration.remember(agent, 0, straight, spread, 0.4);
+      calibration.remember(agent, 0, straight, spread);
       calibration.end_frame();
       // only the first prediction is compared: later ones start elsewhere
       for (Vec2& point : straight) point = Vec2(std::numeric_limits<double>::quiet_NaN(), 0);
