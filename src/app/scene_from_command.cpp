@@ -19,6 +19,7 @@
 #include "io/output_file.h"
 #include "io/output_folder.h"
 #include "osm/lanelet_network.h"
+#include "osm/recorded_signals.h"
 #include "realism/map_matching.h"
 #include "realism/scene_export.h"
 #include "road/sumo_net_reader.h"
@@ -34,6 +35,7 @@ struct SceneFromOptions {
   std::string recording;
   fs::path map, output;
   std::vector<double> origin;
+  fs::path signals, signal_map;
   double beyond = 100.0;
   double at = 1.0;
   bool force = false;
@@ -102,13 +104,32 @@ void require_on_routes(const RoadScene& road, const SceneFromOptions& options) {
 
 /// A Lanelet2 map as a network of SUMO's: its plain files and the network in a folder of their own.
 /// Returns what is told of it.
-Json convert_lanelets(const SceneFromOptions& options, const fs::path& folder) {
+Json convert_lanelets(const RecordedScene& scene, const SceneFromOptions& options,
+                      const fs::path& folder) {
   std::optional<osm::GeoPoint> origin;
   if (!options.origin.empty()) origin = osm::GeoPoint{options.origin[1], options.origin[0]};
-  const osm::LaneletMap map = osm::read_lanelet_map(options.map, origin);
+  osm::LaneletMap map = osm::read_lanelet_map(options.map, origin);
+  std::vector<osm::SignalledWay> signalled;
+  osm::SignalChanges changes;
+  if (!options.signals.empty()) {
+    changes = osm::read_signal_changes(options.signals, scene.own_period);
+    signalled = osm::read_signal_map(options.signal_map, origin.value_or(osm::GeoPoint{}));
+    osm::mark_signalled(signalled, map);
+  }
   const osm::PlainNetwork plain = osm::plain_network_of(map, options.beyond, options.map);
-  osm::write_lanelet_network(plain, folder, options.map.stem().string());
+  const std::string name = options.map.stem().string();
+  osm::write_lanelet_network(plain, folder, name);
+  Json signals;
+  if (!options.signals.empty()) {
+    const osm::SignalReplay replay = osm::replay_signals(folder / (name + ".net.xml"), signalled,
+                                                         changes, kScoreStep * scene.first);
+    signals = {{"programs", replay.signals},
+               {"links", replay.links},
+               {"links_without_a_group", replay.unknown},
+               {"phases", replay.phases}};
+  }
   return {{"axes", map.axes},
+          {"signals", signals},
           {"lanelets", map.lanelets.size()},
           {"lanelets_turned", map.turned},
           {"lanelets_without_a_limit", map.without_a_limit},
@@ -137,6 +158,14 @@ void print_lanelets(const Json& lanelets, const SceneFromOptions& options, std::
   if (lanelets["junctions_without_a_rule"] > 0)
     print(out, "assumed: netconvert's right of way at {} junctions of which the map tells none\n",
           lanelets["junctions_without_a_rule"].get<std::size_t>());
+  const Json& signals = lanelets["signals"];
+  if (signals.is_null())
+    print(out, "left out: signals as recorded (--signals, --signal-map)\n");
+  else
+    print(out,
+          "signals: {} programs of {} phases as recorded; {} of {} ways have no signal group\n",
+          signals["programs"].get<std::size_t>(), signals["phases"].get<std::size_t>(),
+          signals["links_without_a_group"].get<std::size_t>(), signals["links"].get<std::size_t>());
   for (const auto& [kind, count] : lanelets["left_out"].items())
     print(out, "left out of the map: {} {}\n", count.get<long>(), kind);
 }
@@ -147,7 +176,7 @@ void write_road_scene(const RecordedScene& scene, const SceneFromOptions& option
   Json lanelets;
   if (file.extension() == ".osm") {
     made.emplace(options.output / "lanelets", options.force);
-    lanelets = convert_lanelets(options, made->path());
+    lanelets = convert_lanelets(scene, options, made->path());
     file = made->path() / (options.map.stem().string() + ".net.xml");
   }
   const RoadNetwork network = read_sumo_net(file);
@@ -201,6 +230,11 @@ int make_scene(const SceneFromOptions& options, const CommonOptions& common) {
   if (!map.empty() && !is_net && !map.ends_with(".osm"))
     throw Error("--map " + options.map.string(),
                 "is no map, expected NAME.net.xml, NAME.net.xml.gz or a Lanelet2 map NAME.osm");
+  if (options.signals.empty() != options.signal_map.empty())
+    throw Error("--signals",
+                "and --signal-map go together: what groups showed, and whose they are");
+  if (!options.signals.empty() && !map.ends_with(".osm"))
+    throw Error("--signals", "takes a Lanelet2 map, whose network is made here");
   require_without(options.output, "scene.json", options.force);
   const RecordedScene scene =
       read_recorded_scene(options.recording, scene_reading(options.reading));
@@ -238,6 +272,11 @@ CommandRunner add_scene_from_command(CLI::App& parent) {
                    "of a Lanelet2 map: lanes go straight on behind its end for so long [m]")
       ->check(finite_number(0.0, 1e4))
       ->capture_default_str();
+  command->add_option("--signals", options->signals,
+                      "on a Lanelet2 map: what signal groups showed (CSV: signal_group, time_s or "
+                      "frame, state)");
+  command->add_option("--signal-map", options->signal_map,
+                      "with --signals: KML of lanes with their sinks and signal groups");
   command
       ->add_option("--at", options->at,
                    "on open ground: the scene is that of so long after the recording's begin [s]")

@@ -22,6 +22,10 @@ constexpr double kInMiddle = 4.0;      // from the ends of a lanelet that is cut
 constexpr double kOnLane = 0.5;        // of its width: so near its centre line another joins it
 constexpr double kBeside = 5.0;        // a lane that tells how its neighbour goes on [m]
 constexpr double kParallel = 20.0;     // likewise [degrees]
+constexpr double kOver = 0.65;         // of half their widths: nearer to it one lies over another
+constexpr double kApart = 1.0;         // from there to where it is a lane of its own [m]
+constexpr double kLeastFree = 4.0;     // a shorter lane isn't worth it [m]
+constexpr double kLeastBefore = 25.0;  // nor before a merge, where a stop line may stand [m]
 constexpr double kPiece = 2.0;         // of a line that follows another [m]
 
 bool alike(const Vec2& a, const Vec2& b, double most) {
@@ -63,7 +67,7 @@ class Maker {
     cut_where_others_join();
     link();
     find_junctions();
-    while (join_rows()) {
+    while (join_rows() || cut_free_parts()) {
       link();
       find_junctions();
     }
@@ -222,6 +226,8 @@ class Maker {
       second.center = part_of(second.center, along, length);
       second.left = {left, first.left.back()};
       second.right = {right, first.right.back()};
+      // stop lines are where lanelets end
+      first.signalled = false;
       first.left = {first.left.front(), left};
       first.right = {first.right.front(), right};
       if (k == lanelet && behind) result = lanelets().size();
@@ -249,6 +255,62 @@ class Maker {
       for (std::size_t b = a + 1; b < count; ++b)
         if (!is_linked(a, b) && cross_each_other(lanelets()[a].center, lanelets()[b].center))
           meet(a, b);
+  }
+
+  /// Is a node one of a cut?
+  bool is_made(std::int64_t node) const {
+    return node > std::numeric_limits<std::int64_t>::max() - made_nodes_ - 1;
+  }
+
+  bool is_among(const std::vector<std::size_t>& all, std::size_t one) const {
+    return std::find(all.begin(), all.end(), one) != all.end();
+  }
+
+  /// Where a lanelet lies over others: up to where over those that begin with it, from where over
+  /// those that end with it [m] or that it meets in its second half. Nothing where it meets others
+  /// before, or begins with nobody.
+  std::optional<std::pair<double, double>> overlaps(std::size_t k) const {
+    const Lanelet& own = graph_.lanelets[k];
+    const std::vector<std::size_t> row = row_of(k);
+    double begins_with = 0.0, ends_with = own.center.length();
+    bool others = false;
+    for (std::size_t other = 0; other < graph_.lanelets.size(); ++other) {
+      if (!graph_.on_junction[other] || is_linked(k, other) || is_among(row, other)) continue;
+      const Lanelet& lane = graph_.lanelets[other];
+      const bool begins = (start_of(own) - start_of(lane)).norm() < kMeets,
+                 ends = (end_of(own) - end_of(lane)).norm() < kMeets;
+      const double reach = kOver * 0.5 * (own.width + lane.width);
+      for (double along = 0.0; along <= own.center.length(); along += 1.0) {
+        if (lane.center.project(own.center.point_at(along)).distance > reach) continue;
+        others = others || (!begins && !ends);
+        if (!begins && !ends && along < 0.5 * own.center.length()) return std::nullopt;
+        const bool first = begins && (!ends || along < 0.5 * own.center.length());
+        if (first) begins_with = std::max(begins_with, along);
+        if (!first) ends_with = std::min(ends_with, along);
+      }
+    }
+    if (others && begins_with <= 0.0 && !is_made(own.left.front())) return std::nullopt;
+    return std::pair(begins_with, ends_with);
+  }
+
+  /// Cuts off, with the lanes beside it, what of a lanelet on a junction lies over no other: where
+  /// lanes part or come together they are lanes before and behind. False: there is nothing.
+  bool cut_free_parts() {
+    for (std::size_t k = 0; k < lanelets().size(); ++k) {
+      if (!graph_.on_junction[k]) continue;
+      const auto over = overlaps(k);
+      if (!over) continue;
+      const double length = lanelets()[k].center.length();
+      const double from = over->first > 0.0 ? over->first + kApart : 0.0,
+                   to = over->second < length ? over->second - kApart : length;
+      // no stop line stands where a lanelet was cut here
+      const bool is_piece = is_made(lanelets()[k].left.front());
+      const double least = from > 0.0 || is_piece ? kLeastFree : kLeastBefore;
+      if (to - from < least || (from <= 0.0 && to >= length)) continue;
+      cut_row(k, lanelets()[k].center.point_at(from > 0.0 ? from : to), true);
+      return true;
+    }
+    return false;
   }
 
   /// Lanes beside which one lies on a junction: what prolongs them is an edge of its own.

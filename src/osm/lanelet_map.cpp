@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "osm/geo_projection.h"
 
 namespace sumogamma::osm {
 
@@ -133,21 +132,16 @@ class Reader {
   }
 
   void project(const std::vector<std::pair<std::int64_t, GeoPoint>>& places, GeoPoint origin) {
-    const int zone =
-        std::clamp(static_cast<int>(std::floor((origin.lon + 180.0) / 6.0)) + 1, 1, 60);
-    const GeoProjection projection(
-        fmt::format("+proj=utm +zone={}{} +ellps=WGS84 +units=m +no_defs", zone,
-                    origin.lat < 0 ? " +south" : ""));
-    const Vec2 zero = projection.to_plane(origin);
+    const LaneletPlane plane(origin);
     for (const auto& [id, place] : places) {
-      points_[id] = projection.to_plane(place) - zero;
+      points_[id] = plane.place_of(place);
       if (!points_[id].allFinite() || points_[id].norm() > 1e5)
         refuse("node", id,
                fmt::format("lies at latitude {}, longitude {}, expected a place within "
                            "100 km of the origin {}, {}",
                            place.lat, place.lon, origin.lat, origin.lon));
     }
-    map_.axes = fmt::format("UTM zone {} less the origin {}, {}", zone, origin.lat, origin.lon);
+    map_.axes = plane.describe();
   }
 
   void read_way(const pugi::xml_node& way) {
@@ -310,17 +304,20 @@ class Reader {
 
 }  // namespace
 
+LaneletPlane::LaneletPlane(GeoPoint origin)
+    : origin_(origin),
+      zone_(std::clamp(static_cast<int>(std::floor((origin.lon + 180.0) / 6.0)) + 1, 1, 60)),
+      projection_(fmt::format("+proj=utm +zone={}{} +ellps=WGS84 +units=m +no_defs", zone_,
+                              origin.lat < 0 ? " +south" : "")),
+      zero_(projection_.to_plane(origin)) {}
+
+std::string LaneletPlane::describe() const {
+  return fmt::format("UTM zone {} less the origin {}, {}", zone_, origin_.lat, origin_.lon);
+}
+
 LaneletMap read_lanelet_map(const std::filesystem::path& file,
                             const std::optional<GeoPoint>& origin) {
   return Reader(file, origin).read();
-}
-
-bool is_lanelet_map(const std::filesystem::path& file) {
-  pugi::xml_document document;
-  if (!document.load_file(file.c_str())) return false;
-  for (const pugi::xml_node relation : document.child("osm").children("relation"))
-    if (tag(tags_of(relation), "type") == "lanelet") return true;
-  return false;
 }
 
 }  // namespace sumogamma::osm

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/polyline.h"
+#include "osm/geo_projection.h"
 #include "osm/osm_map.h"
 
 namespace sumogamma::osm {
@@ -41,6 +42,22 @@ struct LaneletMap {
   std::size_t without_a_limit = 0;       ///< lanelets that get kLaneletSpeed
 };
 
+/// The plane of a recording whose axes have their origin at a place: UTM in its zone, less the
+/// origin, as Lanelet2 projects.
+class LaneletPlane {
+ public:
+  explicit LaneletPlane(GeoPoint origin);
+  Vec2 place_of(GeoPoint point) const { return projection_.to_plane(point) - zero_; }
+  /// For people.
+  std::string describe() const;
+
+ private:
+  GeoPoint origin_;
+  int zone_;
+  GeoProjection projection_;
+  Vec2 zero_;
+};
+
 /// Where a map tells no limit: 50 km/h [m/s].
 inline constexpr double kLaneletSpeed = 50.0 / 3.6;
 
@@ -53,8 +70,5 @@ inline constexpr double kLaneletSpeed = 50.0 / 3.6;
 /// or tells no places.
 LaneletMap read_lanelet_map(const std::filesystem::path& file,
                             const std::optional<GeoPoint>& origin = std::nullopt);
-
-/// Is the file OSM XML with lanelets in it? False where it can't be read.
-bool is_lanelet_map(const std::filesystem::path& file);
 
 }  // namespace sumogamma::osm

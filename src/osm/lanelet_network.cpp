@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <numeric>
+#include <pugixml.hpp>
 #include <set>
 #include <utility>
 
@@ -14,11 +16,13 @@
 #include "base/units.h"
 #include "osm/lanelet_graph.h"
 #include "osm/netconvert.h"
+#include "osm/network_file.h"
 
 namespace sumogamma::osm {
 
 namespace {
 
+constexpr double kInside = 0.1;  // of a lane that its junction takes [m]
 constexpr std::size_t kMostTurns = 10000;
 constexpr int kGoesFirst = 4, kAsUsual = 2, kYields = 1;  // SUMO's priorities of edges
 
@@ -42,9 +46,6 @@ class Groups {
  private:
   std::vector<std::size_t> parent_;
 };
-
-Vec2 start_of(const Lanelet& one) { return one.center.points().front(); }
-Vec2 end_of(const Lanelet& one) { return one.center.points().back(); }
 
 std::string shape_text(const std::vector<Vec2>& points) {
   std::string text;
@@ -181,9 +182,11 @@ class Roads {
   };
 
   static LaneEnd lane_end(const Lanelet& lane, bool at_end) {
-    const Vec2 place = at_end ? end_of(lane) : start_of(lane);
-    const Vec2 aside =
-        0.5 * lane.width * left_of(lane.center.direction_at(at_end ? lane.center.length() : 0.0));
+    // netconvert fails where a lane only touches the outline
+    const double length = lane.center.length(), inside = std::min(kInside, 0.2 * length);
+    const double along = at_end ? length - inside : inside;
+    const Vec2 place = lane.center.point_at(along);
+    const Vec2 aside = 0.5 * lane.width * left_of(lane.center.direction_at(along));
     return {place, place + aside, place - aside};
   }
 
@@ -235,7 +238,7 @@ class Roads {
   }
 
   void write_nodes() {
-    plain_.nodes = "<nodes>\n";
+    plain_.nodes = plain_.nodes_with_outlines = "<nodes>\n";
     for (const auto& [port, node] : nodes()) {
       const char* type = node.signalled  ? "traffic_light"
                          : node.all_stop ? "allway_stop"
@@ -248,12 +251,30 @@ class Roads {
           node.turns && node.ends.size() > 2
               ? fmt::format(" shape=\"{}\"", shape_text(outline_of(node.ends, place)))
               : "";
-      plain_.nodes += fmt::format("  <node id=\"{}\" x=\"{:.3f}\" y=\"{:.3f}\" type=\"{}\"{}/>\n",
-                                  node_id(port), place.x(), place.y(), type, shape);
+      const std::string begin =
+          fmt::format("  <node id=\"{}\" x=\"{:.3f}\" y=\"{:.3f}\" type=\"{}\"", node_id(port),
+                      place.x(), place.y(), type);
+      plain_.nodes += begin + "/>\n";
+      plain_.nodes_with_outlines += begin + shape + "/>\n";
       plain_.junction_count += node.in > 1;
       plain_.without_a_rule += node.in > 1 && !node.ruled;
     }
     plain_.nodes += "</nodes>\n";
+    plain_.nodes_with_outlines += "</nodes>\n";
+  }
+
+  /// The line halfway between an edge's outer lanes.
+  std::vector<Vec2> middle_of(const Edge& edge) const {
+    const Polyline &right = lanelets_[edge.lanes.front()].center,
+                   &left = lanelets_[edge.lanes.back()].center;
+    const std::size_t pieces = std::max(right.points().size(), left.points().size());
+    std::vector<Vec2> points;
+    for (std::size_t k = 0; k <= pieces; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(pieces);
+      points.emplace_back(
+          0.5 * (right.point_at(share * right.length()) + left.point_at(share * left.length())));
+    }
+    return points;
   }
 
   void write_edges() {
@@ -264,9 +285,10 @@ class Roads {
           "  <edge id=\"{}\" from=\"{}\" to=\"{}\" numLanes=\"{}\" priority=\"{}\" "
           "spreadType=\"center\" speed=\"{:.2f}\" shape=\"{}\">\n",
           edge.id, node_id(edge.from), node_id(edge.to), edge.lanes.size(), edge.priority,
-          middle.speed, shape_text(middle.center.points()));
+          middle.speed, shape_text(middle_of(edge)));
       for (std::size_t k = 0; k < edge.lanes.size(); ++k) {
         const Lanelet& lane = lanelets_[edge.lanes[k]];
+        plain_.lanes[fmt::format("{}_{}", edge.id, k)] = lane.center.points();
         const std::string classes =
             lane.use == LaneletUse::Bicycle
                 ? "allow=\"bicycle\""
@@ -327,6 +349,79 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
   if (!out) throw Error(file.string(), "cannot be written: is the disk full?");
 }
 
+std::vector<Vec2> points_in(const char* shape) {
+  std::vector<Vec2> points;
+  for (const char* at = shape; *at != '\0';) {
+    char* end = nullptr;
+    const double x = std::strtod(at, &end);
+    if (end == at || *end != ',') break;
+    const char* second = end + 1;
+    points.emplace_back(x, std::strtod(second, &end));
+    // a height may follow
+    while (*end != '\0' && *end != ' ') ++end;
+    at = *end == ' ' ? end + 1 : end;
+  }
+  return points;
+}
+
+void set_line(pugi::xml_node lane, const Polyline& line) {
+  constexpr double kShortest = 0.1;  // of a lane of SUMO's [m]
+  lane.attribute("shape").set_value(shape_text(line.points()).c_str());
+  lane.attribute("length").set_value(
+      fmt::format("{:.2f}", std::max(kShortest, line.length())).c_str());
+}
+
+/// Puts the lanes of a network, and the ways over its junctions, where the lanelets are.
+void restore_lanes(const PlainNetwork& plain, const std::filesystem::path& file) {
+  pugi::xml_document document;
+  if (!document.load_file(file.c_str())) throw Error(file.string(), "can't be read");
+  pugi::xml_node net = document.child("net");
+  std::map<std::string, pugi::xml_node> lanes;
+  for (const pugi::xml_node edge : net.children("edge"))
+    for (const pugi::xml_node lane : edge.children("lane"))
+      lanes[lane.attribute("id").value()] = lane;
+  for (const auto& [id, line] : plain.lanes) {
+    const auto lane = lanes.find(id);
+    if (lane == lanes.end()) continue;
+    set_line(lane->second, Polyline(line));
+  }
+  std::map<std::string, std::string> onward;  // the second half of a way, by the lane of the first
+  for (const pugi::xml_node link : net.children("connection"))
+    if (link.attribute("from").value()[0] == ':' && link.attribute("via"))
+      onward[fmt::format("{}_{}", link.attribute("from").value(),
+                         link.attribute("fromLane").value())] = link.attribute("via").value();
+  for (const pugi::xml_node link : net.children("connection")) {
+    const auto via = lanes.find(link.attribute("via").value());
+    if (link.attribute("from").value()[0] == ':' || via == lanes.end()) continue;
+    const std::string from = fmt::format("{}_{}", link.attribute("from").value(),
+                                         link.attribute("fromLane").value()),
+                      to = fmt::format("{}_{}", link.attribute("to").value(),
+                                       link.attribute("toLane").value());
+    if (!plain.lanes.contains(from) || !plain.lanes.contains(to)) continue;
+    const std::vector<Vec2>&before = plain.lanes.at(from), &behind = plain.lanes.at(to);
+    std::vector<Vec2> points{before.back()};
+    for (const Vec2& point : points_in(link.attribute("shape").value())) points.push_back(point);
+    points.push_back(behind.front());
+    const Polyline whole(points);
+    const auto second = onward.find(via->first);
+    if (second == onward.end()) {
+      set_line(via->second, whole);
+      continue;
+    }
+    // netconvert's first half begins where it had the lane end
+    const Polyline first(points_in(via->second.attribute("shape").value()));
+    const double half = whole.project(first.points().back()).along;
+    const double cut = std::clamp(half, 0.5, std::max(0.5, whole.length() - 0.5));
+    std::vector<Vec2> one{whole.point_at(0.0)}, other{whole.point_at(cut)};
+    for (std::size_t k = 0; k < whole.points().size(); ++k)
+      (whole.along_of_vertex(k) < cut ? one : other).push_back(whole.points()[k]);
+    one.push_back(whole.point_at(cut));
+    set_line(via->second, Polyline(one));
+    set_line(lanes.at(second->second), Polyline(other));
+  }
+  save_xml(document, file);
+}
+
 }  // namespace
 
 PlainNetwork plain_network_of(const LaneletMap& map, double beyond,
@@ -336,13 +431,22 @@ PlainNetwork plain_network_of(const LaneletMap& map, double beyond,
 
 void write_lanelet_network(const PlainNetwork& plain, const std::filesystem::path& folder,
                            const std::string& name) {
-  write_text(folder / (name + ".nod.xml"), plain.nodes);
   write_text(folder / (name + ".edg.xml"), plain.edges);
   write_text(folder / (name + ".con.xml"), plain.connections);
   NetconvertRequest request;
   request.folder = folder;
   request.network = name + ".net.xml";
-  run_netconvert_on_plain(request, name);
+  const auto convert = [&](const std::string& nodes) {
+    write_text(folder / (name + ".nod.xml"), nodes);
+    run_netconvert_on_plain(request, name);
+  };
+  try {
+    convert(plain.nodes);
+  } catch (const Error&) {
+    // netconvert 1.15 asserts where it finds no outline of some junctions
+    convert(plain.nodes_with_outlines);
+  }
+  restore_lanes(plain, folder / request.network);
 }
 
 }  // namespace sumogamma::osm

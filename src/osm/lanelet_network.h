@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,9 @@ namespace sumogamma::osm {
 
 /// A network in SUMO's plain XML, as netconvert reads it.
 struct PlainNetwork {
-  std::string nodes, edges, connections;  ///< whole files
+  std::string nodes, edges, connections;           ///< whole files
+  std::string nodes_with_outlines;                 ///< `nodes`, with junctions' outlines
+  std::map<std::string, std::vector<Vec2>> lanes;  ///< centre lines, by SUMO's id
   std::size_t edge_count = 0, lane_count = 0, junction_count = 0, turn_count = 0;
   std::size_t without_a_rule = 0;  ///< junctions of several arms of which the map tells no rule
   std::size_t cut = 0;             ///< lanelets cut in two
@@ -25,8 +28,9 @@ PlainNetwork plain_network_of(const LaneletMap& map, double beyond,
                               const std::filesystem::path& file);
 
 /// Writes the plain files `name`.nod.xml, .edg.xml, .con.xml and the network `name`.net.xml into a
-/// folder, with netconvert, whose messages go to netconvert.log there. Throws Error with
-/// netconvert's message where it fails.
+/// folder, with netconvert, whose messages go to netconvert.log there. Lanes and ways over
+/// junctions of the network are where the lanelets are: netconvert shortens lanes at junctions for
+/// an outline of its own. Throws Error with netconvert's message where it fails.
 void write_lanelet_network(const PlainNetwork& plain, const std::filesystem::path& folder,
                            const std::string& name);
 

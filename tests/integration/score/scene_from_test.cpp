@@ -162,6 +162,15 @@ TEST_F(SceneFrom, ARealRecordingLiesOnItsLanelets) {
   EXPECT_GE(told().at("points_on_routes").get<double>(), 0.97 * told().at("points").get<double>());
   EXPECT_GE(told().at("vehicles"), 57);
   EXPECT_EQ(told().at("lanelets").at("junctions"), 1);
+  EXPECT_NE(result.output.find("left out: signals as recorded"), std::string::npos);
+  // and with its signals
+  placed.insert(placed.end(), {"--force", "--signals", (data / "signals.csv").string()});
+  EXPECT_NE(scene_from(placed).errors.find("--signal-map go together"), std::string::npos);
+  placed.insert(placed.end(), {"--signal-map", (data / "k733_map.kml").string()});
+  const ProcessResult signalled = scene_from(placed);
+  ASSERT_TRUE(signalled.ok()) << signalled.errors;
+  EXPECT_EQ(told().at("lanelets").at("signals").at("links_without_a_group"), 0);
+  EXPECT_GT(told().at("lanelets").at("signals").at("phases"), 50);
 }
 
 TEST_F(SceneFrom, RefusesAMapThatIsntThePlaces) {
