@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 
 struct ScoreOptions {
   std::vector<std::string> files;
-  fs::path output;
+  fs::path output, map;
   std::vector<std::string> methods;
   std::size_t rollouts = 32;
   bool force = false;
@@ -36,6 +36,7 @@ struct ScoreOptions {
 
 struct Scored {
   RecordedScene scene;
+  std::optional<RecordedRoad> road;
   RecordingScore score;
 };
 
@@ -45,6 +46,11 @@ std::optional<Scored> score_file(const std::string& file, const ScoreOptions& op
   Scored scored;
   scored.scene = read_recorded_scene(file, scene_reading(options.reading));
   Workers workers(common.threads);
+  ScoreSettings own = settings;
+  if (!options.map.empty()) {
+    scored.road = put_on_road(options.map, workers, scored.scene);
+    own.road = &*scored.road;
+  }
   bool stopped = false;
   const auto progress = [&](const std::string& method, std::size_t window, std::size_t windows) {
     stopped = interrupted();
@@ -52,7 +58,7 @@ std::optional<Scored> score_file(const std::string& file, const ScoreOptions& op
       print(stderr, "{}: {}, {} windows\n", scored.scene.name, method, windows);
     return !stopped;
   };
-  scored.score = score_recording(scored.scene, settings, workers, progress);
+  scored.score = score_recording(scored.scene, own, workers, progress);
   if (stopped) return std::nullopt;
   return scored;
 }
@@ -72,6 +78,11 @@ void write_results(const ScoreOptions& options, const ScoreSettings& settings,
   std::vector<RecordingScore> scores;
   for (const Scored& one : all) {
     json["recordings"].push_back(score_json(one.scene, one.score));
+    if (one.road)
+      json["recordings"].back()["map"] = {{"network", one.road->file.filename().string()},
+                                          {"people_left_out", one.road->people},
+                                          {"bicycles_beside_lanes", one.road->beside_lanes},
+                                          {"vehicles_without_a_route", one.road->no_route}};
     scores.push_back(one.score);
   }
   write_file(options.output / "score.csv", score_csv(scores));
@@ -83,6 +94,12 @@ void print_results(const std::vector<Scored>& all, std::FILE* out) {
   for (const Scored& one : all) {
     print(out, "## {}\n", one.score.name);
     for (const std::string& note : scoring_notes(one.scene, one.score)) print(out, "- {}\n", note);
+    if (one.road)
+      print(out,
+            "- on {}: left out of all methods are {} people, {} bicycles beside the lanes and {} "
+            "vehicles without a route\n",
+            one.road->file.filename().string(), one.road->people, one.road->beside_lanes,
+            one.road->no_route);
     print(out, "\n{}\n", score_table(one.score));
     scores.push_back(one.score);
   }
@@ -93,8 +110,14 @@ int score(const ScoreOptions& options, const CommonOptions& common) {
   ScoreSettings settings;
   settings.methods = options.methods;
   if (settings.methods.empty())
-    for (const ScoreMethodInfo& info : score_methods()) settings.methods.emplace_back(info.name);
-  for (const std::string& method : settings.methods) require_score_method(method);
+    for (const ScoreMethodInfo& info : score_methods())
+      if (!info.on_roads || !options.map.empty()) settings.methods.emplace_back(info.name);
+  for (const std::string& method : settings.methods) {
+    require_score_method(method);
+    for (const ScoreMethodInfo& info : score_methods())
+      if (method == info.name && info.on_roads && options.map.empty())
+        throw Error("--method " + method, "drives on a network: --map NAME.net.xml tells which");
+  }
   settings.seed = common.seed;
   settings.rollouts = options.rollouts;
   settings.model = read_config({}, common.set).model;
@@ -133,7 +156,10 @@ CommandRunner add_score_command(CLI::App& parent) {
     methods += fmt::format("{}{} ({})", methods.empty() ? "" : ", ", info.name, info.label);
   command->add_option("RECORDINGS", options->files, "as `predict` reads them")->required();
   command->add_option("-o,--output", options->output, "folder for score.json and score.csv");
-  command->add_option("--method", options->methods, "of " + methods + "; default: all")
+  command->add_option("--map", options->map,
+                      "SUMO network of the place in the recording's axes (NAME.net.xml), as "
+                      "scene-from --map writes it: GAMMA keeps to the rules of the road there");
+  command->add_option("--method", options->methods, "of " + methods + "; default: all that can be")
       ->delimiter(',');
   command
       ->add_option("--seeds", options->rollouts,

@@ -298,6 +298,28 @@ std::vector<std::string> patch_network(const NetconvertRequest& request, const p
   return run(request, std::move(arguments));
 }
 
+std::vector<std::string> run_netconvert_on_plain(const NetconvertRequest& request,
+                                                 const std::string& name) {
+  std::vector<std::string> arguments = {"--xml-validation",
+                                        "never",
+                                        "-n",
+                                        name + ".nod.xml",
+                                        "-e",
+                                        name + ".edg.xml",
+                                        "-x",
+                                        name + ".con.xml",
+                                        "-o",
+                                        request.network,
+                                        "--offset.disable-normalization",
+                                        "--no-turnarounds",
+                                        "--tls.default-type",
+                                        "static",
+                                        "--junctions.internal-link-detail",
+                                        "8"};
+  if (request.left_hand) arguments.push_back("--lefthand");
+  return run(request, std::move(arguments));
+}
+
 std::vector<NodeGroup> read_joins(const std::filesystem::path& file) {
   pugi::xml_document document;
   if (!document.load_file(file.c_str())) throw Error(file.string(), "not a file of joined nodes");

@@ -46,6 +46,12 @@ std::vector<std::filesystem::path> typemaps();
 std::vector<std::string> run_netconvert(const NetconvertRequest& request,
                                         const pugi::xml_node& before = {});
 
+/// Runs netconvert on plain XML within the folder (`name`.nod.xml, .edg.xml, .con.xml), which is
+/// kept as it stands: no joining, guessing or turning round. Same returns and errors as
+/// run_netconvert().
+std::vector<std::string> run_netconvert_on_plain(const NetconvertRequest& request,
+                                                 const std::string& name);
+
 /// The groups of nodes in a file of joins, as netconvert writes it to request.joined. Throws Error
 /// where it is none.
 std::vector<NodeGroup> read_joins(const std::filesystem::path& file);

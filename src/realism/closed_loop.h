@@ -5,18 +5,9 @@
 
 #include "base/parallel.h"
 #include "model/model.h"
-#include "realism/likelihood.h"
+#include "realism/window_cast.h"
 
 namespace sumogamma {
-
-/// What became of those who come during the windows.
-struct EntryCounts {
-  std::size_t entered = 0;   ///< a rollout each
-  std::size_t delayed = 0;   ///< of them, later than recorded, since somebody was in their place
-  std::size_t shut_out = 0;  ///< not at all, for that reason
-
-  void add(const EntryCounts& other);
-};
 
 /// GAMMA in closed loop on open ground: everybody, whoever came when, is moved by the model (Eq. 7,
 /// guard) in steps of 0.05 s, without a map and its rules.

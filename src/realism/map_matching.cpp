@@ -15,7 +15,9 @@ namespace {
 constexpr std::size_t kEvery = 5;       // steps from one point to the next
 constexpr double kAlike = 60.0;         // of headings [degrees]
 constexpr double kWalkReach = 10.0;     // [m]
-constexpr std::size_t kCandidates = 4;  // of edges at either end
+constexpr std::size_t kCandidates = 4;  // of edges at a point
+constexpr std::size_t kAtEnd = 6;       // points at either end
+constexpr double kBesideLane = 4.0;     // from a lane to the next one [m]
 
 /// A place on a lane.
 struct LanePlace {
@@ -128,17 +130,27 @@ std::vector<EdgeId> way_between(const RoadNetwork& network, const LanePlace& fro
   return best;
 }
 
-/// Lanes under the first (or last) of the points that has any.
+/// Lanes under the first (or last) few of the points, each edge once: who changes lanes there may
+/// be beside the one that it goes on by. At the middle of the points where there is none nearer.
 std::vector<LanePlace> end_of(const RoadNetwork& network, const RecordedAgent& agent,
                               std::vector<std::size_t> points, VehicleClassMask classes,
                               bool first) {
   if (!first) std::reverse(points.begin(), points.end());
-  for (const std::size_t k : points) {
-    std::vector<LanePlace> places =
-        lanes_at(network, agent.position[k], agent.heading[k], classes, first);
-    if (!places.empty()) return places;
+  std::vector<LanePlace> places;
+  std::set<EdgeId> seen;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (k >= kAtEnd && !places.empty()) break;
+    for (LanePlace place :
+         lanes_at(network, agent.position[points[k]], agent.heading[points[k]], classes, first)) {
+      if (!seen.insert(network.lane(place.lane).edge).second) continue;
+      // the end itself lies there, too, as far as the lane goes
+      const Polyline& line = network.lane(place.lane).centerline;
+      const PolylinePosition end = line.project(agent.position[points[0]]);
+      if (end.distance < kBesideLane) place.along = end.along;
+      places.push_back(place);
+    }
   }
-  return {};
+  return places;
 }
 
 /// The nearest lane for people.

@@ -20,9 +20,9 @@ struct MatchedRoute {
 };
 
 /// The route that most of the agent's points lie by: of those that lead from an edge at its first
-/// point on the network to one at its last, each the fastest. Lanes count that admit the classes
-/// and run within 60 degrees of its heading; who begins or ends on a junction is on the edge before
-/// or behind it.
+/// points on the network (3 s) to one at its last, each the fastest. Lanes count that admit the
+/// classes and run within 60 degrees of its heading; who begins or ends on a junction is on the
+/// edge before or behind it.
 MatchedRoute match_route(const RoadNetwork& network, const RecordedAgent& agent,
                          VehicleClassMask classes);
 

@@ -26,13 +26,14 @@ OpenScene open_scene_of(const RecordedScene& scene, int start);
 struct RoadScene {
   std::string routes;  ///< a route file: types by size, vehicles, people
   std::size_t vehicles = 0, people = 0;
-  std::size_t no_route = 0;          ///< vehicles left out
+  std::size_t no_route = 0;          ///< motor vehicles left out
+  std::size_t beside_lanes = 0;      ///< bicycles left out: fewer than 95 % of their points near it
   std::size_t no_sidewalk = 0;       ///< people left out
-  std::size_t points = 0, near = 0;  ///< of all vehicles, see MatchedRoute
+  std::size_t points = 0, near = 0;  ///< of all motor vehicles, see MatchedRoute
   std::vector<std::uint32_t> worst;  ///< ids of those with fewer than 95 % of their points near it
 };
 
-/// The share of all vehicles' points that has to lie by their routes.
+/// The share of all motor vehicles' points that has to lie by their routes.
 inline constexpr double kLeastOnRoutes = 0.95;
 
 RoadScene road_scene_of(const RecordedScene& scene, const RoadNetwork& network);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "realism/controls.h"
+#include "realism/sumo_loop.h"
 
 namespace sumogamma {
 
@@ -17,12 +18,16 @@ namespace {
 constexpr int kPart = 3000;               // five minutes [steps]
 constexpr std::size_t kResamples = 1000;  // of the interval
 
-constexpr std::array<ScoreMethodInfo, 5> kMethods{{
+constexpr std::array<ScoreMethodInfo, 9> kMethods{{
     {"log", "replay of the recording"},
     {"stand", "everybody stands"},
     {"cv", "constant velocity"},
     {"cv-fan", "fan of constant velocity"},
     {"gamma", "GAMMA in closed loop"},
+    {"sumo-krauss", "SUMO, Krauss", true},
+    {"sumo-idm", "SUMO, IDM", true},
+    {"sumo-eidm", "SUMO, EIDM", true},
+    {"sumo-sublane", "SUMO, Krauss, sublane", true},
 }};
 
 /// What all windows of a recording share.
@@ -32,6 +37,8 @@ struct Scoring {
   const std::vector<ScoreWindow>& windows;
   const std::vector<MotionFeatures>& log;  ///< by window
   const ClosedLoop& loop;
+  const RoadLoop* roads;  ///< null: open ground
+  const SumoLoop* sumo;   ///< likewise
 };
 
 std::vector<Rollout> rollouts_of(const Scoring& scoring, const ScoreWindow& window,
@@ -42,9 +49,13 @@ std::vector<Rollout> rollouts_of(const Scoring& scoring, const ScoreWindow& wind
   if (score.name == "cv") return keep_velocity(scoring.scene, window);
   if (score.name == "cv-fan")
     return fan_out(scoring.scene, window, settings.seed, settings.rollouts);
+  if (score.name != "gamma")
+    return scoring.sumo->drive(window, score.name, settings.seed, settings.rollouts, score.entries);
   std::vector<Rollout> rollouts;
   for (std::size_t r = 0; r < settings.rollouts; ++r)
-    rollouts.push_back(scoring.loop.drive(window, settings.seed + r, score.entries));
+    rollouts.push_back(scoring.roads
+                           ? scoring.roads->drive(window, settings.seed + r, score.entries)
+                           : scoring.loop.drive(window, settings.seed + r, score.entries));
   return rollouts;
 }
 
@@ -127,7 +138,19 @@ RecordingScore score_recording(const RecordedScene& scene, const ScoreSettings& 
   for (const ScoreWindow& window : found.windows)
     log.push_back(features_of(window.log, window.bodies));
   const ClosedLoop loop(scene, settings.model, workers);
-  const Scoring scoring{scene, settings, found.windows, log, loop};
+  std::optional<RoadLoop> roads;
+  std::optional<SumoLoop> sumo;
+  if (settings.road) {
+    roads.emplace(scene, *settings.road, settings.model, workers);
+    sumo.emplace(scene, *settings.road);
+  }
+  const Scoring scoring{scene,
+                        settings,
+                        found.windows,
+                        log,
+                        loop,
+                        roads ? &*roads : nullptr,
+                        sumo ? &*sumo : nullptr};
   RecordingScore result;
   result.name = scene.name;
   result.windows = found.windows.size();

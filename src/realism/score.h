@@ -10,14 +10,16 @@
 #include "realism/closed_loop.h"
 #include "realism/likelihood.h"
 #include "realism/motion_counts.h"
+#include "realism/road_loop.h"
 
 namespace sumogamma {
 
 /// What can be scored.
 struct ScoreMethodInfo {
   const char *name, *label;
+  bool on_roads = false;  ///< drives on a network alone
 };
-/// log, stand, cv, cv-fan, gamma: the order of tables.
+/// log, stand, cv, cv-fan, gamma, and on a network SUMO's own models: the order of tables.
 std::vector<ScoreMethodInfo> score_methods();
 
 /// Throws Error on a name that isn't one of score_methods(), with the one that is nearest to it.
@@ -28,6 +30,7 @@ struct ScoreSettings {
   std::uint64_t seed = 1;     ///< of the first rollout; the next one's is one more
   std::size_t rollouts = 32;  ///< of methods that draw; the others have one
   ModelOptions model;
+  const RecordedRoad* road = nullptr;  ///< the network of the place; null: open ground
 };
 
 /// One method on one recording.

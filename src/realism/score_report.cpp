@@ -95,10 +95,11 @@ Json method_json(const RecordingScore& score, const MethodScore& method) {
   json.update(figures_json(method.sums));
   json["composite_95"] = {number(method.composite_low), number(method.composite_high)};
   json["hellinger"] = distances_json(distances(score.log, method.counts));
-  if (method.name == "gamma")
+  if (method.name == "gamma" || method.name.starts_with("sumo-"))
     json["entering"] = {{"entered", method.entries.entered},
                         {"delayed", method.entries.delayed},
-                        {"shut_out", method.entries.shut_out}};
+                        {"shut_out", method.entries.shut_out},
+                        {"unplaced", method.entries.unplaced}};
   for (const auto& [type, sums] : method.by_type) json["by_type"][type] = figures_json(sums);
   for (std::size_t k = 0; k < kCountedMeasures; ++k)
     json["counts"][counted_measures()[k].name] = method.counts.counts[k];
@@ -143,6 +144,12 @@ std::vector<std::string> scoring_notes(const RecordedScene& scene, const Recordi
                       "all, since somebody was in their place",
                       method.name, method.entries.entered + method.entries.shut_out,
                       method.entries.delayed, method.entries.shut_out));
+  for (const MethodScore& method : score.methods)
+    if (method.entries.unplaced > 0)
+      notes.push_back(
+          fmt::format("{}: {} times SUMO didn't insert one of those scored, which then "
+                      "keeps its velocity",
+                      method.name, method.entries.unplaced));
   if (!score.methods.empty() && score.methods.front().sums.colliding_in_log > 0)
     notes.push_back(fmt::format("{} of {} agents overlap another in the recording itself",
                                 score.methods.front().sums.colliding_in_log, score.scored));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/subprocess.h"
+#include "support/lanelet_text.h"
 #include "support/plain_net.h"
 
 namespace sumogamma {
@@ -72,6 +73,10 @@ class SceneFrom : public ::testing::Test {
         file);
     return file.string();
   }
+  std::string lanelets() const {
+    std::ofstream(folder_ / "map.osm") << testing::lanelet_crossing();
+    return (folder_ / "map.osm").string();
+  }
   std::string out() const { return (folder_ / "out").string(); }
   json told() const { return json::parse(std::ifstream(folder_ / "out" / "scene.json")); }
   fs::path folder_;
@@ -117,6 +122,57 @@ TEST_F(SceneFrom, ANetworkMakesAScenarioOfSumos) {
   EXPECT_EQ(results.at("collisions").at("unique_pairs"), 0);
 }
 
+TEST_F(SceneFrom, ALanelet2MapMakesOne) {
+  const ProcessResult result =
+      scene_from({recording(1.75), "--map", lanelets(), "-o", out(), "--beyond", "150"});
+  ASSERT_TRUE(result.ok()) << result.errors;
+  EXPECT_NE(result.output.find("left out of the map: 1 lanelets for people (crosswalk)"),
+            std::string::npos)
+      << result.output;
+  EXPECT_EQ(told().at("vehicles"), 3);
+  EXPECT_EQ(told().at("people_without_a_sidewalk"), 1);
+  EXPECT_EQ(told().at("points"), told().at("points_on_routes"));
+  EXPECT_EQ(told().at("lanelets").at("ways_over_junctions"), 4);
+  for (const char* file : {"map.net.xml", "lanelets/map.edg.xml", "lanelets/map.con.xml"})
+    EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "lanelets" / "map.net.xml"));
+  const ProcessResult sumo = program(
+      {"sumo", "-c", out() + "/recorded.sumocfg", "--no-step-log", "--duration-log.disable"});
+  EXPECT_TRUE(sumo.ok()) << sumo.errors;
+  const ProcessResult driven = program({SUMOGAMMA_PROGRAM, "run", out() + "/recorded.sumocfg", "-o",
+                                        (folder_ / "run").string(), "--quiet"});
+  ASSERT_TRUE(driven.ok()) << driven.errors;
+  const json results = json::parse(std::ifstream(folder_ / "run" / "results.json"));
+  EXPECT_EQ(results.at("agents").at("inserted"), 3);
+  EXPECT_EQ(results.at("collisions").at("unique_pairs"), 0);
+}
+
+/// A junction with turning lanes, slip roads and a lane that the map lacks.
+TEST_F(SceneFrom, ARealRecordingLiesOnItsLanelets) {
+  const fs::path data = fs::path(SUMOGAMMA_SHARED_DIR) / "data" / "trajectories" / "tafbw_k733";
+  if (!fs::exists(data)) GTEST_SKIP() << "no recordings beside the project: " << data;
+  const std::vector<std::string> arguments = {
+      (data / "k733_2020_09_15.csv").string(), "--period", "0.1", "--map",
+      (data / "k733.lanelet2.osm").string(),   "-o",       out()};
+  EXPECT_NE(scene_from(arguments).errors.find("--origin LAT,LON"), std::string::npos);
+  std::vector<std::string> placed = arguments;
+  placed.insert(placed.end(), {"--origin", "49.005306,8.4374089"});
+  const ProcessResult result = scene_from(placed);
+  ASSERT_TRUE(result.ok()) << result.errors;
+  EXPECT_GE(told().at("points_on_routes").get<double>(), 0.97 * told().at("points").get<double>());
+  EXPECT_GE(told().at("vehicles"), 57);
+  EXPECT_EQ(told().at("lanelets").at("junctions"), 1);
+  EXPECT_NE(result.output.find("left out: signals as recorded"), std::string::npos);
+  // and with its signals
+  placed.insert(placed.end(), {"--force", "--signals", (data / "signals.csv").string()});
+  EXPECT_NE(scene_from(placed).errors.find("--signal-map go together"), std::string::npos);
+  placed.insert(placed.end(), {"--signal-map", (data / "k733_map.kml").string()});
+  const ProcessResult signalled = scene_from(placed);
+  ASSERT_TRUE(signalled.ok()) << signalled.errors;
+  EXPECT_EQ(told().at("lanelets").at("signals").at("links_without_a_group"), 0);
+  EXPECT_GT(told().at("lanelets").at("signals").at("phases"), 50);
+}
+
 TEST_F(SceneFrom, RefusesAMapThatIsntThePlaces) {
   const auto refused = [&](const std::vector<std::string>& arguments, const std::string& why) {
     const ProcessResult result = scene_from(arguments);
@@ -127,8 +183,9 @@ TEST_F(SceneFrom, RefusesAMapThatIsntThePlaces) {
   };
   const std::string far = recording(40);
   refused({far, "--map", net(), "-o", out()}, "expected 95 %");
-  refused({far, "--map", "place.osm", "-o", out()}, "Lanelet2 maps aren't read yet");
-  refused({far, "--map", "place.xodr", "-o", out()}, "expected NAME.net.xml");
+  refused({far, "--map", "place.osm", "-o", out()}, "place.osm: can't be read as a Lanelet2 map");
+  refused({far, "--map", lanelets(), "-o", out()}, "expected 95 %");
+  refused({far, "--map", "place.xodr", "-o", out()}, "a Lanelet2 map NAME.osm");
   refused({far, "-o", out(), "--at", "500"}, "expected a time from 0 to 12.0");
   refused({far, "-o", out(), "--box", "car=4"}, "expected TYPE=LENGTHxWIDTH");
 }

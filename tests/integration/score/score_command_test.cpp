@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/subprocess.h"
+#include "support/plain_net.h"
 
 namespace sumogamma {
 namespace {
@@ -107,6 +108,44 @@ TEST_F(ScoreCommand, IsTheSameForAnyNumberOfThreads) {
   const ProcessResult other =
       score({recording, "--seeds", "3", "--method", "cv-fan,gamma", "--seed", "7"});
   EXPECT_NE(one.output, other.output);
+}
+
+/// On the network of the place GAMMA and SUMO's models drive what the recording's cars did.
+TEST_F(ScoreCommand, DrivesOnANetworkBesideSumosModels) {
+  const fs::path net = folder_ / "road.net.xml";
+  testing::write_plain_net(
+      {R"(<node id="W" x="-100" y="0"/><node id="C" x="60" y="0"/><node id="E" x="400" y="0"/>)",
+       R"(<edge id="WC" from="W" to="C" numLanes="1" speed="10" spreadType="center"/>)"
+       R"(<edge id="CE" from="C" to="E" numLanes="1" speed="10" spreadType="center"/>)"
+       R"(<edge id="EW" from="E" to="W" numLanes="1" speed="10" shape="400,4 -100,4" )"
+       R"(spreadType="center"/>)",
+       "",
+       {}},
+      net);
+  const ProcessResult result =
+      score({small_recording(22), "-o", out(), "--seeds", "3", "--map", net.string(), "--method",
+             "log,gamma,sumo-krauss,sumo-idm,sumo-eidm,sumo-sublane"});
+  ASSERT_TRUE(result.ok()) << result.errors;
+  EXPECT_NE(result.output.find("left out of all methods are 1 people"), std::string::npos)
+      << result.output;
+  const json recording = results().at("recordings").at(0);
+  EXPECT_EQ(recording.at("map").at("network"), "road.net.xml");
+  EXPECT_EQ(recording.at("agents_scored"), 7) << "three cars, and four in the second window";
+  for (const char* name : {"gamma", "sumo-krauss", "sumo-idm", "sumo-eidm", "sumo-sublane"}) {
+    const json& method = method_named(recording, name);
+    EXPECT_EQ(method.at("rollouts"), 3) << name;
+    EXPECT_EQ(method.at("colliding"), 0.0) << name;
+    EXPECT_GT(method.at("progress"), 0.85) << name;
+    EXPECT_LT(method.at("progress"), 1.4) << name;
+    EXPECT_LT(method.at("min_ade_m"), 8.0) << name;
+  }
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& why) {
+    const ProcessResult none = score(arguments);
+    EXPECT_EQ(none.exit_code, 2) << none.errors;
+    EXPECT_NE(none.errors.find(why), std::string::npos) << none.errors;
+  };
+  refused({small_recording(22), "--method", "sumo-idm"}, "--map NAME.net.xml tells which");
+  refused({small_recording(22), "--map", (folder_ / "no.net.xml").string()}, "no.net.xml");
 }
 
 TEST_F(ScoreCommand, RefusesWhatItCantScore) {
