@@ -243,6 +243,7 @@ void append_departure(pugi::xml_node root, const RoadNetwork& road, const TypeDe
 /// Buses and riders, and the types that they are of.
 struct LineTraffic {
   std::vector<const AgentType*> types;
+  DemandRequest request;  ///< with what buses can drive alone; runs point into it
   std::vector<BusRun> runs;
   std::vector<Rider> riders;
 };
@@ -250,6 +251,7 @@ struct LineTraffic {
 LineTraffic line_traffic(const RoadNetwork& road, const AgentTypeTable& types,
                          const DemandRequest& request, DemandReport& report) {
   LineTraffic traffic;
+  traffic.request = request;
   if (!request.transport) return traffic;
   if (request.transport->transport.parts.empty()) {
     report.transport.problem = "the map has no line with two stops on roads that a bus may use";
@@ -257,10 +259,12 @@ LineTraffic line_traffic(const RoadNetwork& road, const AgentTypeTable& types,
   }
   const auto type = [&](const char* name) { return &type_of(types, find_agent_type(types, name)); };
   traffic.types = {type("bus"), type("pedestrian")};
-  traffic.runs = line_timetable(road, *type("bus"), request, report.transport);
+  std::vector<LinePart>& parts = traffic.request.transport->transport.parts;
+  parts = drivable_parts(road, *type("bus"), parts, report.transport);
+  traffic.runs = line_timetable(road, *type("bus"), traffic.request, report.transport);
   if (traffic.runs.empty())
     report.transport.problem = "no part of a line on which a bus can drive and departs in time";
-  traffic.riders = draw_riders(road, types, request, traffic.runs, report);
+  traffic.riders = draw_riders(road, types, traffic.request, traffic.runs, report);
   report.transport.riders = static_cast<long>(traffic.riders.size());
   return traffic;
 }
@@ -287,7 +291,7 @@ void write_routes(const RoadNetwork& road, const DemandRequest& request,
     if (std::none_of(demands.begin(), demands.end(),
                      [&](const TypeDemand& demand) { return demand.type == type; }))
       append_vehicle_type(root, *type);
-  append_transport(others.append_child("routes"), road, request, lines.runs, lines.riders);
+  append_transport(others.append_child("routes"), road, lines.request, lines.runs, lines.riders);
   pugi::xml_node next = others.child("routes").first_child();
   const auto append_until = [&](double time) {
     for (; next && next.attribute("depart").as_double() <= time; next = next.next_sibling())

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <span>
 
 #include "demand/draws.h"
 #include "demand/route_fit.h"
@@ -20,6 +23,25 @@ std::size_t row_after(const RoadNetwork& road, const AgentType& bus, const LineP
          road.lane(road.edge(part.route[row]).lanes.front()).length < bus.length + 8.0)
     ++row;
   return row < part.stops.back().edge ? row : part.route.size();
+}
+
+/// Can a bus that has come by the route from row `begin` go on to row `next`?
+bool leads_on(const RoadNetwork& road, const AgentType& bus, const LinePart& part,
+              std::size_t begin, std::size_t next) {
+  const std::size_t first = std::max(begin + 2, next) - 2;  // the last turn and the lanes before it
+  return suits(road, bus, std::span(part.route).subspan(first, next + 1 - first));
+}
+
+/// Rows [begin, end) of a part; none where they hold fewer than two stops.
+std::optional<LinePart> piece_of(const LinePart& part, std::size_t begin, std::size_t end) {
+  LinePart piece{part.id, part.line, part.kind, part.headway, {}, {}};
+  for (const ServedStop& served : part.stops)
+    if (served.edge >= begin && served.edge < end)
+      piece.stops.push_back({served.stop, served.edge - begin});
+  if (piece.stops.size() < 2) return std::nullopt;
+  piece.route.assign(part.route.begin() + static_cast<std::ptrdiff_t>(begin),
+                     part.route.begin() + static_cast<std::ptrdiff_t>(end));
+  return piece;
 }
 
 }  // namespace
@@ -43,24 +65,47 @@ std::vector<double> arrival_times(const RoadNetwork& road, const AgentType& bus,
   return times;
 }
 
+std::vector<LinePart> drivable_parts(const RoadNetwork& road, const AgentType& bus,
+                                     const std::vector<LinePart>& parts, TransportDemand& report) {
+  std::vector<LinePart> drivable;
+  for (const LinePart& part : parts) {
+    std::size_t begin = 0, pieces = 0;
+    for (std::size_t end = 1; end <= part.route.size(); ++end) {
+      if (end < part.route.size() && leads_on(road, bus, part, begin, end)) continue;
+      std::optional<LinePart> piece = piece_of(part, begin, end);
+      begin = end;
+      if (!piece) continue;
+      if (pieces++ > 0) piece->id += "." + std::to_string(pieces);
+      drivable.push_back(std::move(*piece));
+    }
+    if (pieces == 0)
+      report.left_out.emplace_back(
+          part.line + " (" + part.id + ")",
+          "turns or lane changes that no bus can drive leave no two of its stops together");
+  }
+  // SUMO lets people into any bus of a line that they ask for, the other direction's, too
+  std::map<std::string, int> of_line;
+  for (LinePart& part : drivable) {
+    const int number = of_line[part.line]++;
+    part.line += ":" + std::to_string(number);
+  }
+  return drivable;
+}
+
 std::vector<BusRun> line_timetable(const RoadNetwork& road, const AgentType& bus,
                                    const DemandRequest& request, TransportDemand& report) {
   std::vector<BusRun> runs;
   const AskedTransport& asked = *request.transport;
   for (std::size_t i = 0; i < asked.transport.parts.size(); ++i) {
     const LinePart& part = asked.transport.parts[i];
-    if (!suits(road, bus, part.route)) {
-      report.left_out.emplace_back(part.line + " (" + part.id + ")",
-                                   "a turn or lane change on it that no bus can drive");
-      continue;
-    }
     const std::vector<double> arrival = arrival_times(road, bus, part, request.slowness);
     const double headway = part.headway > 0 ? part.headway : asked.headway;
     DemandDraws draws(request.seed, 3000000 + i);
     const double phase = headway * draws.uniform();
     long number = 0;
     const auto add = [&](double time, std::size_t first) {
-      runs.push_back({"bus." + part.id + "." + std::to_string(number++), &part, time, first});
+      runs.push_back(
+          {"bus." + part.id + "." + std::to_string(number++), &part, time, arrival, first});
     };
     for (double back = std::ceil(arrival.back() / headway); back >= 1; --back) {
       const std::size_t row = row_after(road, bus, part, arrival, back * headway - phase);

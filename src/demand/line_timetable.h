@@ -13,7 +13,8 @@ namespace sumogamma {
 struct BusRun {
   std::string id;
   const LinePart* part = nullptr;
-  double time = 0;        ///< of departure [s]
+  double time = 0;              ///< of departure [s]
+  std::vector<double> arrival;  ///< arrival_times() of the part
   std::size_t first = 0;  ///< row of the route where it departs: later ones are on the way already
 };
 
@@ -22,10 +23,17 @@ struct BusRun {
 std::vector<double> arrival_times(const RoadNetwork& road, const AgentType& bus,
                                   const LinePart& part, double slowness);
 
-/// The buses of all lines for the time that demand is asked for: from a drawn moment within its
+/// Lines without what no bus can drive (suits()): a part goes on as several where a turn is too
+/// sharp for one or two lane changes have too little room, each with two stops at least. Each gets
+/// a number behind its line's name ("42:0"), as SUMO's ptlines2flows.py gives. What is left out
+/// wholly is named in the report.
+std::vector<LinePart> drivable_parts(const RoadNetwork& road, const AgentType& bus,
+                                     const std::vector<LinePart>& parts, TransportDemand& report);
+
+/// The buses of all parts for the time that demand is asked for: from a drawn moment within its
 /// headway on each part departs one a headway, and those that departed before the begin and aren't
 /// at the end yet depart within the warm-up from where they are. Sorted by time. Deterministic in
-/// the seed. Parts that no bus can drive (suits()) are left out and named in the report.
+/// the seed.
 std::vector<BusRun> line_timetable(const RoadNetwork& road, const AgentType& bus,
                                    const DemandRequest& request, TransportDemand& report);
 

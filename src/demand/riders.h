@@ -17,11 +17,12 @@ struct Rider {
   std::string line;
 };
 
-/// Riders of the lines that have buses: from within 400 m on foot of one stop to within 400 m of a
-/// later one of the same part, each part by its buses and stops, as many an hour as asked for, else
-/// three for each bus. Both walks are SUMO's (duarouter). Sorted by time, deterministic in the
-/// seed. None, with a reason in the report, where nobody can walk to two stops of a part; none and
-/// `stopped` where it was stopped.
+/// Riders of the buses, all alike: from about 400 m on foot at the most of one stop to as far from
+/// a later one, as many an hour as asked for, else three for each bus. They depart so as to be at
+/// the stop from one minute to a headway before their bus is due, ten minutes at the most; who
+/// would have departed before the begin is on the way then. Both walks are SUMO's (duarouter).
+/// Sorted by time, deterministic in the seed. None, with a reason in the report, where nobody can
+/// walk to two stops of a part; none and `stopped` where it was stopped.
 std::vector<Rider> draw_riders(const RoadNetwork& road, const AgentTypeTable& types,
                                const DemandRequest& request, std::span<const BusRun> runs,
                                DemandReport& report);

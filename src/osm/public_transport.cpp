@@ -24,7 +24,8 @@ std::vector<LinePart> parts_of(const LineGround& ground, const MapLine& line,
                                const std::vector<LineStop>& stops, bool in_order,
                                StopPlacer& placer, std::string& why) {
   const auto routes = line_routes(ground, line);
-  why = routes.empty() ? "no road of it that a bus may use" : "fewer than two stops in the map";
+  why = routes.empty() && stops.size() > 1 ? "no road of it that a bus may use"
+                                           : "fewer than two stops in the map";
   std::vector<LinePart> parts;
   for (const std::vector<EdgeId>& route : routes) {
     auto served = placer.along(route, stops, in_order);

@@ -121,7 +121,7 @@ TEST_F(PublicTransportTest, IsDrawnAnewOnTheScenarioAndTakenOutAgain) {
   ASSERT_EQ(drawn.exit_code, 0) << drawn.errors;
   EXPECT_THAT(folder_.read("out/scenario.sumocfg"), HasSubstr(",public_transport.add.xml"));
   EXPECT_THAT(folder_.read("out/demand.rou.xml"), HasSubstr("<stop busStop=\"n21\""));
-  EXPECT_THAT(folder_.read("out/demand.rou.xml"), HasSubstr("lines=\"2_A\""));
+  EXPECT_THAT(folder_.read("out/demand.rou.xml"), HasSubstr("lines=\"2_A:"));
   EXPECT_GT(imported()["demand"]["public_transport"]["riders"], 0);
 
   ASSERT_EQ(program({"demand", folder_.file("out"), "--quiet"}).exit_code, 0);

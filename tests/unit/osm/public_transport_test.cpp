@@ -72,8 +72,7 @@ class Lines : public testing::Test {
     request.side = side.value_or(Side::Auto);
     return build_network(request);
   }
-  fs::path folder_ =
-      fs::temp_directory_path() / ("sumogamma_lines_" + std::to_string(getpid()));
+  fs::path folder_ = fs::temp_directory_path() / ("sumogamma_lines_" + std::to_string(getpid()));
 };
 
 std::vector<std::string> names_of(const BuildResult& built, const LinePart& part) {
@@ -167,12 +166,14 @@ TEST_F(Lines, WithoutStopsOfTheirOwnHaltAtThoseOnTheirSide) {
   whole << stream.rdbuf();
   std::string text = whole.str();
   for (const char* const stop : {"31", "32", "33", "34"}) {
-    const std::string member = std::string("    <member type=\"node\" ref=\"") + stop + "\" role=\"\"/>\n";
+    const std::string member =
+        std::string("    <member type=\"node\" ref=\"") + stop + "\" role=\"\"/>\n";
     ASSERT_NE(text.find(member), std::string::npos);
     text.erase(text.find(member), member.size());
   }
   fs::create_directories(folder_);
-  const fs::path map = fs::temp_directory_path() / ("sumogamma_lines_" + std::to_string(getpid()) + ".osm");
+  const fs::path map =
+      fs::temp_directory_path() / ("sumogamma_lines_" + std::to_string(getpid()) + ".osm");
   std::ofstream(map) << text;
   const BuildResult built = build(map);
   fs::remove(map);
