@@ -101,19 +101,25 @@ double seconds_on_foot(const RoadNetwork& road, const std::string& edge, double 
   return road.lane(road.edge(road.edge_by_name.at(edge)).lanes.front()).length / speed;
 }
 
+/// About how long a walk takes that begins and ends somewhere on its first and last edge [s].
+double seconds_of_walk(const RoadNetwork& road, const std::vector<std::string>& edges,
+                       double speed) {
+  double seconds = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    seconds +=
+        (i == 0 || i + 1 == edges.size() ? 0.5 : 1.0) * seconds_on_foot(road, edges[i], speed);
+  return edges.size() > 1 ? seconds : kNearStop / speed;
+}
+
 /// Puts a rider on the way to a bus that comes at a time: it departs early enough, or, where that
-/// is before the begin, further on. False where it can't be in time.
+/// is before the begin, further on or near the stop. False where it can't be in time.
 bool depart_for(const RoadNetwork& road, double bus_comes, double wait, double speed,
                 Rider& rider) {
-  double walk = 0;
-  for (const std::string& edge : rider.to) walk += seconds_on_foot(road, edge, speed);
-  while (rider.to.size() > 1 && bus_comes - wait - walk < 0) {
-    walk -= seconds_on_foot(road, rider.to.front(), speed);
+  while (rider.to.size() > 1 && bus_comes - wait - seconds_of_walk(road, rider.to, speed) < 0)
     rider.to.erase(rider.to.begin());
-  }
-  rider.time = bus_comes - wait - walk;
-  if (rider.time < 0 && rider.time + wait >= 0) rider.time = 0;
-  return rider.time >= 0;
+  const double walk = seconds_of_walk(road, rider.to, speed);
+  rider.time = std::max(0.0, bus_comes - wait - walk);
+  return rider.time + walk <= bus_comes;
 }
 
 /// What riders are drawn by.

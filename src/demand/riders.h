@@ -8,6 +8,8 @@
 
 namespace sumogamma {
 
+inline constexpr double kNearStop = 20.0;  ///< from its stop begins a walk on the stop's edge [m]
+
 /// Somebody who walks to a stop, rides, and walks on.
 struct Rider {
   double time = 0;                    ///< of departure [s]

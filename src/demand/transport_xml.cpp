@@ -1,5 +1,6 @@
 #include "demand/transport_xml.h"
 
+#include <algorithm>
 #include <string>
 
 #include "demand/vehicle_type_xml.h"
@@ -45,13 +46,21 @@ double length_of(const RoadNetwork& road, const std::string& edge) {
   return road.lane(road.edge(road.edge_by_name.at(edge)).lanes.front()).length;
 }
 
+/// Where on its first edge a rider departs [m].
+double departure_place(const RoadNetwork& road, const BusStop& stop, const Rider& rider) {
+  const double length = length_of(road, rider.to.front());
+  if (rider.to.size() > 1) return rider.share_of_edge * length;
+  const double at = stop.access ? stop.access->along : 0.5 * (stop.begin + stop.end);
+  return std::clamp(at + (2.0 * rider.share_of_edge - 1.0) * kNearStop, 0.0, length);
+}
+
 void append_rider(pugi::xml_node root, const RoadNetwork& road, const PublicTransport& transport,
                   const Rider& rider, std::size_t number) {
   pugi::xml_node person = root.append_child("person");
   set(person, "id", "rider." + std::to_string(number));
   set(person, "type", "pedestrian");
   set(person, "depart", fixed(rider.time));
-  set(person, "departPos", fixed(rider.share_of_edge * length_of(road, rider.to.front())));
+  set(person, "departPos", fixed(departure_place(road, transport.stops[rider.boards], rider)));
   pugi::xml_node walk = person.append_child("walk");
   set(walk, "edges", joined(rider.to));
   set(walk, "busStop", transport.stops[rider.boards].id);

@@ -19,6 +19,28 @@ std::string one_word(std::string text) {
   return text;
 }
 
+/// Does a part serve the stops of another, one after the other?
+bool serves_all_of(const LinePart& part, const LinePart& other) {
+  return std::search(part.stops.begin(), part.stops.end(), other.stops.begin(), other.stops.end(),
+                     [](const ServedStop& a, const ServedStop& b) { return a.stop == b.stop; }) !=
+         part.stops.end();
+}
+
+/// Leaves out parts whose stops others serve in the same order: two roads that a line comes by,
+/// say.
+void drop_doubled(std::vector<LinePart>& parts) {
+  std::vector<LinePart> kept;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    bool doubled = false;
+    for (std::size_t k = 0; k < parts.size() && !doubled; ++k)
+      // of two alike the first stays
+      doubled = k != i && serves_all_of(parts[k], parts[i]) &&
+                (k < i || !serves_all_of(parts[i], parts[k]));
+    if (!doubled) kept.push_back(parts[i]);
+  }
+  parts = std::move(kept);
+}
+
 /// The parts of one line, in the order in which it has them.
 std::vector<LinePart> parts_of(const LineGround& ground, const MapLine& line,
                                const std::vector<LineStop>& stops, bool in_order,
@@ -33,6 +55,7 @@ std::vector<LinePart> parts_of(const LineGround& ground, const MapLine& line,
     parts.push_back({std::to_string(line.id) + "." + std::to_string(parts.size()),
                      one_word(line.line), line.kind, line.headway, route, std::move(served)});
   }
+  if (!line.directed) drop_doubled(parts);
   return parts;
 }
 
