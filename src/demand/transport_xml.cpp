@@ -51,7 +51,8 @@ double departure_place(const RoadNetwork& road, const BusStop& stop, const Rider
   const double length = length_of(road, rider.to.front());
   if (rider.to.size() > 1) return rider.share_of_edge * length;
   const double at = stop.access ? stop.access->along : 0.5 * (stop.begin + stop.end);
-  return std::clamp(at + (2.0 * rider.share_of_edge - 1.0) * kNearStop, 0.0, length);
+  const double rim = std::min(2.0, 0.5 * length);  // not on the junction
+  return std::clamp(at + (2.0 * rider.share_of_edge - 1.0) * kNearStop, rim, length - rim);
 }
 
 void append_rider(pugi::xml_node root, const RoadNetwork& road, const PublicTransport& transport,
