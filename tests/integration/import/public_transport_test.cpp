@@ -83,7 +83,9 @@ TEST_P(RiddenLines, RidersAreTakenToTheirStopsByEither) {
 
   for (const char* const control : {"none", "all"}) {
     const json results = run(control);
-    if (std::string(control) == "all") EXPECT_EQ(results["collisions"]["deep_pairs"], 0);
+    if (std::string(control) == "all") {
+      EXPECT_EQ(results["collisions"]["deep_pairs"], 0);
+    }
     EXPECT_GE(riders_taken(), 5) << control;
     pugi::xml_document stops;
     stops.load_file(folder_.file("so.xml").c_str());
