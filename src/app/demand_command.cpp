@@ -8,15 +8,22 @@
 #include "base/staged_folder.h"
 #include "io/config.h"
 #include "io/output_file.h"
+#include "io/public_transport_file.h"
 #include "io/scenario_files.h"
 #include "road/sumo_net_reader.h"
 
 namespace sumogamma {
 namespace {
 
+/// The lines and stops that the import found; none where the map has none.
+PublicTransport lines_of(const std::filesystem::path& folder, const RoadNetwork& road) {
+  const std::filesystem::path file = folder / kPublicTransportFile;
+  return std::filesystem::exists(file) ? read_public_transport(file, road) : PublicTransport{};
+}
+
 /// Draws the demand of an imported scenario anew, as its [demand] asks.
 int draw_demand(const std::filesystem::path& folder, const CommonOptions& common) {
-  for (const char* const file : {"scenario.toml", "net.net.xml", "import.json"})
+  for (const char* const file : {"scenario.toml", "scenario.sumocfg", "net.net.xml", "import.json"})
     if (!std::filesystem::exists(folder / file))
       throw Error(folder.string(), std::string("has no ") + file +
                                        ": expected a folder made by 'sumo-gamma import'");
@@ -29,6 +36,9 @@ int draw_demand(const std::filesystem::path& folder, const CommonOptions& common
   request.network = folder / "net.net.xml";
   const RoadNetwork road = read_sumo_net(request.network);
   if (!config.demand.window.empty()) request.window = window_on(road, config.demand.window);
+
+  if (config.demand.public_transport)
+    request.transport = transport_of(config.demand, lines_of(folder, road));
 
   StagedFolder staged(folder.string(), true);
   request.routes = staged.path() / "demand.rou.xml";
@@ -46,6 +56,10 @@ int draw_demand(const std::filesystem::path& folder, const CommonOptions& common
   const long alive = agents_alive(request, report);
   write_file(staged.path() / "scenario.toml",
              with_agents_alive(read_file(folder / "scenario.toml"), alive, report.on_foot));
+  const std::string sumocfg = read_file(folder / "scenario.sumocfg");
+  write_file(
+      staged.path() / "scenario.sumocfg",
+      with_stops(sumocfg, report.transport.buses > 0, (folder / "scenario.sumocfg").string()));
   staged.commit();
   print(common.out, "{}: {} departures, {} agents alive\n", folder.string(), report.departures,
         alive);

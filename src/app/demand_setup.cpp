@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "base/print.h"
@@ -23,7 +25,23 @@ void check_window(const std::vector<double>& window) {
   throw Error("[demand] window", "must be W, S, E, N in degrees with west < east, south < north");
 }
 
+void check_transport(const DemandSettings& settings) {
+  if (settings.public_transport) return;
+  for (const auto& [key, given] :
+       {std::pair("headway", settings.headway > 0), std::pair("riders", settings.riders >= 0)})
+    if (given)
+      throw Error(std::string("[demand] ") + key,
+                  "is of lines of public transport: needs public_transport = true");
+}
+
 }  // namespace
+
+AskedTransport transport_of(const DemandSettings& settings, PublicTransport transport) {
+  AskedTransport asked{std::move(transport), kUsualHeadway, std::nullopt};
+  if (settings.headway > 0) asked.headway = settings.headway;
+  if (settings.riders >= 0) asked.riders = settings.riders;
+  return asked;
+}
 
 DemandRequest request_of(const DemandSettings& settings, const std::filesystem::path& base,
                          const AgentTypeTable& types) {
@@ -32,7 +50,12 @@ DemandRequest request_of(const DemandSettings& settings, const std::filesystem::
   DemandRequest request;
   std::vector<DemandShare> shares = settings.shares;
   std::erase_if(shares, [](const DemandShare& share) { return !(share.share > 0); });
+  const bool shares_are_usual = shares.empty();
   if (!shares.empty()) request.mix = std::move(shares);
+  check_transport(settings);
+  // the drawn buses stand for lines that aren't there
+  if (settings.public_transport && shares_are_usual)
+    std::erase_if(request.mix, [](const DemandShare& share) { return share.type == "bus"; });
   if (settings.agents > 0) request.agents = settings.agents;
   request.profile = settings.profile;
   if (!settings.od.empty()) request.trips = read_od_table(base / settings.od, types);
@@ -55,9 +78,24 @@ TripWindow window_on(const RoadNetwork& road, const std::vector<double>& degrees
 }
 
 long agents_alive(const DemandRequest& request, const DemandReport& report) {
-  return request.asks_for_more() ? std::max(1L, std::lround(std::ceil(report.agents)))
-                                 : request.agents;
+  return request.asks_for_more() || request.transport
+             ? std::max(1L, std::lround(std::ceil(report.agents)))
+             : request.agents;
 }
+
+namespace {
+
+void print_transport(std::FILE* out, const TransportDemand& transport) {
+  if (!transport.problem.empty())
+    print(out, "  warning: public transport: {}\n", transport.problem);
+  if (transport.buses > 0)
+    print(out, "  {:<12} {:5} departures on {} parts of lines, {:.1f} alive; {} riders\n",
+          "line buses", transport.buses, transport.parts, transport.alive, transport.riders);
+  for (const auto& [part, why] : transport.left_out)
+    print(out, "  line {} left out: {}\n", part, why);
+}
+
+}  // namespace
 
 void print_demand(std::FILE* out, const DemandReport& report) {
   for (const DemandByType& type : report.types) {
@@ -67,6 +105,7 @@ void print_demand(std::FILE* out, const DemandReport& report) {
     else
       print(out, "  {:<12} left out: {}\n", type.type, type.problem);
   }
+  print_transport(out, report.transport);
   if (report.busiest_load > 1)
     print(out,
           "  warning: so many agents are more than these roads carry: {:.1f} times as many as lane "

@@ -12,6 +12,9 @@ namespace sumogamma {
 DemandRequest request_of(const DemandSettings& settings, const std::filesystem::path& base,
                          const AgentTypeTable& types);
 
+/// The lines of a place with what [demand] says of their buses and riders.
+AskedTransport transport_of(const DemandSettings& settings, PublicTransport transport);
+
 /// The window in degrees, on a network. Throws Error naming the key where the network has no
 /// geographic projection or the window lies outside of it.
 TripWindow window_on(const RoadNetwork& road, const std::vector<double>& degrees);

@@ -19,6 +19,7 @@
 #include "demand/demand.h"
 #include "io/config.h"
 #include "io/output_file.h"
+#include "io/public_transport_file.h"
 #include "io/scenario_files.h"
 #include "osm/build_network.h"
 #include "osm/driving_side.h"
@@ -83,6 +84,29 @@ osm::Side parse_side(const std::string& text) {
   return text == "left" ? osm::Side::Left : text == "right" ? osm::Side::Right : osm::Side::Auto;
 }
 
+/// What became of the map's lines of public transport; nothing where it has none.
+void print_lines(std::FILE* out, const osm::BuildResult& built) {
+  constexpr std::size_t kNames = 5;
+  const osm::LineReport& lines = built.lines;
+  if (lines.found.empty() && lines.others.empty()) return;
+  long found = 0;
+  for (const auto& [kind, count] : lines.found) found += count;
+  print(out, "  public transport: {} of {} lines on roads, {} stops", lines.driven, found,
+        built.transport.stops.size());
+  std::map<std::string, std::vector<std::string>> by_reason;
+  for (const auto& [line, why] : lines.left_out) by_reason[why].push_back(line);
+  for (const auto& [why, names] : by_reason) {
+    print(out, "; {}: ", why);
+    for (std::size_t i = 0; i < std::min(kNames, names.size()); ++i)
+      print(out, "{}{}", i == 0 ? "" : ", ", names[i]);
+    if (names.size() > kNames) print(out, " and {} others", names.size() - kNames);
+  }
+  for (const auto& [kind, count] : lines.others)
+    print(out, "{} {} {}", kind == lines.others.begin()->first ? "; not driven:" : ",", count,
+          kind);
+  print(out, "\n");
+}
+
 void print_summary(std::FILE* out, const osm::BuildResult& built, const DemandReport& demand,
                    const std::string& folder) {
   const auto count = [&](const char* name) { return static_cast<long>(built.built.at(name)); };
@@ -90,6 +114,7 @@ void print_summary(std::FILE* out, const osm::BuildResult& built, const DemandRe
         folder, count("edges"), count("lanes"), count("signals"), count("crossings"),
         built.obstacles.at("buildings") + built.obstacles.at("buildings_cut"),
         built.left_hand ? "left" : "right");
+  print_lines(out, built);
   print_demand(out, demand);
   for (const auto& [kind, issue] : built.log.issues())
     if (issue.severity == osm::Severity::Warning)
@@ -170,6 +195,9 @@ std::optional<Made> make_scenario(const ImportOptions& options, const osm::Build
   demand.work = build.folder / "work";
   std::filesystem::create_directory(demand.work);
   if (!settings.window.empty()) demand.window = window_on(built.road, settings.window);
+  if (settings.public_transport) demand.transport = transport_of(settings, built.transport);
+  if (!built.transport.parts.empty())
+    write_public_transport(build.folder / kPublicTransportFile, built.road, built.transport);
   made.demand = generate_demand(built.road, default_agent_types(), demand);
   if (made.demand.stopped) return std::nullopt;
 
@@ -187,6 +215,7 @@ std::optional<Made> make_scenario(const ImportOptions& options, const osm::Build
       with_own_files(settings, std::filesystem::path(options.demand).parent_path(), build.folder);
   scenario.on_foot = std::round(1000.0 * made.demand.on_foot) / 1000.0;
   scenario.duration = demand.duration;
+  scenario.stops = made.demand.transport.buses > 0;
   write_scenario_files(build.folder, scenario, default_agent_types());
   nlohmann::ordered_json report = osm::import_report(built, scenario.map);
   report["demand"] = demand_report(made.demand, demand);
@@ -241,7 +270,7 @@ CommandRunner add_import_command(CLI::App& parent) {
   command->add_option(
       "--demand", options->demand,
       "TOML file with [demand]: shares by type, profile, window, origin-destination "
-      "table, counts (docs/scenario.md)");
+      "table, counts, public transport (docs/scenario.md)");
   command->add_option("--duration", options->duration, "time for which demand is written [s]")
       ->capture_default_str();
   command

@@ -7,6 +7,8 @@
 
 #include "base/error.h"
 #include "demand/draws.h"
+#include "demand/riders.h"
+#include "demand/transport_xml.h"
 #include "demand/trip_draw.h"
 #include "demand/trip_routing.h"
 #include "demand/trip_weights.h"
@@ -164,14 +166,6 @@ BusiestLane weigh(const RoadNetwork& road, const DemandRequest& request,
   return busiest;
 }
 
-/// How busy it is at a time, the busiest part being 1.
-double activity_at(const DemandRequest& request, double time) {
-  if (request.profile.empty()) return 1;
-  const double part = time / request.duration * static_cast<double>(request.profile.size());
-  const auto index = std::min(static_cast<std::size_t>(part), request.profile.size() - 1);
-  return request.profile[index] / *std::max_element(request.profile.begin(), request.profile.end());
-}
-
 std::vector<Departure> schedule(const RoadNetwork& road, const DemandRequest& request,
                                 std::vector<TypeDemand>& demands, DemandReport& report) {
   std::vector<Departure> departures;
@@ -246,17 +240,71 @@ void append_departure(pugi::xml_node root, const RoadNetwork& road, const TypeDe
   set(element.append_child("route"), "edges", names);
 }
 
+/// Buses and riders, and the types that they are of.
+struct LineTraffic {
+  std::vector<const AgentType*> types;
+  DemandRequest request;  ///< with what buses can drive alone; runs point into it
+  std::vector<BusRun> runs;
+  std::vector<Rider> riders;
+};
+
+LineTraffic line_traffic(const RoadNetwork& road, const AgentTypeTable& types,
+                         const DemandRequest& request, DemandReport& report) {
+  LineTraffic traffic;
+  traffic.request = request;
+  if (!request.transport) return traffic;
+  if (request.transport->transport.parts.empty()) {
+    report.transport.problem = "the map has no line with two stops on roads that a bus may use";
+    return traffic;
+  }
+  const auto type = [&](const char* name) { return &type_of(types, find_agent_type(types, name)); };
+  traffic.types = {type("bus"), type("pedestrian")};
+  std::vector<LinePart>& parts = traffic.request.transport->transport.parts;
+  parts = drivable_parts(road, *type("bus"), parts, report.transport);
+  traffic.runs = line_timetable(road, *type("bus"), traffic.request, report.transport);
+  if (traffic.runs.empty())
+    report.transport.problem = "no part of a line on which a bus can drive and departs in time";
+  traffic.riders = draw_riders(road, types, traffic.request, traffic.runs, report);
+  report.transport.riders = static_cast<long>(traffic.riders.size());
+  return traffic;
+}
+
+/// Adds those of lines to the agents alive.
+void count_line_traffic(const DemandRequest& request, DemandReport& report) {
+  constexpr double kRide = 900.0;  // on foot, waiting and riding [s]
+  const double riders =
+      static_cast<double>(report.transport.riders) * std::min(1.0, kRide / request.duration);
+  const double others = report.agents;
+  report.agents += report.transport.alive + riders;
+  report.on_foot = (report.on_foot * others + riders) / report.agents;
+  report.departures += report.transport.buses + report.transport.riders;
+  report.initial += report.transport.initial;
+}
+
 void write_routes(const RoadNetwork& road, const DemandRequest& request,
-                  std::vector<TypeDemand>& demands, const std::vector<Departure>& departures) {
-  pugi::xml_document document;
+                  std::vector<TypeDemand>& demands, const std::vector<Departure>& departures,
+                  const LineTraffic& lines) {
+  pugi::xml_document document, others;
   pugi::xml_node root = document.append_child("routes");
   for (const TypeDemand& demand : demands) append_vehicle_type(root, *demand.type);
+  for (const AgentType* const type : lines.types)
+    if (std::none_of(demands.begin(), demands.end(),
+                     [&](const TypeDemand& demand) { return demand.type == type; }))
+      append_vehicle_type(root, *type);
+  append_transport(others.append_child("routes"), road, lines.request, lines.runs, lines.riders);
+  pugi::xml_node next = others.child("routes").first_child();
+  const auto append_until = [&](double time) {
+    for (; next && next.attribute("depart").as_double() <= time; next = next.next_sibling())
+      root.append_copy(next);
+  };
   for (const Departure& departure : departures) {
     TypeDemand& demand = demands[departure.demand];
+    append_until(departure.time);
     append_departure(root, road, demand, departure,
                      demand.type->name + "." + std::to_string(demand.report.departures));
     ++demand.report.departures;
   }
+  append_until(request.duration);
   if (!document.save_file(request.routes.c_str(), "  "))
     throw Error(request.routes.string(), "cannot be written: is the disk full?");
 }
@@ -266,6 +314,13 @@ void write_routes(const RoadNetwork& road, const DemandRequest& request,
 std::vector<DemandShare> default_demand_mix() {
   return {{"car", 0.40},        {"van", 0.06},     {"bus", 0.04},       {"truck", 0.05},
           {"motorcycle", 0.10}, {"bicycle", 0.12}, {"pedestrian", 0.23}};
+}
+
+double activity_at(const DemandRequest& request, double time) {
+  if (request.profile.empty()) return 1;
+  const double part = time / request.duration * static_cast<double>(request.profile.size());
+  const auto index = std::min(static_cast<std::size_t>(part), request.profile.size() - 1);
+  return request.profile[index] / *std::max_element(request.profile.begin(), request.profile.end());
 }
 
 DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& types,
@@ -308,12 +363,15 @@ DemandReport generate_demand(const RoadNetwork& road, const AgentTypeTable& type
   if (busiest.lane != kNoLane) report.busiest_lane = road.lane(busiest.lane).name;
   report.busiest_load = busiest.load;
   const std::vector<Departure> departures = schedule(road, request, demands, report);
-  write_routes(road, request, demands, departures);
+  const LineTraffic lines = line_traffic(road, types, request, report);
+  if (report.stopped) return report;
+  write_routes(road, request, demands, departures, lines);
   report.departures = static_cast<long>(departures.size());
   for (const TypeDemand& demand : demands) {
     report.types.push_back(demand.report);
     if (demand.walks) report.on_foot += demand.report.share;
   }
+  if (request.transport) count_line_traffic(request, report);
   return report;
 }
 

@@ -18,6 +18,9 @@ struct DemandSettings {
   std::vector<double> profile;      ///< how busy equal parts of the duration are
   std::vector<double> window;       ///< W, S, E, N: `agents` are alive in there [degrees]
   std::string od, counts;           ///< files
+  bool public_transport = false;    ///< buses on the map's lines, and their riders
+  double headway = 0;               ///< of lines of which the map tells none [s]; 0: kUsualHeadway
+  double riders = -1;               ///< an hour, on all lines; negative: as many as suit the buses
 };
 
 }  // namespace sumogamma

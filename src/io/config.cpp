@@ -151,6 +151,9 @@ void bind_demand(ScenarioConfig& config, std::vector<Binding>& bindings) {
   bindings.push_back({"demand.window", &demand.window, -180, false, 180});
   bindings.push_back({"demand.od", &demand.od});
   bindings.push_back({"demand.counts", &demand.counts});
+  bindings.push_back({"demand.public_transport", &demand.public_transport});
+  bindings.push_back({"demand.headway", &demand.headway, 30, false, 86400});
+  bindings.push_back({"demand.riders", &demand.riders, 0, false, 1e6});
   for (DemandShare& share : demand.shares)
     bindings.push_back({"demand.shares." + share.type, &share.share, 0});
 }

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "io/output_file.h"
+#include "io/public_transport_file.h"
 
 namespace sumogamma {
 namespace {
@@ -47,6 +48,10 @@ std::string demand_text(const DemandSettings& demand) {
     text += "window = " + list_text(demand.window) + "  # W, S, E, N: agents are alive in there\n";
   if (!demand.od.empty()) text += "od = " + toml_string(demand.od) + "\n";
   if (!demand.counts.empty()) text += "counts = " + toml_string(demand.counts) + "\n";
+  if (demand.public_transport) text += "public_transport = true\n";
+  if (demand.headway > 0)
+    text += "headway = " + plain(demand.headway) + "  # [s], of lines without one in the map\n";
+  if (demand.riders >= 0) text += "riders = " + plain(demand.riders) + "  # an hour\n";
   for (const DemandShare& share : demand.shares)
     if (share.share > 0) shares += share.type + " = " + plain(share.share) + "\n";
   if (!shares.empty()) text += "[demand.shares]\n" + shares;
@@ -97,6 +102,10 @@ std::string toml_text(const ScenarioFiles& scenario, const AgentTypeTable& types
   return text.str();
 }
 
+std::string with_stops_file(const std::string& additional) {
+  return additional + "," + kPublicTransportFile;
+}
+
 void write_sumocfg(const std::filesystem::path& file, const ScenarioFiles& scenario) {
   pugi::xml_document document;
   pugi::xml_node root = document.append_child("configuration");
@@ -110,7 +119,8 @@ void write_sumocfg(const std::filesystem::path& file, const ScenarioFiles& scena
   // these stand in order of time, so that few will do
   section("input", {{"net-file", "net.net.xml"},
                     {"route-files", "demand.rou.xml"},
-                    {"additional-files", "obstacles.add.xml"},
+                    {"additional-files",
+                     scenario.stops ? with_stops_file("obstacles.add.xml") : "obstacles.add.xml"},
                     {"route-steps", "20"}});
   section("time", {{"begin", "0"}, {"end", plain(scenario.duration)}});
   section("report",
@@ -119,12 +129,44 @@ void write_sumocfg(const std::filesystem::path& file, const ScenarioFiles& scena
     throw Error(file.string(), "cannot be written: is the disk full?");
 }
 
+nlohmann::ordered_json transport_report(const TransportDemand& transport) {
+  nlohmann::ordered_json json;
+  json["parts_of_lines"] = transport.parts;
+  json["buses"] = transport.buses;
+  json["buses_on_the_way"] = transport.initial;
+  json["buses_alive"] = transport.alive;
+  json["riders"] = transport.riders;
+  json["problem"] = transport.problem;
+  json["left_out"] = nlohmann::ordered_json::array();
+  for (const auto& [part, why] : transport.left_out)
+    json["left_out"].push_back({{"part", part}, {"why", why}});
+  return json;
+}
+
 }  // namespace
 
 void write_scenario_files(const std::filesystem::path& folder, const ScenarioFiles& scenario,
                           const AgentTypeTable& types) {
   write_sumocfg(folder / "scenario.sumocfg", scenario);
   write_file(folder / "scenario.toml", toml_text(scenario, types));
+}
+
+std::string with_stops(const std::string& sumocfg, bool stops, const std::string& file) {
+  pugi::xml_document document;
+  if (!document.load_buffer(sumocfg.data(), sumocfg.size(), pugi::parse_full))
+    throw Error(file, "is no readable XML");
+  pugi::xml_attribute files = document.select_node("//additional-files/@value").attribute();
+  if (!files) throw Error(file, "has no <additional-files>, among which the stops would be");
+  const std::string before = files.value(), name = kPublicTransportFile;
+  const std::size_t at = before.find(name);
+  if ((at != std::string::npos) == stops) return sumocfg;
+  if (stops)
+    files = before.empty() ? name.c_str() : with_stops_file(before).c_str();
+  else
+    files = std::string(before).erase(at > 0 ? at - 1 : at, name.size() + 1).c_str();
+  std::ostringstream text;
+  document.save(text, "  ");
+  return text.str();
 }
 
 std::string with_agents_alive(std::string toml, long agents, double on_foot) {
@@ -148,6 +190,7 @@ nlohmann::ordered_json demand_report(const DemandReport& report, const DemandReq
                               {"per_hour", fit.count.per_hour},
                               {"by_the_trips", fit.per_hour},
                               {"geh", fit.geh}});
+  if (request.transport) json["public_transport"] = transport_report(report.transport);
   for (const DemandByType& type : report.types)
     json["by_type"][type.type] = {{"share", type.share},
                                   {"trips_asked", type.trips_drawn},

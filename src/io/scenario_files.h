@@ -21,12 +21,18 @@ struct ScenarioFiles {
   double on_foot = 0;        ///< share of people on foot among them
   double duration = 3600.0;  ///< [s]
   DemandSettings demand;     ///< beyond `agents`
+  bool stops = false;        ///< SUMO reads kPublicTransportFile
 };
 
 /// Writes scenario.sumocfg (for SUMO, and for `run`) and scenario.toml (for `run`). Throws Error
 /// naming the file.
 void write_scenario_files(const std::filesystem::path& folder, const ScenarioFiles& scenario,
                           const AgentTypeTable& types);
+
+/// A .sumocfg with or without kPublicTransportFile among its additional files, everything else in
+/// it as it was; the very text where nothing changes. Throws Error naming `file` where it is no XML
+/// or has no additional files.
+std::string with_stops(const std::string& sumocfg, bool stops, const std::string& file);
 
 /// A scenario.toml with other numbers in [run] agents and on_foot, every other byte as it was.
 std::string with_agents_alive(std::string toml, long agents, double on_foot);

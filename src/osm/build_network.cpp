@@ -5,14 +5,17 @@
 #include <cstdio>
 #include <fstream>
 #include <optional>
+#include <set>
 #include <sstream>
 
 #include "base/error.h"
 #include "osm/driving_side.h"
 #include "osm/geo_projection.h"
+#include "osm/line_ways.h"
 #include "osm/map_repairs.h"
 #include "osm/netconvert.h"
 #include "osm/network_facts.h"
+#include "osm/network_file.h"
 #include "osm/network_repairs.h"
 #include "osm/obstacles.h"
 #include "osm/osm_reader.h"
@@ -103,8 +106,12 @@ std::string read_text(const std::filesystem::path& file) {
   return text.str();
 }
 
+/// The ways of the map that edges were made of, by edge.
+using Origins = std::map<std::string, std::set<std::int64_t>>;
+
 /// Builds net.net.xml; false where it was stopped.
-bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result) {
+bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result,
+             Origins& origins) {
   NetconvertRequest netconvert;
   netconvert.folder = request.folder;
   std::filesystem::create_directory(request.folder / "work");
@@ -119,6 +126,7 @@ bool convert(const OsmMap& map, const BuildRequest& request, BuildResult& result
   std::optional<NetworkFile> network =
       make_network(map, netconvert, request.without, conversion, result.log);
   if (!network) return false;
+  origins = ways_of_edges(network->net());
   result.road = std::move(network->road);
   result.command = std::move(conversion.command);
   result.built = std::move(conversion.before);
@@ -192,6 +200,8 @@ BuildResult build_network(const BuildRequest& request) {
   check_roads(map, request);
   choose_side(map, request, result);
   result.projection = local_projection(result.box.center());
+  const MapLines lines = find_lines(map);
+  const std::int64_t first_new_way = map.next_id;
   if (request.should_stop()) return result.stopped = true, std::move(result);
 
   request.progress("repairing tags, signals and edges");
@@ -200,14 +210,18 @@ BuildResult build_network(const BuildRequest& request) {
   check_roads(map, request);
 
   request.progress("building the network (netconvert)");
-  if (!convert(map, request, result)) return result.stopped = true, std::move(result);
+  Origins origins;
+  if (!convert(map, request, result, origins)) return result.stopped = true, std::move(result);
   result.built.merge(network_facts(result.road));
   check_network(result);
+  const GeoProjection projection(result.projection);
+  const GeoBox place = clip ? result.box.grown(kBeyondBox) : GeoBox{-180, -90, 180, 90};
+  result.transport =
+      place_lines({result.road, origins, projection, place, first_new_way}, lines, result.lines);
 
   request.progress("placing obstacles");
-  result.obstacles =
-      write_obstacles(map, GeoProjection(result.projection), result.road, result.box.grown(100.0),
-                      request.folder / "obstacles.add.xml", result.log);
+  result.obstacles = write_obstacles(map, projection, result.road, result.box.grown(100.0),
+                                     request.folder / "obstacles.add.xml", result.log);
   result.stopped = request.should_stop();
   return result;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "osm/osm_map.h"
+#include "osm/public_transport.h"
 #include "osm/repair_names.h"
 #include "road/road_network.h"
 
@@ -42,7 +43,9 @@ struct BuildResult {
   std::map<std::string, long> netconvert_messages;
   std::vector<std::string> command;  ///< netconvert's
   IssueLog log;
-  RoadNetwork road;  ///< as written
+  RoadNetwork road;           ///< as written
+  PublicTransport transport;  ///< lines and stops on it
+  LineReport lines;
 };
 
 /// Reads and checks the extract, cuts and repairs it, has netconvert build the network, marks

@@ -21,7 +21,6 @@
 namespace sumogamma::osm {
 namespace {
 
-constexpr double kBeyondBox = 60.0;    // [m], so that junctions at its edge stay whole
 constexpr double kSignalReach = 60.0;  // [m] from a stop line downstream to its junction
 
 using Facts = MapFacts;

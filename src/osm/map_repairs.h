@@ -7,6 +7,9 @@
 
 namespace sumogamma::osm {
 
+/// What stays of ways beyond the place, so that junctions at its edge stay whole [m].
+inline constexpr double kBeyondBox = 60.0;
+
 /// What repairs of a map need to know besides it.
 struct MapFacts {
   GeoBox box;              ///< the place asked for

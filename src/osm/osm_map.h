@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace sumogamma::osm {
@@ -91,6 +92,9 @@ struct OsmMap {
   std::vector<MapWay> ways;            ///< by id
   std::vector<MapRelation> relations;  ///< turn restrictions, by id
   std::vector<MapArea> areas;          ///< buildings and pedestrian areas
+  std::vector<MapRelation> routes;     ///< lines of public transport, by id
+  /// Where public transport halts: nodes and ways (of which the middle) by type and id.
+  std::map<std::pair<char, std::int64_t>, MapNode> stops;
   std::optional<GeoBox> bounds;        ///< what the file says it covers
   std::map<std::string, long> counts;  ///< what was read: "nodes", "ways", "deleted_objects", ...
   std::string server_remark;           ///< why a server's answer is not whole; "" for none

@@ -39,6 +39,17 @@ constexpr std::array kWayKeys = {"highway", "building", "barrier", "building:par
 constexpr std::array kNodeKeys = {"highway",  "barrier",         "natural",
                                   "crossing", "traffic_signals", "railway"};
 
+/// Kinds of lines that a report speaks of.
+constexpr std::array<std::string_view, 13> kLines = {
+    "bus",   "trolleybus", "share_taxi", "minibus",   "tram",  "light_rail", "subway",
+    "train", "railway",    "monorail",   "funicular", "ferry", "aerialway"};
+
+bool is_stop(const osmium::TagList& tags) {
+  return tags.has_tag("highway", "bus_stop") || tags.has_tag("highway", "platform") ||
+         tags.has_tag("public_transport", "platform") ||
+         tags.has_tag("public_transport", "stop_position");
+}
+
 template <std::size_t N>
 bool has_any(const osmium::TagList& tags, const std::array<const char*, N>& keys) {
   return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return tags.has_key(key); });
@@ -126,9 +137,10 @@ class SecondPass : public osmium::handler::Handler {
 
   void node(const osmium::Node& node) {
     if (!node.visible() || !node.location().valid()) return;
-    if (!has_any(node.tags(), kNodeKeys)) return;
     const GeoPoint place = point_of(node.location());
     if (keep_ && !keep_->contains(place)) return;
+    if (is_stop(node.tags())) map_.stops[{'n', node.id()}] = {place, copy_tags(node.tags())};
+    if (!has_any(node.tags(), kNodeKeys)) return;
     MapNode& kept = map_.nodes[node.id()];
     kept.place = place;
     kept.tags = copy_tags(node.tags());
@@ -141,6 +153,7 @@ class SecondPass : public osmium::handler::Handler {
       return false;
     }
     locations_.way(way);
+    if (is_stop(way.tags())) take_platform(way);
     if (!has_any(way.tags(), kWayKeys)) return true;
     MapWay kept{way.id(), {}, copy_tags(way.tags())};
     std::vector<GeoPoint> places;
@@ -171,14 +184,17 @@ class SecondPass : public osmium::handler::Handler {
   }
 
   void relation(const osmium::Relation& relation) {
-    if (!relation.visible() ||
-        std::string_view(relation.tags().get_value_by_key("type", "")) != "restriction")
-      return;
+    if (!relation.visible()) return;
+    const std::string_view type = relation.tags().get_value_by_key("type", "");
+    const std::string_view route = relation.tags().get_value_by_key("route", "");
+    const bool line =
+        type == "route" && std::find(kLines.begin(), kLines.end(), route) != kLines.end();
+    if (type != "restriction" && !line) return;
     MapRelation kept{relation.id(), {}, copy_tags(relation.tags())};
     for (const osmium::RelationMember& member : relation.members())
       kept.members.push_back(
           {osmium::item_type_to_char(member.type()), member.ref(), member.role()});
-    map_.relations.push_back(std::move(kept));
+    (line ? map_.routes : map_.relations).push_back(std::move(kept));
   }
 
   void area(const osmium::Area& area) {
@@ -205,6 +221,19 @@ class SecondPass : public osmium::handler::Handler {
   }
 
  private:
+  /// The middle of a way along which passengers wait.
+  void take_platform(const osmium::Way& way) {
+    std::optional<GeoBox> extent;
+    for (const osmium::NodeRef& ref : way.nodes()) {
+      if (!ref.location().valid()) continue;
+      const GeoPoint place = point_of(ref.location());
+      if (!extent) extent = GeoBox{place.lon, place.lat, place.lon, place.lat};
+      extent->extend(place);
+    }
+    if (!extent || (keep_ && !keep_->contains(extent->center()))) return;
+    map_.stops[{'w', way.id()}] = {extent->center(), copy_tags(way.tags())};
+  }
+
   Locations& locations_;
   OsmMap& map_;
   const std::optional<GeoBox>& keep_;
@@ -300,9 +329,21 @@ void make_ids_positive(OsmMap& map) {
     relation.id = positive('r', relation.id);
     for (MapMember& member : relation.members) member.ref = positive(member.type, member.ref);
   }
+  // lines and stops take what was given to the others: no id of a network depends on them
+  const auto same = [&](char type, std::int64_t id) {
+    const auto given = renamed.find({type, id});
+    return given == renamed.end() ? id : given->second;
+  };
+  for (MapRelation& line : map.routes)
+    for (MapMember& member : line.members) member.ref = same(member.type, member.ref);
+  std::map<std::pair<char, std::int64_t>, MapNode> stops;
+  for (auto& [key, stop] : map.stops)
+    stops.emplace(std::pair(key.first, same(key.first, key.second)), std::move(stop));
+  map.stops = std::move(stops);
   auto by_id = [](const auto& a, const auto& b) { return a.id < b.id; };
   std::stable_sort(map.ways.begin(), map.ways.end(), by_id);
   std::stable_sort(map.relations.begin(), map.relations.end(), by_id);
+  std::stable_sort(map.routes.begin(), map.routes.end(), by_id);
   if (!renamed.empty()) map.counts["renamed_negative_ids"] = static_cast<long>(renamed.size());
 }
 

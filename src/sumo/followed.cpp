@@ -8,6 +8,7 @@
 #include "scene/behavior_draw.h"
 #include "sumo/sumo_agents.h"
 #include "sumo/sumo_world.h"
+#include "sumo/waiting_place.h"
 
 namespace sumogamma {
 
@@ -119,6 +120,7 @@ void SumoWorld::follow(const SumoAgent& seen, AgentId id, std::size_t row, Scene
   }
   if (known.keeps_place) {
     scene.halt[row].left = options_.dt;  // by its plan
+    step_to_kerb(model_.road, scene, row, options_.dt);
     take_back(seen, id, row, scene, road);
     return;
   }

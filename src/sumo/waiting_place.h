@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstddef>
+
+#include "road/road_network.h"
+#include "scene/scene.h"
+
+namespace sumogamma {
+
+/// Moves somebody who waits on a pavement or footway, for a bus, say, towards the kerb (on a way
+/// without one to its right), at 0.5 m/s over `dt` [s], and along it where others stand there
+/// already: in the middle they would hold up whoever passes. Keeps its body on the lane and off
+/// everybody; nobody moves on the lanes of vehicles, crossings and walking areas.
+void step_to_kerb(const RoadNetwork& road, Scene& scene, std::size_t row, double dt);
+
+}  // namespace sumogamma
