@@ -25,7 +25,8 @@ target_link_libraries(sumogamma_options INTERFACE Eigen3::Eigen Threads::Threads
 option(SUMOGAMMA_PRECOMPILED_HEADERS "Parse what most sources include once" ON)
 if(SUMOGAMMA_PRECOMPILED_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # g++ 12 forgets that a precompiled header is the system's: it warns of libstdc++'s own moves of short strings
-  target_compile_options(sumogamma_options INTERFACE -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
+  target_compile_options(sumogamma_options INTERFACE -Wno-array-bounds -Wno-restrict
+    -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
 set(SUMOGAMMA_COMMON_HEADERS <algorithm> <array> <charconv> <chrono> <cmath> <filesystem> <fstream> <functional> <limits>
   <map> <memory> <numeric> <optional> <set> <span> <sstream> <string> <string_view> <unordered_map> <vector>
