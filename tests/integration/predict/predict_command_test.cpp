@@ -24,6 +24,16 @@ ProcessResult predict(std::vector<std::string> arguments) {
                       .should_stop = {}});
 }
 
+/// Of the running test alone: tests run side by side.
+std::filesystem::path own_folder() {
+  const auto folder = std::filesystem::temp_directory_path() /
+                      (std::string("sumogamma_predict_") +
+                       testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+                       std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
 /// Five walkers on straight lines, in the common text format.
 std::string small_recording() {
   const auto path = std::filesystem::temp_directory_path() /
@@ -36,7 +46,7 @@ std::string small_recording() {
 }
 
 TEST(PredictCommand, ScoresARecordingAndWritesJson) {
-  const auto json_path = std::filesystem::temp_directory_path() / "sumogamma_predict.json";
+  const auto json_path = own_folder() / "sumogamma_predict.json";
   const ProcessResult result = predict(
       {small_recording(), "--method", "gamma,cv", "--samples", "10", "--json", json_path.string()});
   ASSERT_TRUE(result.ok()) << result.errors;
@@ -51,7 +61,7 @@ TEST(PredictCommand, ScoresARecordingAndWritesJson) {
 
 /// The table's figures, to four digits, from the exported rows alone, by a program of its own.
 TEST(PredictCommand, ExportsWhatAnIndependentScorerNeeds) {
-  const auto folder = std::filesystem::temp_directory_path();
+  const auto folder = own_folder();
   const std::string rows = (folder / "sumogamma_export.csv").string();
   const std::string json_path = (folder / "sumogamma_export.json").string();
   const auto hotel =
@@ -112,7 +122,7 @@ std::vector<std::vector<double>> parquet_pages(const std::string& path, std::siz
 }
 
 TEST(PredictCommand, ExportsTheSameToParquet) {
-  const auto folder = std::filesystem::temp_directory_path();
+  const auto folder = own_folder();
   const std::string csv = (folder / "sumogamma_export.csv").string();
   const std::string parquet = (folder / "sumogamma_export.parquet").string();
   for (const std::string& file : {csv, parquet})
@@ -141,7 +151,7 @@ TEST(PredictCommand, ExportsTheSameToParquet) {
 }
 
 TEST(PredictCommand, SaysWhichMemoryAndKeepsPublishedRowsBesideStrict) {
-  const auto named = std::filesystem::temp_directory_path() / "hotel.txt";
+  const auto named = own_folder() / "hotel.txt";
   std::filesystem::copy_file(small_recording(), named,
                              std::filesystem::copy_options::overwrite_existing);
   const ProcessResult strict = predict({named.string(), "--method", "cv"});
@@ -156,7 +166,7 @@ TEST(PredictCommand, SaysWhichMemoryAndKeepsPublishedRowsBesideStrict) {
 }
 
 TEST(PredictCommand, MeasuresSamplesByClassSpeedAndStep) {
-  const auto json_path = std::filesystem::temp_directory_path() / "sumogamma_samples.json";
+  const auto json_path = own_folder() / "sumogamma_samples.json";
   for (const std::string draws : {"independent", "even"}) {
     SCOPED_TRACE(draws);
     const ProcessResult result =
@@ -195,7 +205,7 @@ TEST(PredictCommand, NamesEveryMethodInItsHelp) {
 }
 
 TEST(PredictCommand, DrawsPictures) {
-  const auto folder = std::filesystem::temp_directory_path() / "sumogamma_predict_plots";
+  const auto folder = own_folder() / "sumogamma_predict_plots";
   std::filesystem::remove_all(folder);
   const ProcessResult result =
       predict({small_recording(), "--method", "cv", "--plots", folder.string()});
@@ -205,8 +215,7 @@ TEST(PredictCommand, DrawsPictures) {
 
 /// A file with such a content.
 std::string made_file(const std::string& name, const std::string& text) {
-  const auto path = std::filesystem::temp_directory_path() /
-                    ("sumogamma_predict_" + std::to_string(getpid()) + "_" + name);
+  const auto path = own_folder() / ("sumogamma_predict_" + std::to_string(getpid()) + "_" + name);
   std::ofstream(path) << text;
   return path.string();
 }
@@ -238,7 +247,7 @@ TEST(PredictCommand, RefusesBadRecordingsWithOneLine) {
 }
 
 TEST(PredictCommand, LeavesOutWhatCannotBeUsedAndWritesTheRest) {
-  const auto json_path = std::filesystem::temp_directory_path() / "sumogamma_left_out.json";
+  const auto json_path = own_folder() / "sumogamma_left_out.json";
   const std::string bad = made_file("bad.csv", "frame,agent_id,x,y\n0,1,1e300,0\n");
   const ProcessResult result =
       predict({bad, small_recording(), "--method", "cv", "--json", json_path.string()});
