@@ -36,7 +36,8 @@ test_stage() {
     return
   fi
   headline "$preset: tests"
-  "${runner[@]}" ctest --test-dir "build/$preset" -L "$labels" -j "$jobs" --output-on-failure \
+  # one more than cores: tests that run SUMO wait for it, and it for them
+  "${runner[@]}" ctest --test-dir "build/$preset" -L "$labels" -j $((jobs + 1)) --output-on-failure \
     --no-tests=error --output-junit "$project/build/$preset/tests.xml" < /dev/null |
     sed -uE '/^ +Start +[0-9]+: /d; s/ \.{3,}/ .../' || true
   if [[ -s build/$preset/tests.xml ]]; then
