@@ -1,6 +1,5 @@
 #include "base/parallel.h"
 
-#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <exception>
@@ -122,18 +121,6 @@ void Workers::for_each_range(
   pool.wait(pool.work_done, [&] { return pool.pending == 0; });
   if (own_failure) std::rethrow_exception(own_failure);
   if (pool.failure) std::rethrow_exception(pool.failure);
-}
-
-void Workers::for_each_piece(
-    std::size_t rows, const std::function<void(std::size_t, std::size_t, std::size_t)>& body) {
-  constexpr std::size_t kPieces = 8;  // a worker: enough to even out, few enough to cost nothing
-  if (count_ == 1) return for_each_range(rows, body);
-  const std::size_t piece = rows / (kPieces * count_) + 1;
-  std::atomic<std::size_t> next = 0;
-  for_each_range(count_, [&](std::size_t worker, std::size_t, std::size_t) {
-    for (std::size_t begin = next.fetch_add(piece); begin < rows; begin = next.fetch_add(piece))
-      body(worker, begin, std::min(begin + piece, rows));
-  });
 }
 
 }  // namespace sumogamma

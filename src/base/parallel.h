@@ -25,13 +25,6 @@ class Workers {
       std::size_t rows,
       const std::function<void(std::size_t worker, std::size_t begin, std::size_t end)>& body);
 
-  /// The same in pieces, of which whoever is free takes the next, for rows that cost differently: a
-  /// worker may have several, and in no order. What it gathers beside its rows' own output would
-  /// depend on that.
-  void for_each_piece(
-      std::size_t rows,
-      const std::function<void(std::size_t worker, std::size_t begin, std::size_t end)>& body);
-
  private:
   struct Pool;
   std::size_t count_;

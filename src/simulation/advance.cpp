@@ -68,7 +68,7 @@ void choose_commands(const Advance& world, const AdvanceOptions& options,
     work.commands[row] = track_velocity(world.model, scene, row, wish, options.dt);
   }
   // everyone reads the same frozen scene and writes only its own command
-  world.workers.for_each_piece(rows, [&](std::size_t worker, std::size_t begin, std::size_t end) {
+  world.workers.for_each_range(rows, [&](std::size_t worker, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       if (scene.control[row] != Control::Gamma) continue;
       if (const auto backed = back_out(view, work.geometry, row, options.dt)) {

@@ -31,7 +31,7 @@ double reach_of(const TrafficTick& tick, const TrafficView& view, std::size_t ro
 void perceive_all(const TrafficTick& tick) {
   const TrafficView view = tick.view();
   tick.perception.resize(view.scene.size());
-  tick.workers.for_each_piece(view.scene.size(),
+  tick.workers.for_each_range(view.scene.size(),
                               [&](std::size_t, std::size_t begin, std::size_t end) {
                                 for (std::size_t row = begin; row < end; ++row)
                                   perceive(view, row, reach_of(tick, view, row), tick.perception);

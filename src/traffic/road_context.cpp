@@ -80,7 +80,7 @@ void update_road_contexts(const TrafficTick& tick) {
   const Scene& scene = tick.scene;
   tick.waits.rebuild(scene);
   if (tick.rules) tick.approaches.rebuild(view);
-  tick.workers.for_each_piece(scene.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+  tick.workers.for_each_range(scene.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
     StopPoints scratch;
     // a row reads other rows' state but never their new context
     for (std::size_t row = begin; row < end; ++row)

@@ -256,7 +256,7 @@ void choose_lanes(const TrafficTick& tick, LaneChoiceWork& work) {
   work.far.resize(tick.workers.count());
   work.intents.assign(scene.size(), {});
   measure_queues(view, work.queues);
-  tick.workers.for_each_piece(
+  tick.workers.for_each_range(
       scene.size(), [&](std::size_t worker, std::size_t begin, std::size_t end) {
         for (std::size_t row = begin; row < end; ++row) {
           const Path* path = view.road.path(scene.path[row]);

@@ -33,19 +33,6 @@ TEST_P(WorkersOf, EveryRowIsVisitedOnceInConsecutiveRanges) {
   }
 }
 
-TEST_P(WorkersOf, EveryRowIsInOnePiece) {
-  Workers workers(GetParam());
-  for (const std::size_t rows : {0U, 1U, 2U, 7U, 64U, 1001U}) {
-    std::vector<std::atomic<int>> visits(rows);
-    workers.for_each_piece(rows, [&](std::size_t worker, std::size_t begin, std::size_t end) {
-      EXPECT_LT(worker, workers.count());
-      EXPECT_LT(begin, end);
-      for (std::size_t row = begin; row < end; ++row) ++visits[row];
-    });
-    for (const auto& count : visits) EXPECT_EQ(count, 1) << rows << " rows";
-  }
-}
-
 TEST_P(WorkersOf, TheSameBitsWhateverTheCount) {
   const auto sums_of = [](std::size_t count) {
     Workers workers(count);
