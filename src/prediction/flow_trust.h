@@ -3,9 +3,9 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 
-#include "prediction/flow_memory.h"
+#include "geometry/vec2.h"
+#include "prediction/recent_forecasts.h"
 
 namespace sumogamma {
 
@@ -29,21 +29,14 @@ class FlowTrust {
   void clear();
 
  private:
-  static constexpr std::size_t kSteps = FlowMemory::kSteps, kEvery = 3, kChecks = kSteps / kEvery;
   static constexpr double kPrior = 5;     // [m^2]
   static constexpr double kKeep = 0.998;  // of the past, a frame
 
-  struct Pending {
-    std::array<Vec2, kChecks> predicted, flow;
-  };
-  struct History {
-    std::array<Pending, kSteps> recent;  ///< a ring
-    std::size_t count = 0, next = 0, kind = 0;
-    bool seen = false;
+  struct Forecast {
+    std::array<Vec2, RecentForecasts<Vec2>::kChecks> predicted, flow;
   };
 
-  std::unordered_map<std::uint32_t, History>
-      history_;                                   ///< looked up; iterated only to drop entries
+  RecentForecasts<Forecast> recent_;
   std::array<double, 2> explained_{}, square_{};  ///< by kind [m^2]
   std::array<double, 2> share_{1, 1};
 };

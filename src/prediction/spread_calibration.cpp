@@ -40,42 +40,30 @@ double SpreadCalibration::quantile_scale(const Bins& errors, double total) {
 
 void SpreadCalibration::remember(std::uint32_t agent, std::size_t kind,
                                  std::span<const Vec2> predicted, const Spread& spread) {
-  History& history = history_[agent];
-  Pending& pending = history.recent[history.next];
-  for (std::size_t k = 0; k < kChecks; ++k) {
-    const std::size_t step = (k + 1) * kEvery - 1;
-    pending.predicted[k] = predicted[std::min(step, predicted.size() - 1)];
-    pending.along[k] = spread.along[step];
-    pending.across[k] = spread.across[step];
+  Forecast& forecast = recent_.add(agent, kind);
+  for (std::size_t check = 0; check < kChecks; ++check) {
+    const std::size_t step = recent_.step_of(check);
+    forecast.predicted[check] = predicted[std::min(step, predicted.size() - 1)];
+    forecast.along[check] = spread.along[step];
+    forecast.across[check] = spread.across[step];
   }
-  pending.forward = spread.forward;
-  history.next = (history.next + 1) % kSteps;
-  history.count = std::min(history.count + 1, kSteps);
-  history.kind = kind;
-  history.seen = true;
+  forecast.forward = spread.forward;
 }
 
 void SpreadCalibration::resolve(std::uint32_t agent, const Vec2& position) {
-  const auto found = history_.find(agent);
-  if (found == history_.end()) return;
-  const History& history = found->second;
-  for (std::size_t check = 0; check < kChecks; ++check) {
-    const std::size_t age = (check + 1) * kEvery;
-    if (age > history.count) break;
-    const Pending& pending = history.recent[(history.next + kSteps - age) % kSteps];
-    const Vec2 error = position - pending.predicted[check];
-    const double along = error.dot(pending.forward) / pending.along[check];
-    const double across = error.dot(left_of(pending.forward)) / pending.across[check];
+  recent_.for_due(agent, [&](std::size_t kind, std::size_t check, const Forecast& forecast) {
+    const Vec2 error = position - forecast.predicted[check];
+    const double along = error.dot(forecast.forward) / forecast.along[check];
+    const double across = error.dot(left_of(forecast.forward)) / forecast.across[check];
     const double deviations = std::hypot(along, across);
-    if (!std::isfinite(deviations)) continue;
-    errors_[history.kind][bin_of(deviations)] += 1.0;
-    total_[history.kind] += 1.0;
-  }
+    if (!std::isfinite(deviations)) return;
+    errors_[kind][bin_of(deviations)] += 1.0;
+    total_[kind] += 1.0;
+  });
 }
 
 void SpreadCalibration::end_frame() {
-  std::erase_if(history_, [](const auto& entry) { return !entry.second.seen; });
-  for (auto& entry : history_) entry.second.seen = false;
+  recent_.end_frame();
   for (std::size_t kind = 0; kind < errors_.size(); ++kind) {
     if (total_[kind] > kMost) {
       for (double& count : errors_[kind]) count *= 0.5;

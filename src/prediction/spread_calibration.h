@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 
+#include "prediction/recent_forecasts.h"
 #include "prediction/spread_model.h"
 
 namespace sumogamma {
@@ -28,26 +28,20 @@ class SpreadCalibration {
   void end_frame();
 
  private:
-  static constexpr std::size_t kSteps = 12, kEvery = 3, kChecks = kSteps / kEvery, kBins = 64;
+  static constexpr std::size_t kBins = 64, kChecks = RecentForecasts<Vec2>::kChecks;
   static constexpr double kPrior = 300, kMost = 20000;
 
-  struct Pending {
+  struct Forecast {
     std::array<Vec2, kChecks> predicted;
     std::array<double, kChecks> along, across;  ///< [m]
     Vec2 forward;
-  };
-  struct History {
-    std::array<Pending, kSteps> recent;  ///< a ring
-    std::size_t count = 0, next = 0, kind = 0;
-    bool seen = false;
   };
   using Bins = std::array<double, kBins>;
 
   static std::size_t bin_of(double deviations);
   static double quantile_scale(const Bins& errors, double total);
 
-  std::unordered_map<std::uint32_t, History>
-      history_;                   ///< looked up; iterated only to drop entries
+  RecentForecasts<Forecast> recent_;
   std::array<Bins, 2> errors_{};  ///< by kind: errors in deviations
   std::array<double, 2> total_{};
   std::array<double, 2> scale_{1, 1};
