@@ -17,7 +17,11 @@ import math
 import os
 import re
 import subprocess
+import sys
 import tempfile
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
+from linear_system import solve  # noqa: E402
 
 KINDS, BANDS, STEPS = 2, 6, 12
 USED = ((0, 1, 2), (0, 3))  # clues by kind, of CLUES: wheels are too few for more
@@ -89,22 +93,6 @@ def quantile(pairs, share):
         if total >= wanted:
             return value
     return pairs[-1][0]
-
-
-def solve(matrix, right):
-    """Gaussian elimination with pivots."""
-    n = len(right)
-    rows = [matrix[i][:] + [right[i]] for i in range(n)]
-    for i in range(n):
-        pivot = max(range(i, n), key=lambda r: abs(rows[r][i]))
-        rows[i], rows[pivot] = rows[pivot], rows[i]
-        for r in range(i + 1, n):
-            share = rows[r][i] / rows[i][i]
-            rows[r] = [a - share * b for a, b in zip(rows[r], rows[i])]
-    x = [0.0] * n
-    for i in reversed(range(n)):
-        x[i] = (rows[i][n] - sum(rows[i][j] * x[j] for j in range(i + 1, n))) / rows[i][i]
-    return x
 
 
 class Model:

@@ -12,7 +12,11 @@ import argparse
 import math
 import os
 import subprocess
+import sys
 import tempfile
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
+from linear_system import solve  # noqa: E402
 
 STEPS = (3, 6, 9, 12)
 FEATURES = 13
@@ -51,23 +55,6 @@ def predicted(coefficients, features, step):
     g = basis(step)
     c = [a * g[0] + b * g[1] for a, b in coefficients]
     return (sum(w * f[0] for w, f in zip(c, features)), sum(w * f[1] for w, f in zip(c, features)))
-
-
-def solve(matrix, right):
-    """Gaussian elimination with pivots."""
-    n = len(right)
-    rows = [matrix[i][:] + [right[i]] for i in range(n)]
-    for i in range(n):
-        pivot = max(range(i, n), key=lambda r: abs(rows[r][i]))
-        rows[i], rows[pivot] = rows[pivot], rows[i]
-        for r in range(i + 1, n):
-            share = rows[r][i] / rows[i][i]
-            if share:
-                rows[r] = [a - share * b for a, b in zip(rows[r], rows[i])]
-    x = [0.0] * n
-    for i in reversed(range(n)):
-        x[i] = (rows[i][n] - sum(rows[i][j] * x[j] for j in range(i + 1, n))) / rows[i][i]
-    return x
 
 
 def learn(sets):

@@ -24,6 +24,11 @@ double reach_towards(const AgentGeometry& agent, const AgentGeometry& other,
   return own + theirs + agent.radius + other.radius;
 }
 
+/// Is somebody out of reach within the horizon? gap > horizon * approach, both times the distance.
+bool stays_away(double gap, double distance, double approach, double horizon) {
+  return gap > 0 && gap * distance > horizon * (approach + kSideStep * distance);
+}
+
 /// Looks at two entries of the grid at a time: most of those that a search passes are too far away.
 class PairSearch {
  public:
@@ -119,12 +124,11 @@ void find_neighbours(const RoadNetwork& network, const TickGeometry& geometry, s
     if (square <= near * near) neighbours.near.push_back(other_row);
     const double reach = reach_towards(own, other, range, offset);
     if (square > reach * reach) continue;
-    // out of reach within the horizon: gap > horizon * approach, both times the distance
     const double distance = std::sqrt(square);
     const double gap = distance - own.radius - other.radius;
     const double approach =
         std::max(own.velocity.dot(offset), preferred.dot(offset)) - other.velocity.dot(offset);
-    if (gap > 0 && gap * distance > horizon * (approach + kSideStep * distance)) continue;
+    if (stays_away(gap, distance, approach, horizon)) continue;
     neighbours.attended.push_back({other_row, distance});
   }
   // in order of id, so that nothing depends on where the grid's cells happen to lie
@@ -168,9 +172,7 @@ void attend_among(const Nearby& nearby, const AgentGeometry& own, const Attentio
     if (other.square > reach * reach) continue;
     const double approach =
         std::max(other.own_approach, preferred.dot(other.offset)) - other.flight;
-    if (other.gap > 0 &&
-        other.gap * other.distance > horizon * (approach + kSideStep * other.distance))
-      continue;
+    if (stays_away(other.gap, other.distance, approach, horizon)) continue;
     attended.push_back({other.row, other.distance});
   }
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <numeric>
@@ -349,21 +348,6 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
   if (!out) throw Error(file.string(), "cannot be written: is the disk full?");
 }
 
-std::vector<Vec2> points_in(const char* shape) {
-  std::vector<Vec2> points;
-  for (const char* at = shape; *at != '\0';) {
-    char* end = nullptr;
-    const double x = std::strtod(at, &end);
-    if (end == at || *end != ',') break;
-    const char* second = end + 1;
-    points.emplace_back(x, std::strtod(second, &end));
-    // a height may follow
-    while (*end != '\0' && *end != ' ') ++end;
-    at = *end == ' ' ? end + 1 : end;
-  }
-  return points;
-}
-
 void set_line(pugi::xml_node lane, const Polyline& line) {
   constexpr double kShortest = 0.1;  // of a lane of SUMO's [m]
   lane.attribute("shape").set_value(shape_text(line.points()).c_str());
@@ -400,7 +384,7 @@ void restore_lanes(const PlainNetwork& plain, const std::filesystem::path& file)
     if (!plain.lanes.contains(from) || !plain.lanes.contains(to)) continue;
     const std::vector<Vec2>&before = plain.lanes.at(from), &behind = plain.lanes.at(to);
     std::vector<Vec2> points{before.back()};
-    for (const Vec2& point : points_in(link.attribute("shape").value())) points.push_back(point);
+    for (const Vec2& point : shape_of(link)) points.push_back(point);
     points.push_back(behind.front());
     const Polyline whole(points);
     const auto second = onward.find(via->first);
@@ -409,7 +393,7 @@ void restore_lanes(const PlainNetwork& plain, const std::filesystem::path& file)
       continue;
     }
     // netconvert's first half begins where it had the lane end
-    const Polyline first(points_in(via->second.attribute("shape").value()));
+    const Polyline first(shape_of(via->second));
     const double half = whole.project(first.points().back()).along;
     const double cut = std::clamp(half, 0.5, std::max(0.5, whole.length() - 0.5));
     std::vector<Vec2> one{whole.point_at(0.0)}, other{whole.point_at(cut)};

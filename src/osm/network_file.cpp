@@ -1,5 +1,6 @@
 #include "osm/network_file.h"
 
+#include <cstdlib>
 #include <sstream>
 #include <string_view>
 
@@ -33,6 +34,21 @@ std::map<std::string, std::set<std::int64_t>> ways_of_edges(const pugi::xml_node
 void save_xml(const pugi::xml_document& document, const std::filesystem::path& file) {
   if (!document.save_file(file.c_str(), "    "))
     throw Error(file.string(), "cannot be written: is the disk full?");
+}
+
+std::vector<Vec2> shape_of(const pugi::xml_node& element) {
+  std::vector<Vec2> points;
+  for (const char* at = element.attribute("shape").value(); *at != '\0';) {
+    char* end = nullptr;
+    const double x = std::strtod(at, &end);
+    if (end == at || *end != ',') break;
+    const char* second = end + 1;
+    points.emplace_back(x, std::strtod(second, &end));
+    // a height may follow
+    while (*end != '\0' && *end != ' ') ++end;
+    at = *end == ' ' ? end + 1 : end;
+  }
+  return points;
 }
 
 }  // namespace sumogamma::osm

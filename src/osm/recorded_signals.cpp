@@ -86,23 +86,11 @@ struct Ways {
   std::vector<pugi::xml_node> links;  ///< from lanes that aren't within a junction, with a signal
 };
 
-/// The shape of an element; empty where it has none.
-Polyline line_of(const pugi::xml_node& lane) {
-  std::vector<Vec2> points;
-  for (const std::string& point : split(lane.attribute("shape").value(), ' ')) {
-    const std::vector<std::string> numbers = split(point, ',');
-    if (numbers.size() < 2) continue;
-    points.emplace_back(std::strtod(numbers[0].c_str(), nullptr),
-                        std::strtod(numbers[1].c_str(), nullptr));
-  }
-  return Polyline(points);
-}
-
 Ways ways_of(const pugi::xml_node& net) {
   Ways ways;
   for (const pugi::xml_node edge : net.children("edge"))
     for (const pugi::xml_node lane : edge.children("lane"))
-      ways.lanes[lane.attribute("id").value()] = line_of(lane);
+      ways.lanes[lane.attribute("id").value()] = Polyline(shape_of(lane));
   for (const pugi::xml_node link : net.children("connection"))
     if (link.attribute("tl")) ways.links.push_back(link);
   return ways;
@@ -117,7 +105,7 @@ int group_of(const pugi::xml_node& link, const Ways& ways,
   };
   const Polyline &from = lane("from", "fromLane"), &to = lane("to", "toLane");
   // a stop line may lie on what the network has for the junction
-  const Polyline over = line_of(link);
+  const Polyline over(shape_of(link));
   int group = 0;
   double least = std::numeric_limits<double>::infinity();
   for (const SignalledWay& way : signalled) {
