@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr const char* kTrajectories = "trajectories.fcd.xml.gz";
 
 /// One agent of a frame, before all of them are sorted into a scene.
-struct SeenAgent {
+struct MovedAgent {
   std::uint32_t id = 0;
   AgentTypeId type{};
   Vec2 center = Vec2::Zero();
@@ -32,12 +32,12 @@ struct SeenAgent {
   Vec2 velocity = Vec2::Zero();
 };
 
-Scene scene_of(std::vector<SeenAgent>& seen, const AgentTypeTable& types, double time) {
+Scene scene_of(std::vector<MovedAgent>& seen, const AgentTypeTable& types, double time) {
   std::sort(seen.begin(), seen.end(),
-            [](const SeenAgent& a, const SeenAgent& b) { return a.id < b.id; });
+            [](const MovedAgent& a, const MovedAgent& b) { return a.id < b.id; });
   Scene scene;
   scene.time = time;
-  for (const SeenAgent& one : seen) {
+  for (const MovedAgent& one : seen) {
     // the same agent twice in a step is none of SUMO's files
     if (!scene.id.empty() && scene.id.back() == AgentId{one.id}) continue;
     const AgentType& type = type_of(types, one.type);
@@ -117,7 +117,7 @@ class FcdReader {
 
   void add(const XmlLine& line) {
     const bool on_foot = line.element == "person";
-    SeenAgent agent;
+    MovedAgent agent;
     agent.id = ids_.try_emplace(line.element + " " + std::string(line.get("id")),
                                 static_cast<std::uint32_t>(ids_.size()))
                    .first->second;
@@ -146,7 +146,7 @@ class FcdReader {
   MotionSampler& sampler_;
   AgentTypeTable types_ = default_agent_types();
   std::map<std::string, std::uint32_t> ids_;
-  std::vector<SeenAgent> seen_;
+  std::vector<MovedAgent> seen_;
   Scene first_;
   double time_ = 0, period_ = 0;
   bool open_ = false, has_first_ = false, warned_ = false;
@@ -162,12 +162,12 @@ void sample_recording(const fs::path& file, MotionSampler& sampler) {
            type_of(types, track.type).rear_axle_to_center * direction_of(track.heading[k]);
   };
   for (int frame = set.first_frame; frame <= set.last_frame; ++frame) {
-    std::vector<SeenAgent> seen;
+    std::vector<MovedAgent> seen;
     for (const Track& track : set.tracks) {
       if (!track.present(frame)) continue;
       const auto k = static_cast<std::size_t>(frame - track.first);
       const std::size_t before = k > 0 ? k - 1 : 0, after = k > 0 ? k : 1;
-      SeenAgent agent{track.id, track.type, center(track, k), track.heading[k], Vec2::Zero()};
+      MovedAgent agent{track.id, track.type, center(track, k), track.heading[k], Vec2::Zero()};
       if (after < track.position.size())
         agent.velocity = (center(track, after) - center(track, before)) / set.period;
       seen.push_back(agent);

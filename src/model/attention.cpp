@@ -12,9 +12,6 @@ namespace sumogamma {
 
 namespace {
 
-// approach that is always reckoned with, whatever the velocities say now [m/s]
-constexpr double kSideStep = 0.3;
-
 /// Largest distance between the positions at which `agent` attends to `other` at `offset` from it.
 double reach_towards(const AgentGeometry& agent, const AgentGeometry& other,
                      const AttentionRange& range, const Vec2& offset) {

@@ -7,6 +7,9 @@
 
 namespace sumogamma {
 
+/// Approach that is always reckoned with, whatever the velocities say now [m/s].
+inline constexpr double kSideStep = 0.3;
+
 /// A neighbour that Att admits.
 struct Attended {
   std::uint32_t row = 0;

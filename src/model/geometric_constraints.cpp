@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "model/attention.h"
 #include "model/bending.h"
 #include "model/velocity_obstacle.h"
 
@@ -55,9 +56,6 @@ Vec2 intended_velocity(const Scene& scene, const AgentGeometry& agent, std::size
   const bool on_foot = context.active && !agent.on_wheels && onwards.squaredNorm() > 1e-6;
   return std::max(speed, 0.0) * (on_foot ? Vec2(onwards.normalized()) : agent.forward);
 }
-
-// approach that is always reckoned with, whatever the velocities say now [m/s]
-constexpr double kSideStep = 0.3;
 
 /// A row and one neighbour: all that their velocity obstacle depends on.
 struct Pair {

@@ -117,7 +117,7 @@ constexpr BoxRegion kBoxes[] = {{"Australia", {112.5, -44, 154, -10}},
 
 std::string_view left_hand_region(GeoPoint place) {
   for (const Region& region : kRegions)
-    if (ring_contains(region.outline, place)) return region.name;
+    if (ring_has(region.outline, place)) return region.name;
   for (const BoxRegion& region : kBoxes)
     if (region.box.contains(place)) return region.name;
   return {};

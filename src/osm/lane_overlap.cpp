@@ -10,8 +10,8 @@
 namespace sumogamma::osm {
 namespace {
 
-constexpr double kStep = 2.0;   // [m] between the places looked at
-constexpr double kCell = 12.0;  // [m]
+constexpr double kStep = 2.0;       // [m] between the places looked at
+constexpr double kLaneCell = 12.0;  // [m]
 
 constexpr VehicleClassMask kMotors = vehicle_class::kMotorcycle | vehicle_class::kMoped |
                                      vehicle_class::kPassenger | vehicle_class::kDelivery |
@@ -27,7 +27,7 @@ struct Piece {
 /// Pieces of all lanes, by the cells that a strip of their width touches.
 struct PieceGrid {
   std::vector<Piece> pieces;
-  BoxGrid grid{kCell};
+  BoxGrid grid{kLaneCell};
 
   PieceGrid(const RoadNetwork& road, double widest) {
     for (std::size_t i = 0; i < road.lanes.size(); ++i) {

@@ -18,7 +18,7 @@ namespace sumogamma::osm {
 namespace {
 
 constexpr double kAboutZero = 0.5;    // places of maps whose origin is 0, 0 [deg]
-constexpr double kPiece = 1.0;        // of a centre line [m]
+constexpr double kCentrePiece = 1.0;  // of a centre line [m]
 constexpr double kNarrowest = 0.5;    // a lanelet that is narrower isn't one [m]
 constexpr double kLeastLength = 0.1;  // likewise [m]
 
@@ -274,7 +274,7 @@ class Reader {
     const Polyline left(points_of(lanelet.left, lanelet.id)),
         right(points_of(lanelet.right, lanelet.id));
     const double length = std::max(left.length(), right.length());
-    const auto pieces = std::max(1, static_cast<int>(std::ceil(length / kPiece)));
+    const auto pieces = std::max(1, static_cast<int>(std::ceil(length / kCentrePiece)));
     std::vector<Vec2> points;
     std::vector<double> widths;
     for (int k = 0; k <= pieces; ++k) {

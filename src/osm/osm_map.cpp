@@ -24,7 +24,7 @@ GeoBox GeoBox::grown(double meters) const {
   return {west - lon, south - lat, east + lon, north + lat};
 }
 
-bool ring_contains(std::span<const GeoPoint> ring, GeoPoint place) {
+bool ring_has(std::span<const GeoPoint> ring, GeoPoint place) {
   std::vector<Vec2> points;
   for (const GeoPoint p : ring) points.emplace_back(p.lon, p.lat);
   return sumogamma::ring_contains(points, Vec2(place.lon, place.lat));

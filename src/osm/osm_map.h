@@ -36,7 +36,7 @@ struct GeoBox {
 
 /// True for a place within a ring that doesn't cross the 180th meridian (even-odd rule on longitude
 /// and latitude). The ring may repeat its first point.
-bool ring_contains(std::span<const GeoPoint> ring, GeoPoint place);
+bool ring_has(std::span<const GeoPoint> ring, GeoPoint place);
 
 /// Sorted, so that whatever is written from it is the same bytes each time.
 using Tags = std::map<std::string, std::string, std::less<>>;

@@ -86,7 +86,7 @@ class RunOutputs {
   std::vector<bool> on_road_, seen_, arrived_;  ///< by vehicle
   std::vector<TripFigures*> figures_;           ///< by vehicle, of trips_
   Trips trips_;
-  Summary summary_;
+  SummaryByTime summary_;
   double waited_ = 0, waited_arrived_ = 0;
   std::map<std::filesystem::path, std::shared_ptr<SumoFile>> files_;
   std::vector<std::unique_ptr<StepOutput>> outputs_;

@@ -137,7 +137,7 @@ void set_means(const TripSums& sums, int precision, XmlLine& line) {
   line.set("totalTravelTime", sumo_time(sums.duration, precision));
 }
 
-const SummaryFigures* figures_at(const Summary& summary, const XmlLine& line) {
+const SummaryFigures* figures_at(const SummaryByTime& summary, const XmlLine& line) {
   if (line.element != "step") return nullptr;
   const auto found = summary.find(std::llround(1000.0 * line.number("time")));
   return found == summary.end() ? nullptr : &found->second;
@@ -174,7 +174,7 @@ void write_statistics(const fs::path& from, const fs::path& to, const fs::path& 
   });
 }
 
-void write_summary(const fs::path& from, const fs::path& to, const Summary& summary,
+void write_summary(const fs::path& from, const fs::path& to, const SummaryByTime& summary,
                    int precision) {
   copy_lines(from, to, [&](XmlLine& line) {
     const SummaryFigures* now = figures_at(summary, line);
@@ -202,7 +202,7 @@ void write_summary(const fs::path& from, const fs::path& to, const Summary& summ
   });
 }
 
-void write_person_summary(const fs::path& from, const fs::path& to, const Summary& summary) {
+void write_person_summary(const fs::path& from, const fs::path& to, const SummaryByTime& summary) {
   copy_lines(from, to, [&](XmlLine& line) {
     const SummaryFigures* now = figures_at(summary, line);
     if (now == nullptr || !now->walked) return LineFate::Keep;

@@ -42,7 +42,7 @@ struct SummaryFigures {
 };
 
 /// By the begin of the step [ms], as SUMO names it.
-using Summary = std::map<std::int64_t, SummaryFigures>;
+using SummaryByTime = std::map<std::int64_t, SummaryFigures>;
 
 /// Copies SUMO's tripinfo-output with the figures of those whom GAMMA drove in place of SUMO's. Who
 /// waited to the end is left out. Throws Error naming the file.
@@ -55,8 +55,8 @@ void write_statistics(const std::filesystem::path& from, const std::filesystem::
 
 /// Copies SUMO's summary-output, and its person-summary-output.
 void write_summary(const std::filesystem::path& from, const std::filesystem::path& to,
-                   const Summary& summary, int precision);
+                   const SummaryByTime& summary, int precision);
 void write_person_summary(const std::filesystem::path& from, const std::filesystem::path& to,
-                          const Summary& summary);
+                          const SummaryByTime& summary);
 
 }  // namespace sumogamma

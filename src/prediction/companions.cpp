@@ -4,11 +4,6 @@
 
 namespace sumogamma {
 
-namespace {
-// states farther apart than this many scales are no companions [squared]
-constexpr double kReach = 9.0;
-}  // namespace
-
 void join_paths(std::span<const Companion> agents, const CompanionKernel& kernel, SpatialGrid& grid,
                 std::vector<std::array<Vec2, FlowMemory::kSteps>>& joint, std::size_t steps) {
   joint.resize(agents.size());
@@ -30,12 +25,12 @@ void join_paths(std::span<const Companion> agents, const CompanionKernel& kernel
       if (row == self || !other.joins) return;
       const double apart =
           by_distance * square + by_speed * (other.velocity - agent.velocity).squaredNorm();
-      if (apart > kReach) return;
+      if (apart > FlowMemory::kReach) return;
       const double weight = kernel.weight * std::exp(-0.5 * apart);
       total += weight;
       for (std::size_t k = 0; k < steps; ++k) joint[self][k] += weight * other.path[k];
     };
-    grid.visit_within(agent.position, std::sqrt(kReach) * kernel.distance, add);
+    grid.visit_within(agent.position, std::sqrt(FlowMemory::kReach) * kernel.distance, add);
     for (std::size_t k = 0; k < steps; ++k) joint[self][k] /= total;
   }
 }

@@ -1,9 +1,8 @@
 #include "prediction/evaluation.h"
 
-#include <time.h>
-
 #include <algorithm>
 
+#include "base/cpu_time.h"
 #include "prediction/predictor_parameters.h"
 
 namespace sumogamma {
@@ -11,12 +10,6 @@ namespace sumogamma {
 namespace {
 
 constexpr double kMiss = 2.0;  // [m]
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 void score_samples(const Track& truth, int frame, std::size_t row,
                    const std::vector<Forecast>& samples, const Protocol& protocol,
@@ -134,14 +127,14 @@ Evaluation evaluate(const Method& method, const TrackSet& set, const TrackSet& t
     const ObservedScene scene = observe(strict ? window : set, frame);
     const Predicted predicted = predicted_agents(set, scene, protocol);
     if (strict && predicted.rows.empty()) continue;
-    const double begin = cpu_seconds();
+    const double begin = process_cpu_seconds();
     if (strict)
       show_window(method, window);
     else if (method.observe)
       method.observe(scene);
     Forecast forecast;
     if (!predicted.rows.empty()) forecast = method.predict(scene, steps);
-    result.cpu_seconds += cpu_seconds() - begin;
+    result.cpu_seconds += process_cpu_seconds() - begin;
     if (predicted.rows.empty()) continue;
     result.predictions += static_cast<std::int64_t>(predicted.rows.size());
     result.collisions.add(count_collisions(types, scene, forecast, predicted.rows, scored));

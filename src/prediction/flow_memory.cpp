@@ -6,8 +6,6 @@
 namespace sumogamma {
 
 namespace {
-// states farther apart than this many scales have nothing to say [squared]
-constexpr double kReach = 9.0;
 
 std::int64_t cell_of(double coordinate, double cell) {
   return static_cast<std::int64_t>(std::floor(coordinate / cell));

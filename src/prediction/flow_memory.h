@@ -25,6 +25,8 @@ struct FlowKernel {
 class FlowMemory {
  public:
   static constexpr std::size_t kSteps = 12;
+  /// States farther apart than this many scales have nothing to say [squared].
+  static constexpr double kReach = 9.0;
 
   /// A cell of 2 m keeps at most `cell_capacity` predictions, the oldest give way: cost and memory
   /// stay bounded in a long run.

@@ -11,15 +11,12 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kStep = 0.05;          // of the model [s]
-constexpr int kStepsAPose = 2;          // of these from one pose to the next
 constexpr double kStands = 0.5;         // [m/s]
 constexpr double kFreeSpeed = 8.3;      // on open ground among others: 30 km/h [m/s]
 constexpr double kSpeedSpread = 0.15;   // of desired speeds of one and the same agent
 constexpr double kReached = 2.0;        // of a destination [m]
 constexpr double kReachedWithin = 0.5;  // likewise, of who is faster [s]
 constexpr double kOnward = 20.0;        // where who has reached it goes [m]
-constexpr std::size_t kSteps = Poses::kSteps;
 
 /// Towards everybody's destination, and on from there. `reached`: by id.
 void set_goals(WindowCast& cast, std::vector<bool>& reached) {
@@ -52,7 +49,7 @@ ClosedLoop::ClosedLoop(const RecordedScene& scene, const ModelOptions& options, 
   model_.types = scene.types;
   model_.kinematics = build_kinematic_tables(scene.types, workers);
   model_.options = options;
-  model_.options.step = kStep;
+  model_.options.step = kModelStep;
   model_.road.obstacles = scene.obstacles;
   model_.obstacles = ObstacleIndex(scene.obstacles);
 }
@@ -70,14 +67,14 @@ Rollout ClosedLoop::drive(const ScoreWindow& window, std::uint64_t seed,
                   });
   std::vector<bool> reached;
   OpenSteps steps(model_, workers_);
-  for (std::size_t step = 0; step < kSteps; ++step) {
+  for (std::size_t step = 0; step < Poses::kSteps; ++step) {
     const int now = window.start + static_cast<int>(step);
     cast.let_leave(now);
     cast.let_enter(now, counts);
     cast.note(step, rollout);
-    if (step + 1 == kSteps) break;
+    if (step + 1 == Poses::kSteps) break;
     set_goals(cast, reached);
-    for (int k = 0; k < kStepsAPose; ++k) steps.make(cast.scene().size(), cast.scene());
+    for (int k = 0; k < kModelStepsAPose; ++k) steps.make(cast.scene().size(), cast.scene());
   }
   counts.shut_out = window.entering.size() - counts.entered;
   entries.add(counts);

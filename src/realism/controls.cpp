@@ -8,9 +8,8 @@ namespace sumogamma {
 
 namespace {
 
-constexpr std::size_t kSteps = Poses::kSteps;
 constexpr double kAccelerationSpread = 0.8, kTurnSpread = 0.08;  // [m/s^2], [rad/s]
-constexpr double kAccelerates = 3.0, kTurns = 4.0;               // for so long [s]
+constexpr double kAcceleratesFor = 3.0, kTurnsFor = 4.0;         // for so long [s]
 constexpr double kTurningSpeed = 1.0;                            // [m/s]
 
 /// One agent's way of a fan.
@@ -18,12 +17,12 @@ void draw_way(const MotionState& start, double acceleration, double turn, Poses&
               std::size_t row) {
   const double speed = start.velocity.norm(), direction = heading_of(start.velocity);
   Vec2 position = start.position;
-  for (std::size_t k = 0; k < kSteps; ++k) {
+  for (std::size_t k = 0; k < Poses::kSteps; ++k) {
     const double time = kScoreStep * static_cast<double>(k);
-    poses.position[row * kSteps + k] = position;
-    const double turned = turn * std::min(time, kTurns);
-    poses.heading[row * kSteps + k] = start.heading + turned;
-    const double now = std::max(0.0, speed + acceleration * std::min(time, kAccelerates));
+    poses.position[row * Poses::kSteps + k] = position;
+    const double turned = turn * std::min(time, kTurnsFor);
+    poses.heading[row * Poses::kSteps + k] = start.heading + turned;
+    const double now = std::max(0.0, speed + acceleration * std::min(time, kAcceleratesFor));
     position += kScoreStep * now * direction_of(direction + turned);
   }
 }

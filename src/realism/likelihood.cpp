@@ -10,7 +10,6 @@ namespace sumogamma {
 namespace {
 
 constexpr double kPseudoCount = 0.1, kCollisionPseudoCount = 0.001;
-constexpr std::size_t kSteps = Poses::kSteps;
 
 double exp_mean(double sum, std::size_t count) {
   if (count == 0) return std::numeric_limits<double>::quiet_NaN();
@@ -22,21 +21,21 @@ double ratio(double of, double to) {
 }
 
 bool collides(const MotionFeatures& features, std::size_t row) {
-  const auto from = features.nearest.begin() + static_cast<std::ptrdiff_t>(row * kSteps);
-  return std::any_of(from, from + static_cast<std::ptrdiff_t>(kSteps),
+  const auto from = features.nearest.begin() + static_cast<std::ptrdiff_t>(row * Poses::kSteps);
+  return std::any_of(from, from + static_cast<std::ptrdiff_t>(Poses::kSteps),
                      [](double gap) { return gap < 0.0; });
 }
 
 double way_of(const Poses& poses, std::size_t row, std::size_t present) {
   double way = 0;
-  for (std::size_t k = row * kSteps + 1; k < row * kSteps + present; ++k)
+  for (std::size_t k = row * Poses::kSteps + 1; k < row * Poses::kSteps + present; ++k)
     way += (poses.position[k] - poses.position[k - 1]).norm();
   return way;
 }
 
 double mean_error(const Poses& poses, const Poses& log, std::size_t row, std::size_t present) {
   double sum = 0;
-  for (std::size_t k = row * kSteps + 1; k < row * kSteps + present; ++k)
+  for (std::size_t k = row * Poses::kSteps + 1; k < row * Poses::kSteps + present; ++k)
     sum += (poses.position[k] - log.position[k]).norm();
   return sum / static_cast<double>(present - 1);
 }
@@ -47,8 +46,8 @@ void gather(std::span<const MotionFeatures> features,
             std::vector<double>& gathered) {
   gathered.clear();
   for (const MotionFeatures& one : features) {
-    const auto from = (one.*values).begin() + static_cast<std::ptrdiff_t>(row * kSteps);
-    gathered.insert(gathered.end(), from, from + static_cast<std::ptrdiff_t>(kSteps));
+    const auto from = (one.*values).begin() + static_cast<std::ptrdiff_t>(row * Poses::kSteps);
+    gathered.insert(gathered.end(), from, from + static_cast<std::ptrdiff_t>(Poses::kSteps));
   }
 }
 
@@ -59,8 +58,9 @@ void add_likelihoods(const MotionFeatures& log, std::span<const MotionFeatures> 
     const ScoreFeatureInfo& info = score_features()[k];
     if (info.feature == ScoreFeature::Collision) continue;
     gather(features, info.values, row, gathered);
-    const double mean = mean_log_likelihood(
-        std::span(log.*info.values).subspan(row * kSteps, kSteps), gathered, info.bins);
+    const double mean =
+        mean_log_likelihood(std::span(log.*info.values).subspan(row * Poses::kSteps, Poses::kSteps),
+                            gathered, info.bins);
     if (std::isnan(mean)) continue;
     sums.log_likelihood[k] += mean;
     ++sums.agents[k];
@@ -171,7 +171,7 @@ std::map<std::string, ScoreSums> score_window(const RecordedScene& scene, const 
     double way = 0, least = std::numeric_limits<double>::infinity();
     for (std::size_t r = 0; r < rollouts.size(); ++r) {
       const bool overlaps = collides(features[r], row);
-      const bool apart = features[r].nearest[row * kSteps] >= 0.0;
+      const bool apart = features[r].nearest[row * Poses::kSteps] >= 0.0;
       collided += overlaps;
       sums.apart += apart;
       sums.colliding_anew += apart && overlaps;

@@ -20,7 +20,7 @@ constexpr std::size_t kAtEnd = 6;       // points at either end
 constexpr double kBesideLane = 4.0;     // from a lane to the next one [m]
 
 /// A place on a lane.
-struct LanePlace {
+struct MatchedPlace {
   LaneId lane = kNoLane;
   double along = 0, distance = 0;
 };
@@ -34,7 +34,7 @@ std::vector<std::size_t> points_of(const RecordedAgent& agent) {
 }
 
 /// The normal lane that a lane on a junction comes from (or leads to), itself where it is one.
-LanePlace off_junction(const RoadNetwork& network, LanePlace place, bool backwards) {
+MatchedPlace off_junction(const RoadNetwork& network, MatchedPlace place, bool backwards) {
   // a chain of internal lanes has few members
   for (int k = 0; k < 8 && network.lane(place.lane).kind == LaneKind::Internal; ++k) {
     const Lane& lane = network.lane(place.lane);
@@ -55,9 +55,9 @@ LanePlace off_junction(const RoadNetwork& network, LanePlace place, bool backwar
 }
 
 /// Lanes under a point of a vehicle, the nearest first, each edge once.
-std::vector<LanePlace> lanes_at(const RoadNetwork& network, const Vec2& point, double heading,
-                                VehicleClassMask classes, bool backwards) {
-  std::vector<LanePlace> places;
+std::vector<MatchedPlace> lanes_at(const RoadNetwork& network, const Vec2& point, double heading,
+                                   VehicleClassMask classes, bool backwards) {
+  std::vector<MatchedPlace> places;
   for (std::size_t k = 0; k < network.lanes.size(); ++k) {
     const Lane& lane = network.lanes[k];
     const bool drives = lane.kind == LaneKind::Normal || lane.kind == LaneKind::Internal;
@@ -66,14 +66,15 @@ std::vector<LanePlace> lanes_at(const RoadNetwork& network, const Vec2& point, d
     if (at.distance > kOnRoute) continue;
     const double direction = heading_of(lane.centerline.direction_at(at.along));
     if (std::abs(wrap_angle(direction - heading)) > radians(kAlike)) continue;
-    const LanePlace place =
+    const MatchedPlace place =
         off_junction(network, {static_cast<LaneId>(k), at.along, at.distance}, backwards);
     if (network.lane(place.lane).kind == LaneKind::Normal) places.push_back(place);
   }
-  std::stable_sort(places.begin(), places.end(),
-                   [](const LanePlace& a, const LanePlace& b) { return a.distance < b.distance; });
+  std::stable_sort(places.begin(), places.end(), [](const MatchedPlace& a, const MatchedPlace& b) {
+    return a.distance < b.distance;
+  });
   std::set<EdgeId> seen;
-  std::erase_if(places, [&](const LanePlace& place) {
+  std::erase_if(places, [&](const MatchedPlace& place) {
     return !seen.insert(network.lane(place.lane).edge).second;
   });
   if (places.size() > kCandidates) places.resize(kCandidates);
@@ -112,8 +113,8 @@ std::size_t points_near(const RoadNetwork& network, const std::set<LaneId>& lane
 }
 
 /// The fastest way from any lane of one edge to another; the edge alone where it is the same.
-std::vector<EdgeId> way_between(const RoadNetwork& network, const LanePlace& from,
-                                const LanePlace& to, VehicleClassMask classes,
+std::vector<EdgeId> way_between(const RoadNetwork& network, const MatchedPlace& from,
+                                const MatchedPlace& to, VehicleClassMask classes,
                                 const std::vector<double>& times) {
   const EdgeId start = network.lane(from.lane).edge, end = network.lane(to.lane).edge;
   if (start == end && to.along >= from.along) return {start};
@@ -132,15 +133,15 @@ std::vector<EdgeId> way_between(const RoadNetwork& network, const LanePlace& fro
 
 /// Lanes under the first (or last) few of the points, each edge once: who changes lanes there may
 /// be beside the one that it goes on by. At the middle of the points where there is none nearer.
-std::vector<LanePlace> end_of(const RoadNetwork& network, const RecordedAgent& agent,
-                              std::vector<std::size_t> points, VehicleClassMask classes,
-                              bool first) {
+std::vector<MatchedPlace> end_of(const RoadNetwork& network, const RecordedAgent& agent,
+                                 std::vector<std::size_t> points, VehicleClassMask classes,
+                                 bool first) {
   if (!first) std::reverse(points.begin(), points.end());
-  std::vector<LanePlace> places;
+  std::vector<MatchedPlace> places;
   std::set<EdgeId> seen;
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (k >= kAtEnd && !places.empty()) break;
-    for (LanePlace place :
+    for (MatchedPlace place :
          lanes_at(network, agent.position[points[k]], agent.heading[points[k]], classes, first)) {
       if (!seen.insert(network.lane(place.lane).edge).second) continue;
       // the end itself lies there, too, as far as the lane goes
@@ -154,8 +155,8 @@ std::vector<LanePlace> end_of(const RoadNetwork& network, const RecordedAgent& a
 }
 
 /// The nearest lane for people.
-LanePlace sidewalk_at(const RoadNetwork& network, const Vec2& point) {
-  LanePlace nearest{kNoLane, 0.0, kWalkReach};
+MatchedPlace sidewalk_at(const RoadNetwork& network, const Vec2& point) {
+  MatchedPlace nearest{kNoLane, 0.0, kWalkReach};
   for (std::size_t k = 0; k < network.lanes.size(); ++k) {
     const Lane& lane = network.lanes[k];
     if (lane.kind != LaneKind::Normal || (lane.allowed & vehicle_class::kPedestrian) == 0) continue;
@@ -173,8 +174,8 @@ MatchedRoute match_route(const RoadNetwork& network, const RecordedAgent& agent,
   const std::vector<double> times = free_travel_times(network);
   MatchedRoute best;
   best.points = points.size();
-  for (const LanePlace& from : end_of(network, agent, points, classes, true))
-    for (const LanePlace& to : end_of(network, agent, points, classes, false)) {
+  for (const MatchedPlace& from : end_of(network, agent, points, classes, true))
+    for (const MatchedPlace& to : end_of(network, agent, points, classes, false)) {
       std::vector<EdgeId> way = way_between(network, from, to, classes, times);
       if (way.empty()) continue;
       const std::size_t near = points_near(network, lanes_of(network, way), agent, points);
@@ -185,8 +186,8 @@ MatchedRoute match_route(const RoadNetwork& network, const RecordedAgent& agent,
 }
 
 MatchedWalk match_walk(const RoadNetwork& network, const RecordedAgent& agent) {
-  const LanePlace from = sidewalk_at(network, agent.position.front());
-  const LanePlace to = sidewalk_at(network, agent.position.back());
+  const MatchedPlace from = sidewalk_at(network, agent.position.front());
+  const MatchedPlace to = sidewalk_at(network, agent.position.back());
   if (from.lane == kNoLane || to.lane == kNoLane) return {};
   return {network.lane(from.lane).edge, network.lane(to.lane).edge, from.along, to.along};
 }

@@ -15,10 +15,9 @@ namespace sumogamma {
 
 namespace {
 
-constexpr std::size_t kEvery = 5;  // steps from one look to the next
+constexpr std::size_t kLookEvery = 5;  // steps from one look to the next
 constexpr double kAccelerates = 0.5, kTurns = 1.0, kFollows = 2.0;  // from these speeds on [m/s]
 constexpr double kLongestGap = 6.0;                                 // [s]
-constexpr std::size_t kSteps = Poses::kSteps;
 
 /// Everybody who is there at a step.
 Scene scene_at(const Poses& poses, const Bodies& bodies, std::size_t step) {
@@ -26,7 +25,7 @@ Scene scene_at(const Poses& poses, const Bodies& bodies, std::size_t step) {
   scene.time = kScoreStep * static_cast<double>(step);
   for (std::size_t row = 0; row < poses.rows(); ++row) {
     if (step >= bodies.present[row]) continue;
-    const std::size_t at = row * kSteps + step;
+    const std::size_t at = row * Poses::kSteps + step;
     AgentState agent;
     agent.id = {static_cast<std::uint32_t>(row)};
     agent.footprint = box_footprint(bodies.size[row].x(), bodies.size[row].y());
@@ -76,8 +75,8 @@ void MotionCounts::add_motion(const MotionFeatures& features) {
     const auto k = static_cast<std::size_t>(measure);
     if (std::isfinite(value)) counts[k][counted_measures()[k].bins.index(value)] += 1.0;
   };
-  for (std::size_t row = 0; row < features.speed.size(); row += kSteps)
-    for (std::size_t at = row + kEvery; at < row + kSteps; at += kEvery) {
+  for (std::size_t row = 0; row < features.speed.size(); row += Poses::kSteps)
+    for (std::size_t at = row + kLookEvery; at < row + Poses::kSteps; at += kLookEvery) {
       const double speed = features.speed[at];
       count(CountedMeasure::Speed, speed);
       if (speed > kAccelerates) count(CountedMeasure::Acceleration, features.acceleration[at]);
@@ -92,7 +91,7 @@ void MotionCounts::add_motion(const MotionFeatures& features) {
 void MotionCounts::add_encroachments(const Poses& poses, const Bodies& bodies) {
   EncroachmentMonitor monitor(kScoreStep);
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> least;
-  for (std::size_t step = 0; step < kSteps; ++step) {
+  for (std::size_t step = 0; step < Poses::kSteps; ++step) {
     const Scene scene = scene_at(poses, bodies, step);
     for (const Encroachment& found : monitor.add(scene)) {
       const auto [pair, first] =

@@ -16,7 +16,6 @@ constexpr double kFarthest = 40.0, kLatest = 5.0;  // ends of the bins [m], [s]
 constexpr double kSlightOverlap = 0.5;             // [m]
 constexpr double kLeastClosing = 0.01;             // [m/s]
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kSteps = Poses::kSteps;
 
 /// Central differences of one row over two steps, where both sides are there and finite.
 void differentiate(const double* value, std::size_t present, bool turns, double* rate) {
@@ -64,9 +63,9 @@ class PairFeatures {
   void look_at(std::size_t step) {
     gather(step);
     for (const Body& body : there_) {
-      features_.nearest[body.row * kSteps + step] = kFarthest;
-      features_.time_to_collision[body.row * kSteps + step] = kLatest;
-      features_.gap[body.row * kSteps + step] = std::numeric_limits<double>::infinity();
+      features_.nearest[body.row * Poses::kSteps + step] = kFarthest;
+      features_.time_to_collision[body.row * Poses::kSteps + step] = kLatest;
+      features_.gap[body.row * Poses::kSteps + step] = std::numeric_limits<double>::infinity();
     }
     for (std::size_t i = 0; i < there_.size(); ++i)
       for (std::size_t j = i + 1; j < there_.size(); ++j) meet(there_[i], there_[j], step);
@@ -77,7 +76,7 @@ class PairFeatures {
     there_.clear();
     for (std::size_t row = 0; row < poses_.rows(); ++row) {
       if (step >= bodies_.present[row]) continue;
-      const std::size_t at = row * kSteps + step;
+      const std::size_t at = row * Poses::kSteps + step;
       Body body;
       body.row = row;
       body.heading = poses_.heading[at];
@@ -92,7 +91,7 @@ class PairFeatures {
   void meet(const Body& a, const Body& b, std::size_t step) {
     const double apart = (b.box.center - a.box.center).norm();
     if (apart >= kReach) return;
-    const std::size_t of_a = a.row * kSteps + step, of_b = b.row * kSteps + step;
+    const std::size_t of_a = a.row * Poses::kSteps + step, of_b = b.row * Poses::kSteps + step;
     double &near_a = features_.nearest[of_a], &near_b = features_.nearest[of_b];
     // circles tell already that neither is the nearest
     if (apart - a.radius - b.radius < std::max(near_a, near_b)) {
@@ -119,14 +118,14 @@ double signed_distance(const MotionState& a, const Vec2& size_a, const MotionSta
 }
 
 MotionFeatures features_of(const Poses& poses, const Bodies& bodies) {
-  const std::size_t count = poses.rows() * kSteps;
+  const std::size_t count = poses.rows() * Poses::kSteps;
   MotionFeatures features;
   for (std::vector<double>* values :
        {&features.speed, &features.acceleration, &features.yaw_rate, &features.yaw_acceleration,
         &features.nearest, &features.time_to_collision, &features.gap})
     values->assign(count, kNone);
   for (std::size_t row = 0; row < poses.rows(); ++row) {
-    const std::size_t at = row * kSteps, present = bodies.present[row];
+    const std::size_t at = row * Poses::kSteps, present = bodies.present[row];
     for (std::size_t k = at + 1; k + 1 < at + present; ++k)
       features.speed[k] = (poses.position[k + 1] - poses.position[k - 1]).norm() / (2 * kScoreStep);
     differentiate(&features.speed[at], present, false, &features.acceleration[at]);
@@ -134,7 +133,7 @@ MotionFeatures features_of(const Poses& poses, const Bodies& bodies) {
     differentiate(&features.yaw_rate[at], present, false, &features.yaw_acceleration[at]);
   }
   PairFeatures pairs(poses, bodies, features);
-  for (std::size_t step = 0; step < kSteps; ++step) pairs.look_at(step);
+  for (std::size_t step = 0; step < Poses::kSteps; ++step) pairs.look_at(step);
   return features;
 }
 

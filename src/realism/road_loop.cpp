@@ -19,13 +19,11 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kStep = 0.05;         // of the model [s]
-constexpr int kStepsAPose = 2;         // of these from one pose to the next
-constexpr double kFactorSpread = 0.1;  // of SUMO's default speedFactor
-constexpr double kAlike = 60.0;        // of headings [degrees]
-constexpr double kLeastWay = 1.0;      // of a path on its first lane [m]
-constexpr double kMostAside = 1.0;     // liked place beside a path [m]
-constexpr double kOnward = 400.0;      // roads behind the route's end that somebody may need [m]
+constexpr double kFactorSpread = 0.1;   // of SUMO's default speedFactor
+constexpr double kSameWay = 60.0;       // of headings [degrees]
+constexpr double kLeastWay = 1.0;       // of a path on its first lane [m]
+constexpr double kMostAside = 1.0;      // liked place beside a path [m]
+constexpr double kRoadsOnward = 400.0;  // roads behind the route's end that somebody may need [m]
 
 VehicleClassMask classes_of(const RecordedScene& scene, const RecordedAgent& agent) {
   return vehicle_class_from_name(type_of(scene.types, agent.type).sumo_class);
@@ -33,7 +31,7 @@ VehicleClassMask classes_of(const RecordedScene& scene, const RecordedAgent& age
 
 /// Goes on behind the route's end, as straight as may be, so that it doesn't end in a window.
 void lengthen(const RoadNetwork& network, VehicleClassMask classes, MatchedRoute& route) {
-  for (double way = 0; way < kOnward;) {
+  for (double way = 0; way < kRoadsOnward;) {
     EdgeId next = kNoEdge;
     for (const LaneId id : network.edge(route.edges.back()).lanes)
       for (const ConnectionId link : network.lane(id).outgoing) {
@@ -130,7 +128,7 @@ RoutePlace place_on_route(const RoadNetwork& network, const MatchedRoute& route,
     const PolylinePosition at = line.project(state.position);
     const double turned =
         std::abs(wrap_angle(heading_of(line.direction_at(at.along)) - state.heading));
-    const double cost = at.distance + (turned > radians(kAlike) ? 10.0 : turned);
+    const double cost = at.distance + (turned > radians(kSameWay) ? 10.0 : turned);
     if (cost >= least) return;
     least = cost;
     const double length = network.lane(lane).centerline.length();
@@ -164,7 +162,7 @@ RoadLoop::RoadLoop(const RecordedScene& scene, const RecordedRoad& road,
   model_.conflicts = road.road.conflicts;
   model_.swept_ways = road.road.swept_ways;
   model_.options = options;
-  model_.options.step = kStep;
+  model_.options.step = kModelStep;
   model_.options.keep_left = model_.road.left_hand;
   model_.road.obstacles.insert(model_.road.obstacles.end(), scene.obstacles.begin(),
                                scene.obstacles.end());
@@ -233,9 +231,9 @@ Rollout RoadLoop::drive(const ScoreWindow& window, std::uint64_t seed, EntryCoun
     cast.let_enter(now, counts);
     cast.note(step, rollout);
     if (step + 1 == Poses::kSteps) break;
-    for (int k = 0; k < kStepsAPose; ++k) {
+    for (int k = 0; k < kModelStepsAPose; ++k) {
       show_signals(model_.road, cast.scene().time, road);
-      advance_rows({model_, workers_, road, cast.scene(), traffic, work}, {kStep, true, true});
+      advance_rows({model_, workers_, road, cast.scene(), traffic, work}, {kModelStep, true, true});
     }
   }
   counts.shut_out = window.entering.size() - counts.entered;

@@ -10,7 +10,7 @@ namespace sumogamma {
 
 namespace {
 
-constexpr int kLead = 10, kEvery = 100;          // before the first window; between two [steps]
+constexpr int kLeadIn = 10, kEvery = 100;        // before the first window; between two [steps]
 constexpr int kSeenBefore = 2, kSeenAfter = 15;  // of who is scored [steps]
 
 ScoreWindow window_at(const RecordedScene& scene, int start) {
@@ -44,7 +44,7 @@ ScoreWindow window_at(const RecordedScene& scene, int start) {
 
 Windows windows_of(const RecordedScene& scene) {
   Windows found;
-  for (int start = scene.first + kLead; start < scene.last - kWindowSteps; start += kEvery) {
+  for (int start = scene.first + kLeadIn; start < scene.last - kWindowSteps; start += kEvery) {
     ScoreWindow window = window_at(scene, start);
     if (window.agents.size() < 2)
       ++found.left_out;

@@ -9,6 +9,9 @@
 
 namespace sumogamma {
 
+inline constexpr double kModelStep = 0.05;  ///< of GAMMA in a rollout [s]
+inline constexpr int kModelStepsAPose = 2;  ///< of these from one pose to the next
+
 /// What became of those who come during the windows.
 struct EntryCounts {
   std::size_t entered = 0;   ///< a rollout each

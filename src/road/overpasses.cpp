@@ -16,15 +16,15 @@ constexpr double kShortestLoop = 40.0;  // lanes at the inside of hairpins fold 
 constexpr VehicleClassMask kMotorised = vehicle_class::kPassenger | vehicle_class::kDelivery |
                                         vehicle_class::kTruck | vehicle_class::kBus;
 
-struct Road {
+struct RoadAxis {
   EdgeId edge;
   const Lane* lane;
   Vec2 lower, upper;  ///< corners of its box [m]
 };
 
-Road road_on(EdgeId edge, const Lane& lane) {
+RoadAxis road_on(EdgeId edge, const Lane& lane) {
   const std::vector<Vec2>& points = lane.centerline.points();
-  Road road{edge, &lane, points.front(), points.front()};
+  RoadAxis road{edge, &lane, points.front(), points.front()};
   for (const Vec2& point : points) {
     road.lower = road.lower.cwiseMin(point);
     road.upper = road.upper.cwiseMax(point);
@@ -33,13 +33,13 @@ Road road_on(EdgeId edge, const Lane& lane) {
 }
 
 /// Do the boxes of two roads touch?
-bool are_near(const Road& a, const Road& b) {
+bool are_near(const RoadAxis& a, const RoadAxis& b) {
   return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
 }
 
 /// With their first lanes for motor vehicles.
-std::vector<Road> roads_of(const RoadNetwork& network) {
-  std::vector<Road> roads;
+std::vector<RoadAxis> roads_of(const RoadNetwork& network) {
+  std::vector<RoadAxis> roads;
   for (std::size_t i = 0; i < network.edges.size(); ++i) {
     const Edge& edge = network.edges[i];
     if (edge.kind != LaneKind::Normal) continue;
@@ -59,7 +59,7 @@ bool is_far_from_ends(const Polyline& line, double along) {
 
 /// True where the map has the roads on different layers and no junction joins them: they cross,
 /// however near to their ends.
-bool are_apart(const RoadNetwork& network, const Road& one, const Road& other) {
+bool are_apart(const RoadNetwork& network, const RoadAxis& one, const RoadAxis& other) {
   const Edge &a = network.edge(one.edge), &b = network.edge(other.edge);
   return one.lane->layer != other.lane->layer && a.from != b.from && a.from != b.to &&
          a.to != b.from && a.to != b.to;
@@ -83,7 +83,7 @@ void for_each_crossing(const Polyline& own, const Polyline& their, const Visit& 
 }
 
 /// Adds where two centerlines (or one and itself) cross.
-void add_crossings(const Road& one, const Road& other, RoadNetwork& network) {
+void add_crossings(const RoadAxis& one, const RoadAxis& other, RoadNetwork& network) {
   const Polyline &own = one.lane->centerline, &their = other.lane->centerline;
   const bool same = one.edge == other.edge,
              opposite = are_opposite(network.edge(one.edge), network.edge(other.edge)),
@@ -100,11 +100,11 @@ void add_crossings(const Road& one, const Road& other, RoadNetwork& network) {
 
 /// Adds where a link crosses a road that doesn't come to its junction, a storey higher or lower:
 /// the lane that leads into it and the one behind cross that road as well, beyond their ends.
-void add_crossings_of_link(const Connection& link, const std::vector<Road>& roads,
+void add_crossings_of_link(const Connection& link, const std::vector<RoadAxis>& roads,
                            RoadNetwork& network) {
   const Lane& via = network.lane(link.via);
-  const Road own = road_on(via.edge, via);
-  for (const Road& road : roads) {
+  const RoadAxis own = road_on(via.edge, via);
+  for (const RoadAxis& road : roads) {
     const Edge& edge = network.edge(road.edge);
     if (edge.from == via.junction || edge.to == via.junction || !are_near(own, road)) continue;
     const auto add = [&](LaneId lane, double along, double there) {
@@ -129,11 +129,11 @@ void add_crossings_of_link(const Connection& link, const std::vector<Road>& road
 void find_overpasses(RoadNetwork& network) {
   network.overpasses.clear();
   for (Lane& lane : network.lanes) lane.has_overpass = false;
-  std::vector<Road> roads = roads_of(network);
-  std::sort(roads.begin(), roads.end(), [](const Road& a, const Road& b) {
+  std::vector<RoadAxis> roads = roads_of(network);
+  std::sort(roads.begin(), roads.end(), [](const RoadAxis& a, const RoadAxis& b) {
     return a.lower.x() != b.lower.x() ? a.lower.x() < b.lower.x() : a.edge < b.edge;
   });
-  auto by_edge = [](const Road& a, const Road& b) { return a.edge < b.edge; };
+  auto by_edge = [](const RoadAxis& a, const RoadAxis& b) { return a.edge < b.edge; };
   for (auto one = roads.begin(); one != roads.end(); ++one)
     for (auto other = one; other != roads.end() && other->lower.x() <= one->upper.x(); ++other) {
       if (!are_near(*one, *other)) continue;

@@ -25,8 +25,8 @@ struct Sweeper {
 constexpr Sweeper kSweepers[] = {
     {TurningBody::Truck, vehicle_class::kTruck, 7.5, 2.4, 1.8, 4.4, 1.15, 1.3},
     {TurningBody::Bus, vehicle_class::kBus, 12.0, 2.5, 2.7, 6.6, 1.45, 1.6}};
-constexpr double kPace = 0.5;       ///< [m]
-constexpr double kFarthest = 20.0;  ///< before a lane's end that anybody halts for them [m]
+constexpr double kPace = 0.5;           ///< [m]
+constexpr double kFarthestHalt = 20.0;  ///< before a lane's end that anybody halts for them [m]
 
 /// What a body sweeps on its way over a link: its box at each half metre while it is askew. Its
 /// middle follows the way.
@@ -83,8 +83,8 @@ struct WayOfCar {
 };
 
 std::optional<WayOfCar> way_of_car(const RoadNetwork& network, ConnectionId id) {
-  constexpr double kLooked = kFarthest + 2.0;  // [m]
-  constexpr double kCarRadius = 3.8;           // [m]
+  constexpr double kLooked = kFarthestHalt + 2.0;  // [m]
+  constexpr double kCarRadius = 3.8;               // [m]
   WayOfCar way{rounded_way(network, id, kLooked, kLooked, {kCarRadius}), {}};
   if (way.path.links.empty()) return std::nullopt;
   const PathLink& link = way.path.links.front();
@@ -95,8 +95,8 @@ std::optional<WayOfCar> way_of_car(const RoadNetwork& network, ConnectionId id) 
   return way;
 }
 
-/// Where `sweep` meets the way of others of a width, from `kFarthest` and some before its stop line
-/// to `end` behind it; foe_begin and foe_end are the sweeping body's, front and rear.
+/// Where `sweep` meets the way of others of a width, from `kFarthestHalt` and some before its stop
+/// line to `end` behind it; foe_begin and foe_end are the sweeping body's, front and rear.
 std::optional<SweptWay> swept_part(const Sweep& sweep, double length, const WayOfCar& way,
                                    double end, double half_width) {
   const double stop_line = way.path.links.front().stop_line;
@@ -146,7 +146,7 @@ void add_swept(const Sweeper& sweeper, const RoadNetwork& network, const Conflic
       const double half_width = wide ? sweeper.half_width_of_wide : sweeper.half_width;
       auto part = swept_part(sweep, sweeper.length, way, ruled ? 0.0 : link.end - link.stop_line,
                              half_width);
-      if (!part || part->begin < -kFarthest) continue;
+      if (!part || part->begin < -kFarthestHalt) continue;
       part->foe = id;
       part->body = sweeper.body;
       part->foe_sweeps = true;

@@ -1,11 +1,10 @@
 #include "simulation/scene_run.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <chrono>
 #include <vector>
 
+#include "base/cpu_time.h"
 #include "geometry/rotation.h"
 #include "model/gamma_velocity.h"
 #include "model/stopping_guard.h"
@@ -38,12 +37,6 @@ struct Counts {
     half_planes += other.half_planes;
   }
 };
-
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -162,13 +155,13 @@ SceneReport run_scene(const SceneFile& file, const ModelOptions& options, std::s
   if (observer) observer(scene);
 
   for (std::size_t step = 0; step <= steps; ++step) {
-    const double cpu_begin = cpu_seconds(), wall_begin = wall_seconds();
+    const double cpu_begin = process_cpu_seconds(), wall_begin = wall_seconds();
     prepare_tick(model, scene, workers, geometry);
-    cpu += cpu_seconds() - cpu_begin;
+    cpu += process_cpu_seconds() - cpu_begin;
     wall += wall_seconds() - wall_begin;
     if (step > 0) overlaps.update(scene, geometry, workers);
     if (step == steps) break;
-    const double cpu_model = cpu_seconds(), wall_model = wall_seconds();
+    const double cpu_model = process_cpu_seconds(), wall_model = wall_seconds();
     workers.for_each_range(rows, [&](std::size_t worker, std::size_t begin, std::size_t end) {
       for (std::size_t row = begin; row < end; ++row) {
         Workspace& work = workspaces[worker];
@@ -178,7 +171,7 @@ SceneReport run_scene(const SceneFile& file, const ModelOptions& options, std::s
         count_request(model, scene, row, velocity, work, dt, counts[worker]);
       }
     });
-    cpu += cpu_seconds() - cpu_model;
+    cpu += process_cpu_seconds() - cpu_model;
     wall += wall_seconds() - wall_model;
     move_rows(commands, dt, scene, workers);
     for (std::size_t row = 0; row < rows; ++row) update_held(dt, scene, row);

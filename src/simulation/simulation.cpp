@@ -1,17 +1,12 @@
 #include "simulation/simulation.h"
 
 #include <chrono>
-#include <ctime>
+
+#include "base/cpu_time.h"
 
 namespace sumogamma {
 
 namespace {
-
-double cpu_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 /// Adds the wall time since its last call to a phase.
 class PhaseClock {
@@ -56,22 +51,22 @@ void observe(Simulation& sim, World& world) {
   PhaseClock clock;
   world.observe(sim.scene, sim.road);
   clock.end(sim.times.observe);
-  const double cpu_before = cpu_seconds();
+  const double cpu_before = process_cpu_seconds();
   look_about(step_of(sim), options_of(sim));
   clock.end(sim.times.context);
-  sim.times.model_cpu += cpu_seconds() - cpu_before;
+  sim.times.model_cpu += process_cpu_seconds() - cpu_before;
 }
 
 void move_everybody(Simulation& sim) {
   PhaseClock clock;
-  const double cpu_before = cpu_seconds();
+  const double cpu_before = process_cpu_seconds();
   const Advance step = step_of(sim);
   const AdvanceOptions options = options_of(sim);
   choose_commands(step, options, sim.planned);
   clock.end(sim.times.model);
   sim.times.agent_steps += move_bodies(step, options);
   clock.end(sim.times.track);
-  sim.times.model_cpu += cpu_seconds() - cpu_before;
+  sim.times.model_cpu += process_cpu_seconds() - cpu_before;
 }
 
 void tick(Simulation& sim, World& world, const std::function<void()>& record,

@@ -14,7 +14,7 @@ void SumoWorld::forget(AgentId id, Scene& scene, RoadState& road, std::vector<bo
   written_.erase(known_[id.value].sumo_id);
 }
 
-void SumoWorld::record_arrival(const Traveller& traveller) {
+void SumoWorld::record_arrival(const SumoTraveller& traveller) {
   const auto journey = journeys_.find(traveller);
   if (journey == journeys_.end()) return;
   const auto& [id, type, departed] = journey->second;
@@ -43,7 +43,7 @@ void SumoWorld::take_refused(const std::string& sumo_id, Scene& scene, RoadState
 void SumoWorld::take_arrived(Scene& scene, RoadState& road) {
   std::vector<bool> removed;
   auto arrived = [&](bool is_person, const std::string& sumo_id) {
-    const Traveller traveller{is_person, sumo_id};
+    const SumoTraveller traveller{is_person, sumo_id};
     external_arriving_.erase(traveller);
     absent_.erase(traveller);
     record_arrival(traveller);

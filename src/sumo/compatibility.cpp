@@ -2,11 +2,13 @@
 
 namespace sumogamma {
 namespace {
+namespace table {
 
 using enum ScenarioPart;
 using enum Treatment;
 
-constexpr std::string_view kNoLane = "who GAMMA drives is on no lane of SUMO's and is not counted";
+constexpr std::string_view kOnNoLane =
+    "who GAMMA drives is on no lane of SUMO's and is not counted";
 constexpr std::string_view kCarFollowing = "GAMMA has a model of its own";
 constexpr std::string_view kRules = "GAMMA has rules of its own";
 constexpr std::string_view kUncounted =
@@ -123,9 +125,9 @@ constexpr CompatibilityRow kTable[] = {
     {Element, "laneData", Written, ""},
     {Element, "routeProbe", Refused, kUncounted},
     {Element, "vTypeProbe", Refused, kPlaces},
-    {Element, "overheadWire", NotFollowed, kNoLane},
+    {Element, "overheadWire", NotFollowed, kOnNoLane},
     {Element, "overheadWireClamp", FollowedBySumo, "part of an overheadWire"},
-    {Element, "overheadWireSegment", NotFollowed, kNoLane},
+    {Element, "overheadWireSegment", NotFollowed, kOnNoLane},
     {Element, "tractionSubstation", FollowedBySumo, ""},
 
     // attributes
@@ -420,14 +422,15 @@ constexpr CompatibilityRow kTable[] = {
     {Option, "osg-view", FollowedBySumo, ""},
 };
 
+}  // namespace table
 }  // namespace
 
-std::span<const CompatibilityRow> compatibility_table() { return kTable; }
+std::span<const CompatibilityRow> compatibility_table() { return table::kTable; }
 
 const CompatibilityRow* find_compatibility(ScenarioPart part, std::string_view name) {
   const CompatibilityRow* best = nullptr;
   std::size_t longest = 0;
-  for (const CompatibilityRow& row : kTable) {
+  for (const CompatibilityRow& row : table::kTable) {
     if (row.part != part) continue;
     if (row.name == name) return &row;
     const std::string_view start = row.name.substr(0, row.name.size() - 1);
@@ -440,6 +443,7 @@ const CompatibilityRow* find_compatibility(ScenarioPart part, std::string_view n
 }
 
 std::string_view name_of(Treatment treatment) {
+  using enum Treatment;
   switch (treatment) {
     case Followed:
       return "followed";

@@ -76,7 +76,7 @@ void SumoWorld::take_newcomer(SumoAgentDetails details, bool moves_already) {
     return;
   }
   backend_.watch(pending.details.id, pending.details.is_person);
-  Traveller traveller{pending.details.is_person, pending.details.id};
+  SumoTraveller traveller{pending.details.is_person, pending.details.id};
   external_arriving_.insert_or_assign(std::move(traveller), std::move(pending));
 }
 

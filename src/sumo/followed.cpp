@@ -47,7 +47,7 @@ void SumoWorld::update_external(Scene& scene, RoadState& road) {
   for (const SumoAgent& seen : step_.agents) {
     // SUMO's invalid numbers (-2^30): between two places, as while it is teleported
     if (!(std::abs(seen.speed) < 1e4) || !(seen.position.norm() < 1e8)) continue;
-    const Traveller traveller{seen.is_person, seen.id};
+    const SumoTraveller traveller{seen.is_person, seen.id};
     if (absent_.contains(traveller)) watch_absent(seen, scene);
     const auto arriving = external_arriving_.find(traveller);
     if (arriving != external_arriving_.end()) {
@@ -72,7 +72,7 @@ void SumoWorld::appear(const SumoAgent& seen, PendingAgent& pending, Scene& scen
                        RoadState& road) {
   const SumoAgentDetails& details = pending.details;
   const AgentType& type = type_of(model_.types, pending.type);
-  const Traveller traveller{seen.is_person, seen.id};
+  const SumoTraveller traveller{seen.is_person, seen.id};
   const AgentId id = register_agent(details, true, pending.type);
   KnownAgent& known = known_[id.value];
   known.resumes = pending.resumes;

@@ -17,7 +17,7 @@
 namespace sumogamma {
 
 /// Whom SUMO means: is it a person, SUMO's id.
-using Traveller = std::pair<bool, std::string>;
+using SumoTraveller = std::pair<bool, std::string>;
 
 /// SUMO's reference point of a footprint's centre, and back with a negative length: front bumper
 /// for vehicles, centre for persons (length 0).

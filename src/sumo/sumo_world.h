@@ -122,7 +122,7 @@ class SumoWorld : public World {
   void take_refused(const std::string& sumo_id, Scene& scene, RoadState& road,
                     std::vector<bool>& removed);
   void finish_driven(Scene& scene, RoadState& road);
-  void record_arrival(const Traveller& traveller);
+  void record_arrival(const SumoTraveller& traveller);
   void forget(AgentId id, Scene& scene, RoadState& road, std::vector<bool>& removed,
               std::size_t row);
 
@@ -203,13 +203,14 @@ class SumoWorld : public World {
   // who is where
   std::vector<KnownAgent> known_;   ///< by AgentId
   std::vector<std::string> names_;  ///< by AgentId
-  std::map<Traveller, Journey> journeys_;
-  std::deque<PendingAgent> pending_;                     ///< ours, in order of departure
-  std::vector<DelayedVehicle> delayed_;                  ///< SUMO's
-  std::map<Traveller, PendingAgent> external_arriving_;  ///< watched, first pose not seen yet
-  std::map<Traveller, PendingAgent>
+  std::map<SumoTraveller, Journey> journeys_;
+  std::deque<PendingAgent> pending_;                         ///< ours, in order of departure
+  std::vector<DelayedVehicle> delayed_;                      ///< SUMO's
+  std::map<SumoTraveller, PendingAgent> external_arriving_;  ///< watched, first pose not seen yet
+  std::map<SumoTraveller, PendingAgent>
       absent_;  ///< watched, in no scene: in a vehicle, parked on a lane
-  std::map<Traveller, AgentId> external_ids_;  ///< watched: whom SUMO moves, whose halts it serves
+  std::map<SumoTraveller, AgentId>
+      external_ids_;  ///< watched: whom SUMO moves, whose halts it serves
 
   // what SUMO is told
   std::vector<SumoPose> vehicle_poses_, person_poses_;

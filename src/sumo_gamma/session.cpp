@@ -16,8 +16,6 @@ namespace sumogamma {
 namespace {
 
 /// What comes next in the loop.
-enum class Phase { Observe, Step, Advance, Closed };
-
 RunRequest request_of(const std::vector<std::string>& words, int socket) {
   try {
     RunRequest request = parse_run(words);
@@ -51,6 +49,8 @@ Column<Value> column(Value* first, const std::vector<Element>& elements) {
 }  // namespace
 
 struct Session::State {
+  enum class Phase { Observe, Step, Advance, Closed };
+
   State(const RunRequest& request) : run(request.run, request.common) {
     control_by_wish = run.plan.options.joins() || run.plan.control_text == "called";
   }
@@ -117,7 +117,7 @@ Session::~Session() {
 }
 
 void Session::observe() {
-  state_->require(Phase::Observe, "observe()", "step() and advance() come first");
+  state_->require(State::Phase::Observe, "observe()", "step() and advance() come first");
   OpenRun& run = state_->run;
   state_->leave_held_columns();
   state_->talk_to_sumo([&] {
@@ -127,11 +127,11 @@ void Session::observe() {
     }
     sumogamma::observe(*run.sim, *run.world);
   });
-  state_->phase = Phase::Step;
+  state_->phase = State::Phase::Step;
 }
 
 void Session::step() {
-  state_->require(Phase::Step, "step()", "observe() comes first");
+  state_->require(State::Phase::Step, "step()", "observe() comes first");
   OpenRun& run = state_->run;
   if (run.observers) run.observers->look();
   move_everybody(*run.sim);
@@ -139,11 +139,11 @@ void Session::step() {
     run.sim->scene.behavior[row].intention = before;
   state_->preferred.clear();
   state_->hash = hash_state(run.sim->scene, state_->hash);
-  state_->phase = Phase::Advance;
+  state_->phase = State::Phase::Advance;
 }
 
 void Session::advance() {
-  state_->require(Phase::Advance, "advance()", "observe() and step() come first");
+  state_->require(State::Phase::Advance, "advance()", "observe() and step() come first");
   OpenRun& run = state_->run;
   state_->talk_to_sumo([&] {
     run.world->send(run.sim->scene);
@@ -152,20 +152,20 @@ void Session::advance() {
     run.world->receive();
     if (run.observers) run.observers->add();
   });
-  state_->phase = Phase::Observe;
+  state_->phase = State::Phase::Observe;
 }
 
 bool Session::finished() const {
   const OpenRun& run = state_->run;
-  if (state_->phase == Phase::Closed || interrupted()) return true;
+  if (state_->phase == State::Phase::Closed || interrupted()) return true;
   if (run.plan.options.socket >= 0) return false;
   const double whole = (run.plan.clock.end - run.plan.clock.begin) / run.plan.clock.step;
   return run.sim->scene.tick >= std::llround(whole) || run.world->finished();
 }
 
 void Session::close() {
-  if (state_->phase == Phase::Closed) return;
-  state_->phase = Phase::Closed;
+  if (state_->phase == State::Phase::Closed) return;
+  state_->phase = State::Phase::Closed;
   const bool done = finished() && !interrupted();
   state_->run.finish(done ? "done" : "interrupted", "");
 }
@@ -234,7 +234,7 @@ std::string_view Session::reason(std::size_t row) const {
 }
 
 void Session::prefer(std::size_t row, double velocity_x, double velocity_y) {
-  state_->require(Phase::Step, "prefer()", "comes between observe() and step()");
+  state_->require(State::Phase::Step, "prefer()", "comes between observe() and step()");
   if (!std::isfinite(velocity_x) || !std::isfinite(velocity_y))
     throw Error("prefer()", "the velocity must be finite");
   Intention& intention = state_->scene().behavior[state_->checked(row, "prefer()")].intention;
@@ -243,7 +243,7 @@ void Session::prefer(std::size_t row, double velocity_x, double velocity_y) {
 }
 
 VelocitySpace Session::velocity_space(std::size_t row) const {
-  state_->require(Phase::Step, "velocity_space()", "comes between observe() and step()");
+  state_->require(State::Phase::Step, "velocity_space()", "comes between observe() and step()");
   const Scene& scene = state_->scene();
   if (scene.control[state_->checked(row, "velocity_space()")] != Control::Gamma)
     throw Error("velocity_space()", "'" + std::string(id(row)) + "' is driven by SUMO");

@@ -1,6 +1,7 @@
 """Checks every #include of src/ against the modules' DEPENDS in CMakeLists.txt, and that the edges stay thin.
 
-A source includes its own header first, so that compiling it shows that the header stands alone.
+A source includes its own header first, so that compiling it shows that the header stands alone. Two headers declare no type
+of one name in one namespace: whoever includes both does not compile, and whoever links both has undefined behaviour.
 
 usage: layers.py PROJECT_FOLDER
 """
@@ -30,6 +31,8 @@ NOWHERE = {"random": "draws come from base/random.h"}
 # nothing from a scenario can reach a shell that nobody starts
 SHELL = re.compile(r"(?<![\w.>])(popen|system)\s*\(|/bin/(ba)?sh\b")
 INCLUDE = re.compile(r'\s*#\s*include\s*(["<])([^">]+)[">]')
+NAMESPACE = re.compile(r"namespace ([\w:]+) \{")
+TYPE = re.compile(r"(?:struct|class|enum class|enum) (\w+)[^;]*\{|using (\w+) =")
 # these have never heard of a file, a terminal, a thread or a clock
 PURE_MODULES = {"geometry", "scene", "model", "inference"}
 IMPURE = {"fstream", "filesystem", "iostream", "cstdio", "stdio.h", "chrono", "thread", "mutex", "atomic"}
@@ -90,8 +93,23 @@ def check_order(root, path):
     return None
 
 
+def declared_types(root, path):
+    """(line number, type with its namespaces) of what a header declares for all."""
+    outer = []
+    for number, line in numbered_lines(root, path):
+        opens = NAMESPACE.match(line)
+        if opens:
+            outer.append(opens.group(1))
+        elif line.startswith("}  // namespace"):
+            outer = outer[:-1]
+        found = TYPE.match(line)
+        if found:
+            yield number, "::".join([*outer, found.group(1) or found.group(2)])
+
+
 def main(root):
     allowed, complaints = declared_modules(root)
+    types = {}
     checked = 0
     for path in project_files(root):
         parts = path.split("/")
@@ -105,6 +123,9 @@ def main(root):
         wrong = check_order(root, path)
         if wrong:
             complaints.append(f"{path}: {wrong}")
+        for number, name in declared_types(root, path) if path.endswith(".h") else ():
+            if types.setdefault(name, path) != path:
+                complaints.append(f"{path}:{number}: {name} is a type of {types[name]}, too")
         for number, line in numbered_lines(root, path):
             shell = SHELL.search(line.split("//")[0])
             if shell:

@@ -14,6 +14,8 @@
 
 namespace sumogamma::testing {
 
+inline constexpr std::size_t kAgents = 40;  ///< of a RoadTraffic, as tests look at it
+
 /// Traffic on the network of sumo_scenarios/NAME without SUMO: somebody comes onto a lane at random
 /// where there is room, drives or walks along a route at random and leaves at its end; the signals
 /// show the programs of the file.

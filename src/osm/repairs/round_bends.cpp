@@ -31,12 +31,12 @@ struct BendRule {
 
 constexpr BendRule kRules[] = {{is_car_way, 15.0, 15.0, 15.0, 0.5, true, false},
                                {is_cycle_way, 5.0, 15.0, 5.0, 0.15, false, true}};
-constexpr double kTighter = 0.9;     // of the radius, where a bend would move too far
-constexpr double kFarthest = 4.0;    // [m] that a point moves; maps are off by as much
-constexpr double kHairpin = 7.0;     // [m] radius of the bulb that a hairpin becomes
-constexpr double kSpacing = 1.5;     // [m] of the points that move
-constexpr double kStill = 0.0005;    // [m] of change in a round that is none
-constexpr double kTolerance = 0.05;  // [m] by which the drawn line may be off the rounded one
+constexpr double kTighter = 0.9;       // of the radius, where a bend would move too far
+constexpr double kFarthest = 4.0;      // [m] that a point moves; maps are off by as much
+constexpr double kHairpin = 7.0;       // [m] radius of the bulb that a hairpin becomes
+constexpr double kPointSpacing = 1.5;  // [m] of the points that move
+constexpr double kStill = 0.0005;      // [m] of change in a round that is none
+constexpr double kTolerance = 0.05;    // [m] by which the drawn line may be off the rounded one
 constexpr int kRounds = 5000;
 
 /// A road from one junction, end or roundabout to the next, over the ends of ways.
@@ -104,19 +104,19 @@ std::set<std::int64_t> nodes_of_roads(const OsmMap& map, bool one_way_only) {
 }
 
 /// A road's line with points 1.5 m apart.
-struct Line {
+struct BendLine {
   std::vector<Vec2> points;         ///< [m]
   std::vector<std::size_t> places;  ///< by node of the road: which point it is
 };
 
-Line draw(const OsmMap& map, const LocalMetric& metric, const Road& road) {
-  Line line;
+BendLine draw(const OsmMap& map, const LocalMetric& metric, const Road& road) {
+  BendLine line;
   for (const std::int64_t node : road) {
     const GeoPoint place = map.nodes.at(node).place;
     const Vec2 here(metric.east(place), metric.north(place));
     if (!line.points.empty()) {
       const Vec2 before = line.points.back();
-      const double pieces = std::max(1.0, std::round((here - before).norm() / kSpacing));
+      const double pieces = std::max(1.0, std::round((here - before).norm() / kPointSpacing));
       for (double k = 1; k < pieces; ++k)
         line.points.push_back(before + (here - before) * (k / pieces));
     }
@@ -188,7 +188,7 @@ std::vector<Vec2> fitted(const std::vector<Vec2>& drawn, std::vector<double> rad
   }
 }
 
-void redraw(const Road& road, const Line& line, const LocalMetric& metric, OsmMap& map,
+void redraw(const Road& road, const BendLine& line, const LocalMetric& metric, OsmMap& map,
             AddedNodes& added) {
   const auto place_of = [&](const Vec2& p) { return metric.place(p.x(), p.y()); };
   for (std::size_t n = 0; n + 1 < road.size(); ++n) {
@@ -214,7 +214,7 @@ void round_roads(const BendRule& rule, OsmMap& map, AddedNodes& added, IssueLog&
   };
   for (const Road& road : find_roads(map, rule)) {
     const LocalMetric metric(map.nodes.at(road.front()).place);
-    Line line = draw(map, metric, road);
+    BendLine line = draw(map, metric, road);
     const std::vector<double> radii =
         radii_along(line.points, rule.radius, from(road.front()), from(road.back()));
     // where two one-way roads meet in a point they are an entry and an exit, and no hairpin

@@ -15,8 +15,8 @@ bool sees(const std::vector<GeoPoint>& ring, GeoPoint from, GeoPoint to) {
   constexpr int kSteps = 20;
   for (int i = 1; i < kSteps; ++i) {
     const double share = static_cast<double>(i) / kSteps;
-    if (!ring_contains(
-            ring, {from.lon + share * (to.lon - from.lon), from.lat + share * (to.lat - from.lat)}))
+    if (!ring_has(ring,
+                  {from.lon + share * (to.lon - from.lon), from.lat + share * (to.lat - from.lat)}))
       return false;
   }
   return true;
@@ -38,7 +38,7 @@ void replace_square(OsmMap& map, MapWay square, const Uses& uses, std::vector<Ma
   std::vector<std::int64_t> entrances;
   for (std::size_t i = 0; i + 1 < square.nodes.size(); ++i)
     if (uses.at(square.nodes[i]) > 1) entrances.push_back(square.nodes[i]);
-  bool open = ring.size() >= 3 && ring_contains(ring, middle);
+  bool open = ring.size() >= 3 && ring_has(ring, middle);
   for (const std::int64_t entrance : entrances)
     open = open && sees(ring, map.nodes.at(entrance).place, middle);
   if (!open && entrances.size() > 1) {

@@ -10,14 +10,14 @@ namespace sumogamma {
 namespace {
 
 /// How somebody on the way matters to who is on foot.
-enum class Meeting { Counts, StandsInTheWay, IsLeftToAvoidance };
+enum class InTheWay { Counts, StandsInTheWay, IsLeftToAvoidance };
 
 /// People and who drives along the way count; vehicles that drive across it will have passed.
-Meeting meeting_with(const TrafficView& view, const PathUser& user) {
-  if (user.on_foot) return Meeting::Counts;
+InTheWay meeting_with(const TrafficView& view, const PathUser& user) {
+  if (user.on_foot) return InTheWay::Counts;
   const double speed = view.scene.velocity[user.row].norm();
-  if (speed < view.parameters.halting_speed) return Meeting::StandsInTheWay;
-  return std::abs(user.speed) > 0.7 * speed ? Meeting::Counts : Meeting::IsLeftToAvoidance;
+  if (speed < view.parameters.halting_speed) return InTheWay::StandsInTheWay;
+  return std::abs(user.speed) > 0.7 * speed ? InTheWay::Counts : InTheWay::IsLeftToAvoidance;
 }
 
 /// Speed that can be hoped for at a place: of those ahead there, the slower and the nearer the
@@ -42,7 +42,7 @@ double hoped_pace(const TrafficView& view, const Surroundings& around, double pl
   for (const PathUser& user : around.users) {
     meet(user, parameters.touching);
     if (is_near(user, parameters.side_clearance) &&
-        meeting_with(view, user) == Meeting::StandsInTheWay)
+        meeting_with(view, user) == InTheWay::StandsInTheWay)
       hoped = std::min(hoped, parameters.open_share * free_speed);
   }
   for (const PathUser& wall : around.walls) meet(wall, parameters.tight_side);
@@ -119,11 +119,11 @@ double walking_place(const TrafficView& view, const Path& path, Surroundings& ar
                      std::size_t row) {
   // those left to avoidance are not weighed
   std::erase_if(around.users, [&](const PathUser& user) {
-    return meeting_with(view, user) == Meeting::IsLeftToAvoidance;
+    return meeting_with(view, user) == InTheWay::IsLeftToAvoidance;
   });
   const bool stands =
       std::any_of(around.users.begin(), around.users.end(), [&](const PathUser& user) {
-        return user.front > around.along && meeting_with(view, user) == Meeting::StandsInTheWay;
+        return user.front > around.along && meeting_with(view, user) == InTheWay::StandsInTheWay;
       });
   const double farthest = stands ? view.parameters.near : view.parameters.walking_aside,
                reach = stands ? 2.0 * view.parameters.near : view.parameters.walking_aside;

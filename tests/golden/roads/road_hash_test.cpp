@@ -45,9 +45,9 @@ struct Golden {
   const char* network = "";  ///< of what the import makes: network and demand
 };
 std::ostream& operator<<(std::ostream& out, const Golden& golden) { return out << golden.name; }
-std::string name_of(const testing::TestParamInfo<Golden>& info) { return info.param.name; }
+std::string name_of(const ::testing::TestParamInfo<Golden>& info) { return info.param.name; }
 
-class GoldenRoads : public testing::TestWithParam<Golden> {
+class GoldenRoads : public ::testing::TestWithParam<Golden> {
  protected:
   void SetUp() override {
     if (!test::computes_as_recorded()) GTEST_SKIP() << test::kOtherLibrary;
@@ -70,14 +70,14 @@ TEST_P(GoldenScenarios, HaveTheRecordedBits) {
 
 // one or two rules of the road each
 INSTANTIATE_TEST_SUITE_P(Scenario, GoldenScenarios,
-                         testing::Values(Golden{"all_way_stop", "926ed16f8e176f20"},
-                                         Golden{"bicycle_overtaken", "5aed0e2f017b4408"},
-                                         Golden{"bus_stop", "4d5d6094cf09f9d3"},
-                                         Golden{"lane_drop", "814d3cb416a9c423"},
-                                         Golden{"mid_block", "433668bdee3432cd"},
-                                         Golden{"mixed_queue", "0bb1a509367b9201"},
-                                         Golden{"roundabout", "2c9c3c742582e57d"},
-                                         Golden{"zebra", "fdfb1557c8580497"}),
+                         ::testing::Values(Golden{"all_way_stop", "926ed16f8e176f20"},
+                                           Golden{"bicycle_overtaken", "5aed0e2f017b4408"},
+                                           Golden{"bus_stop", "4d5d6094cf09f9d3"},
+                                           Golden{"lane_drop", "814d3cb416a9c423"},
+                                           Golden{"mid_block", "433668bdee3432cd"},
+                                           Golden{"mixed_queue", "0bb1a509367b9201"},
+                                           Golden{"roundabout", "2c9c3c742582e57d"},
+                                           Golden{"zebra", "fdfb1557c8580497"}),
                          name_of);
 
 class GoldenMaps : public GoldenRoads {};
@@ -95,10 +95,11 @@ TEST_P(GoldenMaps, HaveTheRecordedBits) {
   EXPECT_EQ(state_hash(folder.file("scenario"), folder), GetParam().state);
 }
 
-INSTANTIATE_TEST_SUITE_P(Map, GoldenMaps,
-                         testing::Values(Golden{"fujisawa", "1f99ab2d995ee79e", "50ec09f8af82421c"},
-                                         Golden{"monaco", "60a682daca2f34b5", "d5e3ef5dc5ccdd0b"}),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Map, GoldenMaps,
+    ::testing::Values(Golden{"fujisawa", "1f99ab2d995ee79e", "50ec09f8af82421c"},
+                      Golden{"monaco", "60a682daca2f34b5", "d5e3ef5dc5ccdd0b"}),
+    name_of);
 
 }  // namespace
 }  // namespace sumogamma

@@ -25,7 +25,7 @@ bool has(const std::vector<std::string>& ids, const std::string& id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-class Backends : public testing::TestWithParam<const char*> {
+class Backends : public ::testing::TestWithParam<const char*> {
  protected:
   std::unique_ptr<SumoBackend> start(const std::string& config,
                                      std::vector<std::string> more = {}) {
@@ -484,7 +484,7 @@ TEST_P(BadInput, IsQuoted) {
   sumo->step({}, {}, step);
 }
 
-const auto kBoth = testing::Values("traci", "libsumo");
+const auto kBoth = ::testing::Values("traci", "libsumo");
 INSTANTIATE_TEST_SUITE_P(Coupling, Backends, kBoth,
                          [](const auto& backend) { return std::string(backend.param); });
 INSTANTIATE_TEST_SUITE_P(Coupling, BadInput, kBoth,

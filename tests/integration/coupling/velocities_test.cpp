@@ -104,16 +104,16 @@ void expect_the_same(const std::string& scenario, const std::string& backend) {
     gained_error = std::max(gained_error, std::abs(gained - theirs.acceleration));
     EXPECT_NEAR(gained, theirs.acceleration, 2.0 * kRounded / kStep) << id << " at " << time;
   }
-  testing::Test::RecordProperty("greatest_speed_error_mm_s",
-                                static_cast<int>(1000.0 * speed_error));
-  testing::Test::RecordProperty("greatest_acceleration_error_mm_s2",
-                                static_cast<int>(1000.0 * gained_error));
-  testing::Test::RecordProperty("greatest_error_of_displacement_mm_s",
-                                static_cast<int>(1000.0 * moved_error));
+  ::testing::Test::RecordProperty("greatest_speed_error_mm_s",
+                                  static_cast<int>(1000.0 * speed_error));
+  ::testing::Test::RecordProperty("greatest_acceleration_error_mm_s2",
+                                  static_cast<int>(1000.0 * gained_error));
+  ::testing::Test::RecordProperty("greatest_error_of_displacement_mm_s",
+                                  static_cast<int>(1000.0 * moved_error));
   EXPECT_GT(fast, 100u) << "nobody drives";
 }
 
-class Velocities : public testing::TestWithParam<const char*> {};
+class Velocities : public ::testing::TestWithParam<const char*> {};
 
 // a car that starts on a lane of 5 m/s goes on to ones of 14: SUMO by itself tells 5 for the rest
 // of its way; a van turns; one waits for its place, and jumps to it
@@ -167,7 +167,7 @@ TEST_P(Velocities, OnARealMap) {
   expect_the_same(folder.file("map"), GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Coupling, Velocities, testing::Values("traci", "libsumo"),
+INSTANTIATE_TEST_SUITE_P(Coupling, Velocities, ::testing::Values("traci", "libsumo"),
                          [](const auto& tested) { return std::string(tested.param); });
 
 }  // namespace

@@ -313,7 +313,7 @@ TEST_F(Drive, ADemandsVehicleCanBeTheEgo) {
       drive("mine", {"--seeds", "1", "--vehicle", "mine", "--planner", "idm", "--set",
                      "ego.limit=90", "--set", "ego.max_speed=15"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_THAT(episode("mine", "1")["outcome"], testing::AnyOf("goal", "time", "collision"));
+  EXPECT_THAT(episode("mine", "1")["outcome"], ::testing::AnyOf("goal", "time", "collision"));
   EXPECT_GT(std::stod(episode("mine", "1")["way_m"]), 200.0);
 }
 

@@ -19,7 +19,7 @@
 namespace sumogamma {
 namespace {
 namespace fs = std::filesystem;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const fs::path kFixtures = fs::path(SUMOGAMMA_SOURCE_DIR) / "tests/support/osm";
 const fs::path kMaps = fs::path(SUMOGAMMA_SOURCE_DIR) / "osm_maps";
@@ -31,10 +31,10 @@ std::string content(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-class ImportTest : public testing::Test {
+class ImportTest : public ::testing::Test {
  protected:
   ImportTest() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     folder_ =
         fs::temp_directory_path() / ("import_" + std::to_string(getpid()) + "_" + info->name());
     fs::remove_all(folder_);
@@ -113,7 +113,7 @@ TEST_F(ImportTest, MakesAWholeScenario) {
   EXPECT_EQ(simulate("120").exit_code, 0);
   // no path of this machine in what a user may pass on
   for (const std::string& name : names)
-    EXPECT_THAT(content(out() / name), testing::Not(HasSubstr(folder_.string()))) << name;
+    EXPECT_THAT(content(out() / name), ::testing::Not(HasSubstr(folder_.string()))) << name;
 }
 
 /// How many of each type depart, and what was said.
@@ -217,7 +217,7 @@ struct Place {
 };
 
 class FixtureTest : public ImportTest,
-                    public testing::WithParamInterface<std::tuple<Place, const char*>> {
+                    public ::testing::WithParamInterface<std::tuple<Place, const char*>> {
  protected:
   FixtureTest() {
     folder_ += std::string(std::get<0>(GetParam()).map) +
@@ -241,13 +241,13 @@ TEST_P(FixtureTest, IsBuiltOnItsSideAndRunsInSumo) {
 
 INSTANTIATE_TEST_SUITE_P(
     Fixtures, FixtureTest,
-    testing::Combine(testing::Values(Place{"signalled_crossing", "signals", 1},
-                                     Place{"roundabout", "roundabout_junctions", 4},
-                                     Place{"two_way_stop", "crossings", 4},
-                                     Place{"zebra", "crossings", 1},
-                                     Place{"bridge", "car_components", 2},
-                                     Place{"square", "walk_components", 1}),
-                     testing::Values("right", "left")),
+    ::testing::Combine(::testing::Values(Place{"signalled_crossing", "signals", 1},
+                                         Place{"roundabout", "roundabout_junctions", 4},
+                                         Place{"two_way_stop", "crossings", 4},
+                                         Place{"zebra", "crossings", 1},
+                                         Place{"bridge", "car_components", 2},
+                                         Place{"square", "walk_components", 1}),
+                       ::testing::Values("right", "left")),
     [](const auto& row) {
       return std::string(std::get<0>(row.param).map) + "_" + std::get<1>(row.param);
     });
@@ -400,7 +400,7 @@ TEST_F(ImportTest, DemandIsSortedRoutableAndSpreadOverTypes) {
   EXPECT_LT(before, 300);
 }
 
-class SharedMapTest : public ImportTest, public testing::WithParamInterface<const char*> {
+class SharedMapTest : public ImportTest, public ::testing::WithParamInterface<const char*> {
  protected:
   SharedMapTest() {
     folder_ += GetParam();
@@ -419,8 +419,8 @@ TEST_P(SharedMapTest, RunsInSumo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Maps, SharedMapTest,
-                         testing::Values("meskel_square.osm", "magic.osm", "highway.osm",
-                                         "beijing.osm", "shi_men_er_lu.osm", "berlin.osm.pbf"),
+                         ::testing::Values("meskel_square.osm", "magic.osm", "highway.osm",
+                                           "beijing.osm", "shi_men_er_lu.osm", "berlin.osm.pbf"),
                          [](const auto& row) {
                            const std::string name = row.param;
                            return name.substr(0, name.find('.'));
@@ -481,7 +481,7 @@ TEST_P(OverlapTest, LanesOfDifferentEdgesAreMovedApart) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Maps, OverlapTest,
-                         testing::Values("meskel_square.osm", "shi_men_er_lu.osm"),
+                         ::testing::Values("meskel_square.osm", "shi_men_er_lu.osm"),
                          [](const auto& row) {
                            const std::string name = row.param;
                            return name.substr(0, name.find('.'));
@@ -682,7 +682,8 @@ TEST_F(ImportTest, TypingErrorsAreBoundedAndSaid) {
 }
 
 class ReportedCaseTest : public ImportTest,
-                         public testing::WithParamInterface<std::pair<const char*, const char*>> {};
+                         public ::testing::WithParamInterface<std::pair<const char*, const char*>> {
+};
 
 TEST_P(ReportedCaseTest, IsReadOrSaysWhatHelps) {
   const fs::path map = kSharedCases / GetParam().first;
@@ -695,14 +696,13 @@ TEST_P(ReportedCaseTest, IsReadOrSaysWhatHelps) {
 
 INSTANTIATE_TEST_SUITE_P(
     Cases, ReportedCaseTest,
-    testing::Values(std::pair{"f_overpass_remark.osm", "not whole"},
-                    std::pair{"f_geom_member.osm", ""}, std::pair{"f_osmnx_version1.osm", ""},
-                    std::pair{"f_lat91.osm", "node 1000 at latitude 91"},
-                    std::pair{"f_one_way.osm", "f_one_way.osm: nobody can travel"},
-                    std::pair{"l_99.osm", "lanes=99"}, std::pair{"t_oneway.osm", "oneway_by_hour"},
-                    std::pair{"t_access.osm", "closed_to_some"},
-                    std::pair{"t_lanes.osm", "lanes_not_meant"},
-                    std::pair{"t_maxspeed.osm", "maxspeed_not_meant"}),
+    ::testing::Values(
+        std::pair{"f_overpass_remark.osm", "not whole"}, std::pair{"f_geom_member.osm", ""},
+        std::pair{"f_osmnx_version1.osm", ""}, std::pair{"f_lat91.osm", "node 1000 at latitude 91"},
+        std::pair{"f_one_way.osm", "f_one_way.osm: nobody can travel"},
+        std::pair{"l_99.osm", "lanes=99"}, std::pair{"t_oneway.osm", "oneway_by_hour"},
+        std::pair{"t_access.osm", "closed_to_some"}, std::pair{"t_lanes.osm", "lanes_not_meant"},
+        std::pair{"t_maxspeed.osm", "maxspeed_not_meant"}),
     [](const auto& one) {
       return std::string(one.param.first, std::string(one.param.first).find('.'));
     });

@@ -18,12 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 const fs::path kFixtures = fs::path(SUMOGAMMA_SOURCE_DIR) / "tests/support/osm";
 
-class PublicTransportTest : public testing::Test {
+class PublicTransportTest : public ::testing::Test {
  protected:
   static ProcessResult program(std::vector<std::string> arguments) {
     ProcessRequest request;
@@ -66,7 +66,8 @@ constexpr const char* kLines =
     "[demand]\nagents = 10\npublic_transport = true\nheadway = 120\nriders = 300\n"
     "[demand.shares]\ncar = 1.0\n";
 
-class RiddenLines : public PublicTransportTest, public testing::WithParamInterface<const char*> {};
+class RiddenLines : public PublicTransportTest,
+                    public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(RiddenLines, RidersAreTakenToTheirStopsByEither) {
   const std::string side = GetParam();
@@ -97,7 +98,7 @@ TEST_P(RiddenLines, RidersAreTakenToTheirStopsByEither) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sides, RiddenLines, testing::Values("right", "left"),
+INSTANTIATE_TEST_SUITE_P(Sides, RiddenLines, ::testing::Values("right", "left"),
                          [](const auto& row) { return std::string(row.param); });
 
 TEST_F(PublicTransportTest, SumoHasNothingToSayOfRoutesStopsAndRiders) {

@@ -28,7 +28,7 @@ ProcessResult predict(std::vector<std::string> arguments) {
 std::filesystem::path own_folder() {
   const auto folder = std::filesystem::temp_directory_path() /
                       (std::string("sumogamma_predict_") +
-                       testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+                       ::testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
                        std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   return folder;

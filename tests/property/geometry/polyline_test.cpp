@@ -8,14 +8,10 @@
 #include <limits>
 #include <vector>
 
-#include "base/random.h"
+#include "support/random_draw.h"
 
 namespace sumogamma {
 namespace {
-
-double draw(std::uint64_t seed, std::uint64_t index, double low, double high) {
-  return random_uniform(seed, index, 0, Draw::ProcessNoise, low, high);
-}
 
 /// A line that winds, with pieces from millimetres to a hundred metres.
 std::vector<Vec2> winding_line(std::uint64_t seed, std::size_t count) {

@@ -8,6 +8,7 @@
 namespace sumogamma {
 namespace {
 
+using testing::kAgents;
 using testing::RoadTraffic;
 
 struct Fork {
@@ -47,8 +48,6 @@ class ForkingWorld final : public World {
  private:
   RoadTraffic& traffic_;
 };
-
-constexpr std::size_t kAgents = 40;
 
 class AdvanceOn : public ::testing::TestWithParam<const char*> {};
 

@@ -14,13 +14,13 @@
 namespace sumogamma {
 namespace {
 
+using testing::kAgents;
 using testing::RoadTraffic;
 
 // a rule or two of the road each: right of way, gaps, signals and filtering, changes of lane,
 // people
 const char* const kNetworks[] = {"all_way_stop", "roundabout", "mixed_queue",
                                  "lane_drop",    "zebra",      "two_way_stop"};
-constexpr std::size_t kAgents = 40;
 constexpr int kTicks = 1000;
 
 /// Hash of all states of a run.

@@ -18,7 +18,7 @@ using testing::crossroads;
 using testing::read_plain_net;
 using testing::RoadScene;
 
-constexpr std::uint64_t kSeeds = 100;
+constexpr std::uint64_t kDrawn = 100;
 
 /// Two vehicles that stand at their lines on different arms of a crossroads.
 struct Pair {
@@ -103,7 +103,7 @@ class Encounters : public ::testing::TestWithParam<const char*> {};
 TEST_P(Encounters, OfTwoAtTheirLinesOneGoesFirst) {
   const RoadNetwork network = read_plain_net(crossroads(GetParam()));
   int met = 0;
-  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < kDrawn; ++seed) {
     SCOPED_TRACE(seed);
     RoadScene here(network);
     const Pair pair = draw_pair(here, seed);
@@ -146,11 +146,11 @@ std::optional<Verdict> verdict_of(const RoadScene& here, std::size_t row, std::s
 TEST_P(Encounters, WhoeverIsAskedOneAnswerGoesWithTheOther) {
   const RoadNetwork network = read_plain_net(crossroads(GetParam()));
   int met = 0;
-  for (std::uint64_t seed = 0; seed < 10 * kSeeds; ++seed) {
+  for (std::uint64_t seed = 0; seed < 10 * kDrawn; ++seed) {
     SCOPED_TRACE(seed);
     RoadScene here(network);
     const Pair pair = draw_pair(here, seed);
-    Drawn drawn(here, seed + 10 * kSeeds);
+    Drawn drawn(here, seed + 10 * kDrawn);
     const auto draw = [&](double low, double high) {
       return low + (high - low) * static_cast<double>(drawn.below(1000)) / 1000.0;
     };
@@ -190,7 +190,7 @@ TEST_P(Encounters, WhoeverIsAskedOneAnswerGoesWithTheOther) {
 // Pressing, and don't form one again
 TEST_P(Encounters, NoRingOfWaitsLastsLongerThanPatience) {
   const RoadNetwork network = read_plain_net(crossroads(GetParam()));
-  for (std::uint64_t seed = 0; seed < kSeeds / 4; ++seed) {
+  for (std::uint64_t seed = 0; seed < kDrawn / 4; ++seed) {
     SCOPED_TRACE(seed);
     RoadScene here(network);
     Drawn drawn(here, seed);

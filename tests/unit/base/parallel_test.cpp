@@ -12,7 +12,7 @@
 namespace sumogamma {
 namespace {
 
-class WorkersOf : public testing::TestWithParam<std::size_t> {};
+class WorkersOf : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(WorkersOf, EveryRowIsVisitedOnceInConsecutiveRanges) {
   Workers workers(GetParam());
@@ -73,7 +73,7 @@ TEST_P(WorkersOf, APoolThatNeverWorkedEnds) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Counts, WorkersOf, testing::Values(1, 2, 3, 8, 32));
+INSTANTIATE_TEST_SUITE_P(Counts, WorkersOf, ::testing::Values(1, 2, 3, 8, 32));
 
 TEST(Workers, NoneAskedForIsOne) {
   Workers workers(0);

@@ -10,12 +10,12 @@ namespace sumogamma {
 namespace {
 namespace fs = std::filesystem;
 
-class StagedFolderTest : public testing::Test {
+class StagedFolderTest : public ::testing::Test {
  protected:
   StagedFolderTest() {
     root_ =
         fs::temp_directory_path() /
-        ("staged_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        ("staged_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(root_);
     fs::create_directories(root_);
   }

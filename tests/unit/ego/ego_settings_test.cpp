@@ -8,7 +8,7 @@
 namespace sumogamma {
 namespace {
 
-std::string refusal(const EgoSettings& settings, bool external = false) {
+std::string objection(const EgoSettings& settings, bool external = false) {
   try {
     check_settings(settings, 0.05, external);
   } catch (const Error& error) {
@@ -17,29 +17,29 @@ std::string refusal(const EgoSettings& settings, bool external = false) {
   return "";
 }
 
-TEST(EgoSettings, TheDefaultsAreGood) { EXPECT_EQ(refusal({}), ""); }
+TEST(EgoSettings, TheDefaultsAreGood) { EXPECT_EQ(objection({}), ""); }
 
 TEST(EgoSettings, ARateIsAtMostOneATick) {
   EgoSettings settings;
   settings.rate = 20;
-  EXPECT_EQ(refusal(settings), "");
+  EXPECT_EQ(objection(settings), "");
   settings.rate = 20.5;
-  EXPECT_NE(refusal(settings).find("at most 20 a second"), std::string::npos);
+  EXPECT_NE(objection(settings).find("at most 20 a second"), std::string::npos);
   settings.rate = 0;
-  EXPECT_NE(refusal(settings), "");
+  EXPECT_NE(objection(settings), "");
 }
 
 TEST(EgoSettings, OneAccelerationBrakes) {
   EgoSettings settings;
   settings.accelerations = {0, 3};
-  EXPECT_NE(refusal(settings).find("has to brake"), std::string::npos);
+  EXPECT_NE(objection(settings).find("has to brake"), std::string::npos);
 }
 
 TEST(EgoSettings, AnUnknownPlannerIsToldTheNearestOne) {
   EgoSettings settings;
   settings.planner = "gama";
-  EXPECT_NE(refusal(settings).find("'gamma'"), std::string::npos);
-  EXPECT_EQ(refusal(settings, true), "") << "one outside has none";
+  EXPECT_NE(objection(settings).find("'gamma'"), std::string::npos);
+  EXPECT_EQ(objection(settings, true), "") << "one outside has none";
 }
 
 TEST(EgoSettings, AWindowIsABox) {
@@ -47,16 +47,16 @@ TEST(EgoSettings, AWindowIsABox) {
   for (const std::vector<double>& window :
        std::vector<std::vector<double>>{{1}, {0, 0, 0, 5}, {5, 0, 0, 5}, {0, 0, 1, 1, 1}}) {
     settings.window = window;
-    EXPECT_NE(refusal(settings), "");
+    EXPECT_NE(objection(settings), "");
   }
   settings.window = {0, 0, 10, 10};
-  EXPECT_EQ(refusal(settings), "");
+  EXPECT_EQ(objection(settings), "");
 }
 
 TEST(EgoSettings, AGoalIsNotWhereTheEgoStands) {
   EgoSettings settings;
   settings.goal_way = 1.5;
-  EXPECT_NE(refusal(settings), "");
+  EXPECT_NE(objection(settings), "");
 }
 
 TEST(Planners, HaveNamesOfTheirOwnAndTheReferenceFirst) {

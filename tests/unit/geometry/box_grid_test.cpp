@@ -6,8 +6,8 @@
 namespace sumogamma {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 TEST(BoxGrid, FindsWhatTouchesTheCells) {
   BoxGrid grid(10.0);

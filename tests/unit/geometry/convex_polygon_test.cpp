@@ -10,13 +10,10 @@
 #include "base/units.h"
 #include "geometry/oriented_box.h"
 #include "geometry/rotation.h"
+#include "support/random_draw.h"
 
 namespace sumogamma {
 namespace {
-
-double draw(std::uint64_t seed, std::uint64_t k, double low, double high) {
-  return random_uniform(seed, k, 0, Draw::ProcessNoise, low, high);
-}
 
 std::vector<Vec2> box_outline(double length, double width) {
   return {{length / 2, -width / 2},

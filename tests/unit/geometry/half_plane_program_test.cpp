@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "base/units.h"
+#include "support/random_draw.h"
 
 namespace sumogamma {
 namespace {
@@ -17,10 +18,6 @@ struct Case {
   std::size_t hard = 0;
   Vec2 target;
 };
-
-double draw(std::uint64_t seed, std::uint64_t k, double low, double high) {
-  return random_uniform(seed, k, 0, Draw::ProcessNoise, low, high);
-}
 
 /// Hard planes admit the null vector; soft ones anything.
 Case random_case(std::uint64_t seed) {

@@ -8,7 +8,7 @@
 namespace sumogamma {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 TEST(NeededPoints, LeavesOutWhatAStraightLineDoesNotNeed) {
   const std::vector<Vec2> points = {{0, 0}, {5, 0.04}, {10, 0}, {10, 5}, {10, 10}};

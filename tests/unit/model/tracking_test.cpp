@@ -4,15 +4,11 @@
 
 #include <limits>
 
-#include "base/random.h"
 #include "base/units.h"
+#include "support/random_draw.h"
 
 namespace sumogamma {
 namespace {
-
-double draw(std::uint64_t seed, std::uint64_t k, double low, double high) {
-  return random_uniform(seed, k, 0, Draw::ProcessNoise, low, high);
-}
 
 Vec2 rear_axle(const AgentType& type, const BodyState& body) {
   return body.position - type.rear_axle_to_center * direction_of(body.heading);

@@ -7,17 +7,13 @@
 #include <optional>
 #include <vector>
 
-#include "base/random.h"
 #include "base/units.h"
 #include "geometry/oriented_box.h"
 #include "scene/footprint.h"
+#include "support/random_draw.h"
 
 namespace sumogamma {
 namespace {
-
-double draw(std::uint64_t seed, std::uint64_t k, double low, double high) {
-  return random_uniform(seed, k, 0, Draw::ProcessNoise, low, high);
-}
 
 ConvexPolygon box(double length, double width, double heading) {
   return place_polygon(box_footprint(length, width).outline(), direction_of(heading));

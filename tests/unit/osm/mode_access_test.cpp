@@ -16,10 +16,10 @@
 namespace sumogamma::osm {
 namespace {
 
-using testing::Contains;
-using testing::ElementsAre;
-using testing::IsEmpty;
-using testing::Not;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Not;
 
 TEST(ModeAccess, TheMostSpecificTagHolds) {
   const ModeAccess open = mode_access({});

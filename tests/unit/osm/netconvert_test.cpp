@@ -12,9 +12,9 @@
 namespace sumogamma::osm {
 namespace {
 
-using testing::ElementsAre;
-using testing::Pair;
-using testing::UnorderedElementsAre;
+using ::testing::ElementsAre;
+using ::testing::Pair;
+using ::testing::UnorderedElementsAre;
 
 TEST(CountMessageKinds, ForgetsIdsAndNumbers) {
   const std::string log =

@@ -83,13 +83,13 @@ TEST(LaneClearing, KnowsWhatTouchesALane) {
   EXPECT_FALSE(clearing.touches_lane(Vec2(150, 0), 0.3));
 }
 
-class ObstaclesTest : public testing::Test {
+class ObstaclesTest : public ::testing::Test {
  protected:
   ObstaclesTest() : projection_(local_projection(builder_.origin)) {
     file_ =
         std::filesystem::temp_directory_path() /
-        ("obstacles_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
-         ".add.xml");
+        ("obstacles_" +
+         std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".add.xml");
   }
   ~ObstaclesTest() override { std::filesystem::remove(file_); }
 

@@ -21,12 +21,12 @@ std::string content(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-class OsmReaderTest : public testing::Test {
+class OsmReaderTest : public ::testing::Test {
  protected:
   OsmReaderTest() {
     folder_ = fs::temp_directory_path() /
               ("osm_reader_" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+               std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

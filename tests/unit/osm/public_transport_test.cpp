@@ -21,10 +21,10 @@ namespace sumogamma::osm {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
-const fs::path kFixtures = fs::path(SUMOGAMMA_SOURCE_DIR) / "tests/support/osm";
+const fs::path kLineMaps = fs::path(SUMOGAMMA_SOURCE_DIR) / "tests/support/osm";
 
 TEST(HeadwayOf, ReadsMinutesTimesAndRanges) {
   EXPECT_DOUBLE_EQ(headway_of("10"), 600);
@@ -36,7 +36,7 @@ TEST(HeadwayOf, ReadsMinutesTimesAndRanges) {
 }
 
 TEST(FindLines, KnowsDirectionsStopsAndWhatRunsElsewhere) {
-  const MapLines lines = find_lines(read_osm(kFixtures / "bus_lines_right.osm"));
+  const MapLines lines = find_lines(read_osm(kLineMaps / "bus_lines_right.osm"));
   ASSERT_EQ(lines.lines.size(), 5u);
   const MapLine &first = lines.lines[0], &second = lines.lines[1], &third = lines.lines[2];
   EXPECT_EQ(lines.others, (std::map<std::string, long>{{"tram", 1}}));
@@ -60,7 +60,7 @@ TEST(FindLines, KnowsDirectionsStopsAndWhatRunsElsewhere) {
 }
 
 /// The network and the lines of a map.
-class Lines : public testing::Test {
+class Lines : public ::testing::Test {
  protected:
   ~Lines() override { fs::remove_all(folder_); }
   BuildResult build(const fs::path& map, std::optional<Side> side = std::nullopt) {
@@ -109,11 +109,11 @@ void expect_drivable(const BuildResult& built, const LinePart& part) {
   }
 }
 
-class LinesOnASide : public Lines, public testing::WithParamInterface<const char*> {};
+class LinesOnASide : public Lines, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(LinesOnASide, RunAsTheMapSaysAndHaltAtTheKerb) {
   const std::string side = GetParam();
-  const BuildResult built = build(kFixtures / ("bus_lines_" + side + ".osm"));
+  const BuildResult built = build(kLineMaps / ("bus_lines_" + side + ".osm"));
   ASSERT_EQ(built.left_hand, side == "left");
   const auto& parts = built.transport.parts;
   ASSERT_EQ(parts.size(), 5u);
@@ -144,24 +144,25 @@ TEST_P(LinesOnASide, RunAsTheMapSaysAndHaltAtTheKerb) {
 }
 
 TEST_P(LinesOnASide, AreNamedWhereTheyAreLeftOut) {
-  const BuildResult built = build(kFixtures / (std::string("bus_lines_") + GetParam() + ".osm"));
+  const BuildResult built = build(kLineMaps / (std::string("bus_lines_") + GetParam() + ".osm"));
   EXPECT_EQ(built.lines.driven, 3);
   EXPECT_EQ(built.lines.found,
             (std::map<std::string, long>{{"bus", 3}, {"minibus", 1}, {"trolleybus", 1}}));
-  EXPECT_THAT(built.lines.left_out,
-              ElementsAre(testing::Pair("4 (relation/1004)", "fewer than two stops in the map"),
-                          testing::Pair("5 (relation/1005)", "no road of it that a bus may use")));
+  EXPECT_THAT(
+      built.lines.left_out,
+      ElementsAre(::testing::Pair("4 (relation/1004)", "fewer than two stops in the map"),
+                  ::testing::Pair("5 (relation/1005)", "no road of it that a bus may use")));
   const auto report = import_report(built, "x")["public_transport"];
   EXPECT_EQ(report["not_on_roads"]["tram"], 1);
   EXPECT_EQ(report["left_out"].size(), 2u);
   EXPECT_THAT(built.lines.at_all_stops, IsEmpty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Sides, LinesOnASide, testing::Values("right", "left"),
+INSTANTIATE_TEST_SUITE_P(Sides, LinesOnASide, ::testing::Values("right", "left"),
                          [](const auto& row) { return std::string(row.param); });
 
 TEST_F(Lines, WithoutStopsOfTheirOwnHaltAtThoseOnTheirSide) {
-  std::ifstream stream(kFixtures / "bus_lines_right.osm");
+  std::ifstream stream(kLineMaps / "bus_lines_right.osm");
   std::ostringstream whole;
   whole << stream.rdbuf();
   std::string text = whole.str();

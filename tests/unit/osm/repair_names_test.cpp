@@ -23,8 +23,8 @@ TEST(RepairNames, AnUnknownOneIsRefusedWithTheNearest) {
     check_names({"bends", "curbs"});
     FAIL() << "accepted";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("curbs"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("kerbs?"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("curbs"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("kerbs?"));
   }
 }
 
@@ -35,7 +35,7 @@ TEST(RepairNames, TheTableInTheDocumentationIsThisOne) {
   std::string table;
   for (const RepairName& repair : all_repairs())
     table += "| `" + std::string(repair.name) + "` | " + std::string(repair.mends) + " |\n";
-  EXPECT_THAT(text.str(), testing::HasSubstr(table)) << "it should be:\n" << table;
+  EXPECT_THAT(text.str(), ::testing::HasSubstr(table)) << "it should be:\n" << table;
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 namespace sumogamma::osm {
 namespace {
 
-using testing::ElementsAre;
-using testing::Pair;
-using testing::SizeIs;
+using ::testing::ElementsAre;
+using ::testing::Pair;
+using ::testing::SizeIs;
 
 TEST(FindSigns, TellsWhomTheyFaceByJunction) {
   MapBuilder b = crossroads_with_stop_lines();

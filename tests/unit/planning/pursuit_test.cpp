@@ -7,14 +7,14 @@
 namespace sumogamma {
 namespace {
 
-AgentType car() {
+AgentType car_type() {
   const AgentTypeTable types = default_agent_types();
   return type_of(types, find_agent_type(types, "car"));
 }
 
 /// Drives a car along a way by its own controller; the farthest that its axle gets off it [m].
 double farthest_off(const Polyline& way, Vec2 start, double heading, double speed, double until) {
-  const AgentType type = car();
+  const AgentType type = car_type();
   const WheeledShape shape = wheeled_shape(type);
   BodyState body{start + shape.rear_axle_to_center * direction_of(heading), heading,
                  speed * direction_of(heading), speed, 0};
@@ -40,7 +40,7 @@ TEST(Pursuit, ComesOntoItsWayAndStaysThere) {
 }
 
 TEST(Pursuit, SteersTowardsTheSideOnWhichItsWayLies) {
-  const WheeledShape shape = wheeled_shape(car());
+  const WheeledShape shape = wheeled_shape(car_type());
   const Polyline way({Vec2(0, 0), Vec2(90, 0)});
   EXPECT_GT(pursuit_steering(shape, {Vec2(10, -2), 0}, way, 10, 5), 0.05);
   EXPECT_LT(pursuit_steering(shape, {Vec2(10, 2), 0}, way, 10, 5), -0.05);

@@ -8,7 +8,7 @@
 namespace sumogamma {
 namespace {
 
-constexpr double kStep = 0.1;
+constexpr double kRuleStep = 0.1;
 
 class Rules : public ::testing::Test {
  protected:
@@ -26,10 +26,10 @@ class Rules : public ::testing::Test {
     append_agent(scene_, agent);
   }
   void run(double seconds) {
-    for (int tick = 0; tick < static_cast<int>(seconds / kStep + 0.5); ++tick) {
-      scene_.time += kStep;
+    for (int tick = 0; tick < static_cast<int>(seconds / kRuleStep + 0.5); ++tick) {
+      scene_.time += kRuleStep;
       for (std::size_t row = 0; row < scene_.size(); ++row)
-        scene_.position[row] += kStep * scene_.velocity[row];
+        scene_.position[row] += kRuleStep * scene_.velocity[row];
       monitor_.add(scene_, types_, road_, workers_);
       events_ += monitor_.new_events().size();
     }
@@ -42,7 +42,7 @@ class Rules : public ::testing::Test {
   RoadState road_;
   Scene scene_;
   Workers workers_;
-  RuleMonitor monitor_{kStep, net_, locator_};
+  RuleMonitor monitor_{kRuleStep, net_, locator_};
   std::uint32_t next_ = 0;
   std::size_t events_ = 0;
 };
@@ -91,12 +91,12 @@ TEST_F(Rules, AnyNumberOfWorkersFindsTheSame) {
   EXPECT_GT(counts().wrong_way_s, 5.0);
   EXPECT_GT(counts().sidewalk_by_vehicle_s, 5.0);
   Workers three(3);
-  RuleMonitor monitor(kStep, net_, locator_);
+  RuleMonitor monitor(kRuleStep, net_, locator_);
   scene_ = start;
   for (int tick = 0; tick < 60; ++tick) {
-    scene_.time += kStep;
+    scene_.time += kRuleStep;
     for (std::size_t row = 0; row < scene_.size(); ++row)
-      scene_.position[row] += kStep * scene_.velocity[row];
+      scene_.position[row] += kRuleStep * scene_.velocity[row];
     monitor.add(scene_, types_, road_, three);
   }
   ASSERT_EQ(monitor.offences().size(), monitor_.offences().size());
@@ -134,7 +134,7 @@ TEST(RulesBetweenLanes, WhoDrivesBetweenTwoLanesGoesByTheLightOfEither) {
   }
   const auto red_lights = [&](const char* type, double offset) {
     Workers workers;
-    RuleMonitor monitor(kStep, net, locator);
+    RuleMonitor monitor(kRuleStep, net, locator);
     AgentState agent;
     agent.type = find_agent_type(types, type);
     const AgentType& row = type_of(types, agent.type);
@@ -146,8 +146,8 @@ TEST(RulesBetweenLanes, WhoDrivesBetweenTwoLanesGoesByTheLightOfEither) {
     Scene scene;
     append_agent(scene, agent);
     for (int tick = 0; tick < 40; ++tick) {
-      scene.time += kStep;
-      scene.position[0] += kStep * scene.velocity[0];
+      scene.time += kRuleStep;
+      scene.position[0] += kRuleStep * scene.velocity[0];
       monitor.add(scene, types, road, workers);
     }
     return monitor.result(types).all.red_light_crossings;
@@ -173,7 +173,7 @@ TEST(RulesBetweenLanes, TheStopLineRunsThroughTheEndsOfLanesSideBySide) {
   road.signal_states.assign(net.signals.size(), std::string(32, 'r'));
   const auto red_lights = [&](double offset, double past) {
     Workers workers;
-    RuleMonitor monitor(kStep, net, locator);
+    RuleMonitor monitor(kRuleStep, net, locator);
     AgentState agent;
     agent.type = find_agent_type(types, "car");
     const AgentType& car = type_of(types, agent.type);
@@ -184,7 +184,7 @@ TEST(RulesBetweenLanes, TheStopLineRunsThroughTheEndsOfLanesSideBySide) {
     append_agent(scene, agent);
     for (int tick = 0; tick < 40; ++tick) {
       const double left = std::max(8.0 - 4.0 * scene.time, 0.0);
-      scene.time += kStep;
+      scene.time += kRuleStep;
       scene.position[0] = halt - (0.5 * car.length + left) * forward;
       monitor.add(scene, types, road, workers);
     }
@@ -380,7 +380,7 @@ TEST_F(Rules, OvertakingOverTheMiddleIsNoOffence) {
   // the lane beside
   auto counted = [&](const char* other, const Vec2& velocity, double speed = 5.0,
                      double ahead = 8.0) {
-    RuleMonitor monitor(kStep, net_, locator_);
+    RuleMonitor monitor(kRuleStep, net_, locator_);
     scene_ = Scene{};
     add("car", {80, 0}, {-speed, 0});
     add(other, {80 - ahead, -3.2}, velocity);
@@ -455,7 +455,7 @@ TEST(RulesInGaps, TheStripBetweenLanesIsRoad) {
   const AgentTypeTable types = default_agent_types();
   const auto off_road = [&](const Vec2& position, double heading) {
     Workers workers;
-    RuleMonitor monitor(kStep, net, locator);
+    RuleMonitor monitor(kRuleStep, net, locator);
     Scene scene;
     AgentState agent;
     agent.type = find_agent_type(types, "car");
@@ -478,7 +478,7 @@ TEST(RulesInGaps, TheStripBetweenLanesIsRoad) {
 // tick
 TEST_F(Rules, NobodyIsOverAnEdgeByCentimetres) {
   const auto seconds = [&](double y, double speed) {
-    RuleMonitor monitor(kStep, net_, locator_);
+    RuleMonitor monitor(kRuleStep, net_, locator_);
     scene_ = Scene{};
     add("car", {80, y}, {-speed, 0});
     for (int tick = 0; tick < 10; ++tick) monitor.add(scene_, types_, road_, workers_);
@@ -540,8 +540,8 @@ TEST_F(Rules, ARoadCrossedBetweenJunctionsCountsOnceAtItsFarSide) {
   add("pedestrian", {70, -20}, {0, 1.3});
   scene_.path[0] = static_cast<PathId>(0);
   auto walk = [&](double seconds) {
-    for (double time = 0; time < seconds; time += kStep) {
-      run(kStep);
+    for (double time = 0; time < seconds; time += kRuleStep) {
+      run(kRuleStep);
       scene_.path_along[0] = scene_.position[0].y() + 20;
     }
   };
@@ -562,7 +562,7 @@ TEST_P(Fork, MixedLightsAreJudgedByTheTurnTaken) {
   std::filesystem::remove(file);
   const LaneLocator locator(net);
   Workers workers;
-  RuleMonitor monitor(kStep, net, locator);
+  RuleMonitor monitor(kRuleStep, net, locator);
   const AgentTypeTable types = default_agent_types();
   RoadState road;
   road.signal_states = {"rG"};
@@ -572,7 +572,7 @@ TEST_P(Fork, MixedLightsAreJudgedByTheTurnTaken) {
   agent.footprint = box_footprint(4.5, 1.8);
   append_agent(scene, agent);
   for (double s = 30; s < 90; s += 1.0) {
-    scene.time += kStep;
+    scene.time += kRuleStep;
     const bool turned = GetParam() && s > 55;
     scene.position[0] = turned ? Vec2(55, 55 - s) : Vec2(s, 0);
     scene.heading[0] = turned ? -kPi / 2 : 0.0;

@@ -8,7 +8,7 @@
 namespace sumogamma {
 namespace {
 
-constexpr double kStep = 0.05;
+constexpr double kFineStep = 0.05;
 
 struct Pose {
   Vec2 position;
@@ -19,14 +19,14 @@ struct Pose {
 SmoothnessResult measure(const char* type_name, const std::function<Pose(double)>& pose_at,
                          double duration = 10) {
   const AgentTypeTable types = default_agent_types();
-  SmoothnessMonitor monitor(kStep);
+  SmoothnessMonitor monitor(kFineStep);
   Scene scene;
   AgentState agent;
   agent.type = find_agent_type(types, type_name);
   agent.footprint = box_footprint(1, 1);
   append_agent(scene, agent);
-  for (int tick = 0; tick * kStep <= duration; ++tick) {
-    const Pose pose = pose_at(tick * kStep);
+  for (int tick = 0; tick * kFineStep <= duration; ++tick) {
+    const Pose pose = pose_at(tick * kFineStep);
     scene.position[0] = pose.position;
     scene.heading[0] = pose.heading;
     monitor.add(scene, types);

@@ -7,7 +7,7 @@
 namespace sumogamma {
 namespace {
 
-constexpr double kStep = 0.5;
+constexpr double kCoarseStep = 0.5;
 
 class Traffic : public ::testing::Test {
  protected:
@@ -24,7 +24,7 @@ class Traffic : public ::testing::Test {
   }
   void run(TrafficMonitor& monitor, int ticks) {
     for (int i = 0; i < ticks; ++i) {
-      scene_.time = ++tick_ * kStep;
+      scene_.time = ++tick_ * kCoarseStep;
       monitor.add(scene_, types_);
     }
   }
@@ -52,7 +52,7 @@ TEST_F(Traffic, SumsByLaneAndType) {
   add("car", "in_1", 13.9);
   add("car", "in_1", 0.0);
   add("bus", "in_1", 6.95);
-  TrafficMonitor monitor(kStep, network_, 60.0);
+  TrafficMonitor monitor(kCoarseStep, network_, 60.0);
   run(monitor, 20);
   const auto lanes = monitor.lanes();
   ASSERT_EQ(lanes.size(), 2u);
@@ -73,7 +73,7 @@ TEST_F(Traffic, SumsByLaneAndType) {
 TEST_F(Traffic, CutsTimeIntoIntervals) {
   add("car", "in_1", 10);
   add("pedestrian", "in_0", 1.0);
-  TrafficMonitor monitor(kStep, network_, 4.0);
+  TrafficMonitor monitor(kCoarseStep, network_, 4.0);
   run(monitor, 12);
   remove_agents(scene_, {true, false});
   run(monitor, 8);
@@ -100,7 +100,7 @@ TEST_F(Traffic, CutsTimeIntoIntervals) {
 TEST_F(Traffic, AHaltThatIsPlannedIsNoDelay) {
   add("bus", "in_1", 0.0);
   scene_.halt[0].left = 5.0;
-  TrafficMonitor monitor(kStep, network_, 60.0);
+  TrafficMonitor monitor(kCoarseStep, network_, 60.0);
   run(monitor, 4);
   EXPECT_EQ(monitor.journeys().front().presence.delay, 0.0);
   EXPECT_EQ(monitor.journeys().front().presence.waiting, 0.0);

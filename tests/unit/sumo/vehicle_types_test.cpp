@@ -18,7 +18,7 @@ SumoAgentDetails plain_car() {
   return details;
 }
 
-class VehicleTypes : public testing::Test {
+class VehicleTypes : public ::testing::Test {
  protected:
   VehicleTypes() {
     model_.types = default_agent_types();

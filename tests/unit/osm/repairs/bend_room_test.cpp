@@ -11,7 +11,7 @@
 namespace sumogamma::osm {
 namespace {
 
-using testing::Each;
+using ::testing::Each;
 
 /// Two directions along a line of 60 m, a bend of a right angle to the left, and 60 m more.
 RoadBody bent(double radius, double straight = 60) {
@@ -37,7 +37,7 @@ TEST(BendRoom, IsWhatANoseSweepsMoreThanItsLane) {
   const BendRoom room = room_in_bends(bent(15), false);
   const double most = -*std::min_element(room.edge.begin(), room.edge.end());
   EXPECT_NEAR(most, 8.7 * 8.7 / 30 - 0.3, 0.15);
-  EXPECT_THAT(room.edge, Each(testing::Le(0.0))) << "to the right: outwards";
+  EXPECT_THAT(room.edge, Each(::testing::Le(0.0))) << "to the right: outwards";
   EXPECT_THAT(room.twin, Each(0.0)) << "at the inside";
   EXPECT_EQ(room.edge.front(), 0.0);
   EXPECT_EQ(room.edge.back(), 0.0);
@@ -55,7 +55,7 @@ TEST(BendRoom, NeitherInGentleBendsNorOnOneWayRoadsNorBeyondWhatFits) {
   one_way.twin = kNoEdge;
   EXPECT_THAT(room_in_bends(one_way, false).edge, Each(0.0));
   const BendRoom hairpin = room_in_bends(bent(5), false);
-  EXPECT_THAT(hairpin.edge, Each(testing::Ge(-2.5)));
+  EXPECT_THAT(hairpin.edge, Each(::testing::Ge(-2.5)));
 }
 
 TEST(BendRoom, ComesAndGoesSlowlyAndLeavesNoneWhereLanesEnd) {

@@ -4,14 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "support/map_builder.h"
+#include "support/osm/street_tags.h"
 
 namespace sumogamma::osm {
 namespace {
 
-using testing::ElementsAre;
-using testing::SizeIs;
-
-const Tags kStreet = {{"highway", "residential"}};
+using ::testing::ElementsAre;
+using ::testing::SizeIs;
 
 TEST(CutAtBox, CutsAtTheEdgeOfTheBox) {
   MapBuilder b;

@@ -11,8 +11,8 @@
 namespace sumogamma::osm {
 namespace {
 
-using testing::IsEmpty;
-using testing::SizeIs;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 const Tags kRing = {{"highway", "primary"}, {"junction", "roundabout"}};
 
@@ -21,7 +21,7 @@ const Tags kRing = {{"highway", "primary"}, {"junction", "roundabout"}};
      3     1    a ring of 15 m, drawn as a square
       \   /
         4                                          */
-class CoarseRings : public testing::Test {
+class CoarseRings : public ::testing::Test {
  protected:
   void SetUp() override { b.node(1, 15, 0).node(2, 0, 15).node(3, -15, 0).node(4, 0, -15); }
   double from_middle(GeoPoint place) const {

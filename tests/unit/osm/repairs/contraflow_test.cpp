@@ -8,10 +8,10 @@
 namespace sumogamma::osm {
 namespace {
 
-using testing::Contains;
-using testing::Key;
-using testing::Not;
-using testing::Pair;
+using ::testing::Contains;
+using ::testing::Key;
+using ::testing::Not;
+using ::testing::Pair;
 
 /// Tags of a residential road after rewrite_contraflow().
 Tags rewritten(Tags tags, bool left_hand = false) {

@@ -8,7 +8,7 @@
 namespace sumogamma::osm {
 namespace {
 
-using testing::SizeIs;
+using ::testing::SizeIs;
 
 TEST(AddFootwaysAtCrossings, OnlyHalfWayAlongARoad) {
   MapBuilder b = crossroads_with_stop_lines();

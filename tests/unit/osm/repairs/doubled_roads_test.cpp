@@ -4,18 +4,18 @@
 #include <gtest/gtest.h>
 
 #include "support/map_builder.h"
+#include "support/osm/street_tags.h"
 
 namespace sumogamma::osm {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsNull;
+using ::testing::ElementsAre;
+using ::testing::IsNull;
 
-const Tags kStreet = {{"highway", "residential"}}, kService = {{"highway", "service"}},
-           kFootway = {{"highway", "footway"}};
+const Tags kService = {{"highway", "service"}}, kFootway = {{"highway", "footway"}};
 
 //  1 -- 2 -- 3 -- 4 -- 5   one row of nodes for all
-class DoubledRoads : public testing::Test {
+class DoubledRoads : public ::testing::Test {
  protected:
   void SetUp() override {
     for (int id = 1; id <= 5; ++id) b.node(id, 50.0 * id, 0);

@@ -8,10 +8,10 @@
 namespace sumogamma::osm {
 namespace {
 
-using testing::Contains;
-using testing::ElementsAre;
-using testing::IsEmpty;
-using testing::Not;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Not;
 
 // four equal streets; the numbers of their ways are those of their outer nodes plus ten
 constexpr const char* kCrossroads = R"xml(<?xml version="1.0"?>
@@ -32,7 +32,7 @@ constexpr const char* kCrossroads = R"xml(<?xml version="1.0"?>
 </osm>)xml";
 
 /// The crossroads as netconvert makes them and, once patched, makes them again.
-struct Crossroads : testing::TestWithParam<bool> {
+struct Crossroads : ::testing::TestWithParam<bool> {
   ConvertedMap map{kCrossroads, GetParam()};
   RoadNetwork road;
   Crossroads() {
@@ -71,11 +71,11 @@ TEST_P(Crossroads, WhoHasASignWaitsForThoseWithout) {
                 (rule.from == "-14" || rule.from == "15"))
         << rule.from << " before " << rule.waits_from;
   apply(patch);
-  EXPECT_THAT(waits_for("12", "14"), testing::IsSupersetOf({"15"}));
-  EXPECT_THAT(waits_for("-13", "-15"), testing::IsSupersetOf({"-14"}));
+  EXPECT_THAT(waits_for("12", "14"), ::testing::IsSupersetOf({"15"}));
+  EXPECT_THAT(waits_for("-13", "-15"), ::testing::IsSupersetOf({"-14"}));
   for (const char* free : {"15", "-14"})
     for (const char* to : {"-12", "13", "14", "-15"})
-      EXPECT_THAT(waits_for(free, to), testing::AllOf(Not(Contains("12")), Not(Contains("-13"))))
+      EXPECT_THAT(waits_for(free, to), ::testing::AllOf(Not(Contains("12")), Not(Contains("-13"))))
           << free << " to " << to;
 }
 
@@ -101,7 +101,7 @@ TEST_P(Crossroads, AtAMiniRoundaboutWhoComesRoundTheMiddleGoesFirst) {
   EXPECT_THAT(waits_for("15", "13"), Not(Contains(left ? "12" : "-14")));
 }
 
-INSTANTIATE_TEST_SUITE_P(LeftHand, Crossroads, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(LeftHand, Crossroads, ::testing::Bool());
 
 }  // namespace
 }  // namespace sumogamma::osm

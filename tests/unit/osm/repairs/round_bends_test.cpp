@@ -14,12 +14,12 @@
 namespace sumogamma::osm {
 namespace {
 
-using testing::ElementsAre;
-using testing::SizeIs;
+using ::testing::ElementsAre;
+using ::testing::SizeIs;
 
-const Tags kStreet = {{"highway", "tertiary"}};
+const Tags kTertiary = {{"highway", "tertiary"}};
 
-class RoundBendsTest : public testing::Test {
+class RoundBendsTest : public ::testing::Test {
  protected:
   void round() { round_bends(b.map, b.log); }
   std::vector<Vec2> line(std::int64_t way) const {
@@ -48,12 +48,12 @@ class RoundBendsTest : public testing::Test {
        2 -- 1 (200 m)       a bend of a right angle, cut once: as a ramp in Monaco is drawn */
 TEST_F(RoundBendsTest, ABendDrawnWithCornersGetsARadius) {
   b.node(1, 200, 0).node(2, 110, 0).node(3, 100, 10).node(4, 100, 100);
-  b.way(10, {1, 2, 3, 4}, kStreet);
+  b.way(10, {1, 2, 3, 4}, kTertiary);
   round();
   EXPECT_LT(sharpest(10), 12.0) << "a circle of 15 m, drawn to 5 cm, turns by 9 at a point";
   EXPECT_EQ(b.log.count("bends_rounded"), 1);
   const std::vector<Vec2> rounded = line(10);
-  EXPECT_THAT(b.find_way(10)->nodes, testing::IsSupersetOf({1, 2, 3, 4}));
+  EXPECT_THAT(b.find_way(10)->nodes, ::testing::IsSupersetOf({1, 2, 3, 4}));
   EXPECT_NEAR(b.east(1), 200, 1e-6);
   EXPECT_NEAR(b.north(4), 100, 1e-6);
   for (std::size_t i = 0; i + 1 < rounded.size(); ++i) {
@@ -65,7 +65,7 @@ TEST_F(RoundBendsTest, ABendDrawnWithCornersGetsARadius) {
 }
 
 TEST_F(RoundBendsTest, NoPointMovesByMoreThanFourMetres) {
-  b.node(1, 200, 0).node(2, 100, 0).node(3, 100, 100).way(10, {1, 2, 3}, kStreet);
+  b.node(1, 200, 0).node(2, 100, 0).node(3, 100, 100).way(10, {1, 2, 3}, kTertiary);
   round();
   const double moved = Vec2(b.east(2) - 100, b.north(2)).norm();
   EXPECT_LT(moved, 4.0) << "a circle of 15 m would lie 6 m off";
@@ -78,7 +78,7 @@ TEST_F(RoundBendsTest, NoPointMovesByMoreThanFourMetres) {
        '-- 1 ---- 5 (200 m)     8 m apart: no car turns in its lane there */
 TEST_F(RoundBendsTest, AHairpinBecomesABulb) {
   b.node(5, 200, 0).node(1, 20, 0).node(2, 16, 4).node(3, 20, 8).node(4, 200, 8);
-  b.way(10, {5, 1, 2, 3, 4}, kStreet);
+  b.way(10, {5, 1, 2, 3, 4}, kTertiary);
   round();
   double low = 0, high = 0;
   for (const Vec2& point : line(10)) {
@@ -93,7 +93,7 @@ TEST_F(RoundBendsTest, AHairpinBecomesABulb) {
 
 TEST_F(RoundBendsTest, WhatTurnsGentlyOrHardlyMovesStays) {
   b.node(1, 0, 0).node(2, 100, 0).node(3, 190, 30).node(4, 250, 90);  // 18 and 27 degrees
-  b.way(10, {1, 2, 3, 4}, kStreet);
+  b.way(10, {1, 2, 3, 4}, kTertiary);
   const std::vector<Vec2> before = line(10);
   round();
   EXPECT_THAT(b.find_way(10)->nodes, ElementsAre(1, 2, 3, 4));
@@ -103,8 +103,8 @@ TEST_F(RoundBendsTest, WhatTurnsGentlyOrHardlyMovesStays) {
 
 TEST_F(RoundBendsTest, JunctionsAndTheirMouthsStay) {
   b.node(1, 200, 0).node(2, 100, 0).node(3, 100, 100).node(4, 0, 0);
-  b.way(10, {1, 2, 3}, kStreet).way(11, {2, 4}, kStreet);  // three roads meet in the corner
-  b.node(5, 0, 200).node(6, 0, 212).node(7, 100, 212).way(12, {5, 6, 7}, kStreet);
+  b.way(10, {1, 2, 3}, kTertiary).way(11, {2, 4}, kTertiary);  // three roads meet in the corner
+  b.node(5, 0, 200).node(6, 0, 212).node(7, 100, 212).way(12, {5, 6, 7}, kTertiary);
   round();
   EXPECT_THAT(b.find_way(10)->nodes, SizeIs(3));
   EXPECT_NEAR(b.east(6), 0, 1e-6) << "12 m from the end of the road";
@@ -113,7 +113,7 @@ TEST_F(RoundBendsTest, JunctionsAndTheirMouthsStay) {
 
 TEST_F(RoundBendsTest, ABendGoesOnOverTheEndsOfWays) {
   b.node(1, 200, 0).node(2, 100, 0).node(3, 100, 100).node(4, 60, -40);
-  b.way(10, {1, 2}, kStreet).way(11, {3, 2}, kStreet);
+  b.way(10, {1, 2}, kTertiary).way(11, {3, 2}, kTertiary);
   b.way(12, {2, 4}, {{"highway", "footway"}});
   round();
   EXPECT_GT(b.east(2), 102.0);
@@ -133,11 +133,11 @@ TEST_F(RoundBendsTest, ABendGoesOnOverTheEndsOfWays) {
 TEST_F(RoundBendsTest, RoundaboutsAreDrawnRoundAndPathsStay) {
   b.node(1, 0, 0).node(2, 40, 0).node(3, 40, 40).node(4, 0, 40).node(5, 150, 0).node(6, -80, 0);
   b.way(10, {1, 2, 3, 4, 1}, {{"highway", "tertiary"}, {"junction", "roundabout"}});
-  b.way(11, {2, 5}, kStreet).way(12, {6, 1}, kStreet);
+  b.way(11, {2, 5}, kTertiary).way(12, {6, 1}, kTertiary);
   b.node(7, 300, 0).node(8, 400, 0).node(9, 400, 100).way(13, {7, 8, 9}, {{"highway", "footway"}});
   round();
   round_coarse_rings(b.map, b.log);
-  EXPECT_THAT(b.find_way(10)->nodes, testing::IsSupersetOf({1, 2, 3, 4}));
+  EXPECT_THAT(b.find_way(10)->nodes, ::testing::IsSupersetOf({1, 2, 3, 4}));
   for (const Vec2& point : line(10))
     EXPECT_NEAR((point - Vec2(20, 20)).norm(), std::sqrt(800), 0.1);
   EXPECT_LT(sharpest(10), 16.0);
@@ -166,7 +166,7 @@ TEST_F(RoundBendsTest, ACyclewayGetsTheRadiusOfBicycles) {
 TEST_F(RoundBendsTest, ACyclewayStaysWhereItMeetsOtherWays) {
   // before a road netconvert shapes the junction by the first points of what meets there
   b.node(1, 0, 0).node(2, 40, 0).node(3, 40, 12).node(4, 0, 12).node(5, 80, 12);
-  b.way(10, {1, 2, 3}, kCycleway).way(11, {4, 3, 5}, kStreet);
+  b.way(10, {1, 2, 3}, kCycleway).way(11, {4, 3, 5}, kTertiary);
   // a footway joins at the corner
   b.node(6, 0, 100).node(7, 40, 100).node(8, 40, 140).node(9, 80, 100);
   b.way(12, {6, 7, 8}, kCycleway).way(13, {7, 9}, {{"highway", "footway"}});
@@ -180,7 +180,7 @@ TEST_F(RoundBendsTest, ACyclewayStaysWhereItMeetsOtherWays) {
 // a loop road begins and ends in one junction
 TEST_F(RoundBendsTest, ALoopIsRoundedOnce) {
   b.node(1, 0, 0).node(2, 100, 0).node(3, 100, 100).node(4, 0, 100).node(5, -100, 0);
-  b.way(10, {1, 2, 3}, kStreet).way(11, {3, 4, 1}, kStreet).way(12, {5, 1}, kStreet);
+  b.way(10, {1, 2, 3}, kTertiary).way(11, {3, 4, 1}, kTertiary).way(12, {5, 1}, kTertiary);
   round();
   EXPECT_EQ(b.log.count("bends_rounded"), 1);
   EXPECT_LT(sharpest(10), 20.0);

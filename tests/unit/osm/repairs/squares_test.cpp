@@ -8,7 +8,7 @@
 namespace sumogamma::osm {
 namespace {
 
-using testing::SizeIs;
+using ::testing::SizeIs;
 
 /*      5 (40 m)
         |

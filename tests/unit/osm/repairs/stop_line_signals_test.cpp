@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "support/map_builder.h"
+#include "support/osm/street_tags.h"
 
 namespace sumogamma::osm {
 namespace {
 
-const Tags kStreet = {{"highway", "residential"}};
 const Tags kOneWay = {{"highway", "primary"}, {"oneway", "yes"}, {"name", "Ring"}};
 
 TEST(StopLineSignals, MovesStopLinesToTheirJunction) {

@@ -8,8 +8,8 @@
 namespace sumogamma::osm {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 RoadNetwork with_junction(const std::string& name, const std::string& type) {
   RoadNetwork road;
