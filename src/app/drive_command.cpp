@@ -2,6 +2,7 @@
 #include "app/drive_options.h"
 #include "app/validators.h"
 #include "ego/planners.h"
+#include "scene/behavior_preset.h"
 
 namespace sumogamma {
 
@@ -33,9 +34,11 @@ void add_world_options(CLI::App& command, DriveOptions& options) {
                   "who else is driven by GAMMA: all, none, types, vTypes, ids, patterns")
       ->delimiter(',');
   command
-      .add_option("--preset", run.preset,
-                  "how people behave: compliant, observed or unregulated (nobody keeps any rule)")
-      ->check(CLI::IsMember({"compliant", "observed", "unregulated"}));
+      .add_option(
+          "--preset", run.preset,
+          "how people behave: compliant, observed, interaction or unregulated (nobody keeps "
+          "any rule)")
+      ->check(CLI::IsMember(preset_names()));
   command
       .add_option("--backend", run.backend,
                   "traci (SUMO as a child process) or libsumo (in process)")

@@ -5,6 +5,7 @@
 #include "app/validators.h"
 #include "base/error.h"
 #include "io/trajectory_tables.h"
+#include "scene/behavior_preset.h"
 
 namespace sumogamma {
 
@@ -53,9 +54,10 @@ void add_sumo_options(CLI::App& command, RunOptions& options) {
       ->check(CLI::IsMember({"traci", "libsumo"}));
   command
       .add_option("--preset", options.preset,
-                  "how people behave: compliant (keep every rule), observed (as recorded) or "
-                  "unregulated (nobody keeps any)")
-      ->check(CLI::IsMember({"compliant", "observed", "unregulated"}));
+                  "how people behave: compliant (keep every rule), observed (as recorded), "
+                  "interaction (drivers of cars as in those recordings) or unregulated (nobody "
+                  "keeps any rule)")
+      ->check(CLI::IsMember(preset_names()));
   command.add_option("--connect", options.connect,
                      "HOST:PORT of a SUMO or sumo-gui started with --remote-port");
   command

@@ -18,6 +18,7 @@
 #include "io/output_file.h"
 #include "io/output_folder.h"
 #include "realism/score_report.h"
+#include "scene/behavior_preset.h"
 
 namespace sumogamma {
 
@@ -30,6 +31,7 @@ struct ScoreOptions {
   fs::path output, map;
   std::vector<std::string> methods;
   std::size_t rollouts = 32;
+  std::string preset{name_of(ScoreSettings{}.preset)};
   bool force = false;
   SceneArguments reading;
 };
@@ -65,13 +67,11 @@ std::optional<Scored> score_file(const std::string& file, const ScoreOptions& op
 
 void write_results(const ScoreOptions& options, const ScoreSettings& settings,
                    const std::vector<Scored>& all, const std::vector<std::string>& left_out) {
-  nlohmann::ordered_json json{{"version", SUMOGAMMA_VERSION},
-                              {"seed", settings.seed},
-                              {"rollouts", settings.rollouts},
-                              {"point", options.reading.point},
-                              {"boxes", options.reading.boxes},
-                              {"window_s", kScoreStep * kWindowSteps},
-                              {"left_out", left_out}};
+  nlohmann::ordered_json json{
+      {"version", SUMOGAMMA_VERSION},          {"seed", settings.seed},
+      {"rollouts", settings.rollouts},         {"preset", options.preset},
+      {"point", options.reading.point},        {"boxes", options.reading.boxes},
+      {"window_s", kScoreStep * kWindowSteps}, {"left_out", left_out}};
   json["weights"] = nlohmann::ordered_json::object();
   for (const ScoreFeatureInfo& info : score_features()) json["weights"][info.name] = info.weight;
   json["recordings"] = nlohmann::ordered_json::array();
@@ -120,7 +120,11 @@ int score(const ScoreOptions& options, const CommonOptions& common) {
   }
   settings.seed = common.seed;
   settings.rollouts = options.rollouts;
-  settings.model = read_config({}, common.set).model;
+  std::vector<std::string> set = common.set;
+  set.push_back("behavior.preset=" + options.preset);
+  const ScenarioConfig config = read_config({}, set);
+  settings.model = config.model;
+  settings.preset = config.preset;
   std::optional<OutputFolder> folder;
   if (!options.output.empty()) {
     require_without(options.output, "score.json", options.force);
@@ -165,6 +169,11 @@ CommandRunner add_score_command(CLI::App& parent) {
       ->add_option("--seeds", options->rollouts,
                    "rollouts of a window by methods that draw: seeds --seed, --seed + 1 …")
       ->check(whole_number(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--preset", options->preset,
+                   "how GAMMA's drivers behave on a network, as of run")
+      ->check(CLI::IsMember(preset_names()))
       ->capture_default_str();
   command->add_flag("--force", options->force, "write into a folder that holds other results");
   add_scene_reading_options(*command, options->reading);

@@ -85,6 +85,7 @@ constexpr std::array kComplianceFields{
     ComplianceField{"free_speed", &Compliance::free_speed, false},
     ComplianceField{"free_speed_spread", &Compliance::free_speed_spread, false},
     ComplianceField{"headway_deviation", &Compliance::headway_deviation, false},
+    ComplianceField{"place_deviation", &Compliance::place_deviation, false},
     ComplianceField{"responsibility_least", &Compliance::responsibility_least, true},
     ComplianceField{"responsibility_most", &Compliance::responsibility_most, true},
     ComplianceField{"attention_least", &Compliance::attention_least, false},
@@ -160,9 +161,7 @@ void bind_demand(ScenarioConfig& config, std::vector<Binding>& bindings) {
 
 void bind_preset(BehaviorPreset& preset, std::vector<Binding>& bindings) {
   Choice<BehaviorPreset> choice{&preset, {}};
-  for (const BehaviorPreset one :
-       {BehaviorPreset::Compliant, BehaviorPreset::Observed, BehaviorPreset::Unregulated})
-    choice.words.emplace_back(name_of(one), one);
+  for (const BehaviorPreset one : kBehaviorPresets) choice.words.emplace_back(name_of(one), one);
   bindings.push_back({"behavior.preset", choice});
 }
 

@@ -158,6 +158,7 @@ Json behavior_json(const RunResults& results) {
                           {"critical_gap", type.critical_gap},
                           {"headway", type.headway},
                           {"headway_deviation", own.headway_deviation},
+                          {"place_deviation", own.place_deviation},
                           {"speed_factor", own.speed_factor},
                           {"speed_factor_deviation", own.speed_factor_deviation},
                           {"responsibility_least", own.responsibility_least},

@@ -64,18 +64,6 @@ void show_signals(const RoadNetwork& network, double time, RoadState& road) {
   }
 }
 
-/// As drivers of cars were measured on recordings of INTERACTION's, none of which is
-/// scored here: from 0 to 5 m/s with 1.3 to 1.6 m/s^2; behind others at equal speed 1.6 to 2.0 s
-/// apart, by the median of each driver, with a coefficient of variation of 0.34 to 0.50.
-void drive_as_measured(AgentType& type) {
-  constexpr double kAcceleration = 1.5, kHeadway = 1.75, kHeadwayDeviation = 0.4;
-  constexpr double kNarrow = 1.2;  // two-wheelers, of which nobody measured that [m]
-  if (type.width < kNarrow) return;
-  type.max_acceleration = std::min(type.max_acceleration, kAcceleration);
-  type.headway = kHeadway;
-  type.compliance.headway_deviation = kHeadwayDeviation;
-}
-
 }  // namespace
 
 RecordedRoad put_on_road(const std::filesystem::path& network, Workers& workers,
@@ -153,10 +141,10 @@ RoutePlace place_on_route(const RoadNetwork& network, const MatchedRoute& route,
 }
 
 RoadLoop::RoadLoop(const RecordedScene& scene, const RecordedRoad& road,
-                   const ModelOptions& options, Workers& workers)
+                   const ModelOptions& options, BehaviorPreset preset, Workers& workers)
     : scene_(scene), road_(road), workers_(workers) {
   model_.types = scene.types;
-  for (AgentType& type : model_.types) drive_as_measured(type);
+  apply_preset(preset, model_.types);
   model_.kinematics = build_kinematic_tables(model_.types, workers);
   model_.road = road.road.network;
   model_.conflicts = road.road.conflicts;

@@ -11,6 +11,7 @@
 #include "realism/window_cast.h"
 #include "road/path.h"
 #include "road/road.h"
+#include "scene/behavior_preset.h"
 
 namespace sumogamma {
 
@@ -50,12 +51,11 @@ RoutePlace place_on_route(const RoadNetwork& network, const MatchedRoute& route,
 /// Everybody is moved by the model in steps of 0.05 s.
 ///
 /// Given as for ClosedLoop, but for the destination: it is the matched route. Drawn from seed and
-/// agent: what a run draws, and limit_factor. Those wider than 1.2 m start with 1.5 m/s^2 at most
-/// and keep a headway of 1.75 s by a factor with a deviation of 0.4 (measured at other places).
+/// agent: what a run draws under the preset, and limit_factor.
 class RoadLoop {
  public:
   RoadLoop(const RecordedScene& scene, const RecordedRoad& road, const ModelOptions& options,
-           Workers& workers);
+           BehaviorPreset preset, Workers& workers);
 
   /// One rollout of a window.
   Rollout drive(const ScoreWindow& window, std::uint64_t seed, EntryCounts& entries) const;

@@ -141,7 +141,7 @@ RecordingScore score_recording(const RecordedScene& scene, const ScoreSettings& 
   std::optional<RoadLoop> roads;
   std::optional<SumoLoop> sumo;
   if (settings.road) {
-    roads.emplace(scene, *settings.road, settings.model, workers);
+    roads.emplace(scene, *settings.road, settings.model, settings.preset, workers);
     sumo.emplace(scene, *settings.road);
   }
   const Scoring scoring{scene,

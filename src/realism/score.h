@@ -30,6 +30,7 @@ struct ScoreSettings {
   std::uint64_t seed = 1;     ///< of the first rollout; the next one's is one more
   std::size_t rollouts = 32;  ///< of methods that draw; the others have one
   ModelOptions model;
+  BehaviorPreset preset = BehaviorPreset::Interaction;  ///< of GAMMA on a network
   const RecordedRoad* road = nullptr;  ///< the network of the place; null: open ground
 };
 

@@ -20,6 +20,8 @@ struct Compliance {
                                  ///< speed_factor says
   double free_speed_spread = 0;  ///< of that to both sides, uniform [m/s]
   double headway_deviation = 0;  ///< of the factor on the type's headway, whose mean is 1
+  double place_deviation = 0;    ///< of the place beside the middle of its lane that a driver likes
+                                 ///< [m]; 0: nearly the middle (draw_path_offset)
   double responsibility_least = 0.5, responsibility_most = 0.6;  ///< gamma of Eq. 5, uniform
   double attention_least = 0.9, attention_most = 1.3;  ///< factor on the reach of Att, uniform
 };

@@ -195,7 +195,10 @@ double draw_path_offset(const Model& model, const AgentType& type, std::uint64_t
   const double kerb_side = model.road.left_hand ? 1.0 : -1.0;
   const double draw = random_uniform(seed, id.value, 1, Draw::Intention);
   if (type.kinematics == Kinematics::Holonomic) return kerb_side * (0.3 + 0.7 * draw);
-  if (type.width < 1.2) return kerb_side * (0.2 + 0.7 * draw);
+  if (is_narrow(type.width)) return kerb_side * (0.2 + 0.7 * draw);
+  if (type.compliance.place_deviation > 0.0)
+    return type.compliance.place_deviation *
+           std::clamp(random_normal(seed, id.value, 1, Draw::Intention), -2.0, 2.0);
   return 0.3 * (draw - 0.5);
 }
 

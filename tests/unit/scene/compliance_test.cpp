@@ -101,7 +101,16 @@ TEST(BehaviorPreset, CompliantIsTheDefaultAndObservedSaysWhatWasMeasured) {
   EXPECT_EQ(of("bicycle").compliance.red_light_running, 0.26);
   EXPECT_EQ(of("electric_tricycle").compliance.red_light_running, 0.18);
   EXPECT_GT(of("pedestrian").compliance.jaywalking_rate, 0.0);
+  apply_preset(BehaviorPreset::Interaction, types);
+  EXPECT_EQ(of("car").headway, 1.76);
+  EXPECT_EQ(of("car").compliance.place_deviation, 0.58);
+  EXPECT_EQ(of("motorcycle").compliance.place_deviation, 0.0);
+  EXPECT_EQ(of("motorcycle").compliance.red_light_running, 0.0);
+  const AgentTypeTable own = default_agent_types();
+  EXPECT_EQ(of("bicycle").headway, type_of(own, find_agent_type(own, "bicycle")).headway);
   apply_preset(BehaviorPreset::Compliant, types);
+  EXPECT_EQ(of("car").headway, type_of(own, find_agent_type(own, "car")).headway);
+  EXPECT_EQ(of("car").min_gap, type_of(own, find_agent_type(own, "car")).min_gap);
   for (const AgentType& type : types) {
     EXPECT_EQ(type.compliance.red_light_running, 0.0) << type.name;
     EXPECT_EQ(type.compliance.jaywalking_rate, 0.0) << type.name;

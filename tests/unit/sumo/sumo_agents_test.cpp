@@ -257,5 +257,22 @@ TEST(DrawPathOffset, TheSlowKeepToTheKerb) {
   }
 }
 
+TEST(DrawPathOffset, DriversSpreadOverTheirLanesAsTheirTypeSays) {
+  Model model = small_model();
+  AgentType car = type_of(model.types, find_agent_type(model.types, "car"));
+  car.compliance.place_deviation = 0.58;
+  double sum = 0, square = 0;
+  constexpr int kDrivers = 4000;
+  for (std::uint32_t id = 0; id < kDrivers; ++id) {
+    const double offset = draw_path_offset(model, car, 1, {id});
+    EXPECT_LE(std::abs(offset), 2 * 0.58);
+    sum += offset / kDrivers;
+    square += offset * offset / kDrivers;
+  }
+  EXPECT_NEAR(sum, 0.0, 0.03);
+  // cutting off at two deviations takes some of the spread
+  EXPECT_NEAR(std::sqrt(square), 0.55, 0.02);
+}
+
 }  // namespace
 }  // namespace sumogamma
