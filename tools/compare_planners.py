@@ -59,7 +59,7 @@ def wilson(count, n, z=1.959964):
         return 0.0, 0.0, 1.0
     share, spread = count / n, z * math.sqrt(count / n * (1 - count / n) / n + z * z / (4 * n * n))
     middle, scale = share + z * z / (2 * n), 1 + z * z / n
-    return share, (middle - spread) / scale, (middle + spread) / scale
+    return share, 0.0 if count == 0 else (middle - spread) / scale, 1.0 if count == n else (middle + spread) / scale
 
 
 def bootstrap(strata, key):
@@ -151,7 +151,7 @@ def newcombe(first, second):
 
 
 def share_cell(values):
-    share, low, high = (abs(100 * x) for x in wilson(sum(values), len(values)))
+    share, low, high = (100 * x for x in wilson(sum(values), len(values)))
     return f"{share:.1f} [{low:.1f}, {high:.1f}]"
 
 
