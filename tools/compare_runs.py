@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Prints GAMMA beside plain SUMO as a Markdown table, from run folders named MAP-AGENTS-SEED-CONTROL.
 
-    tools/compare_runs.py OUT        OUT: what tools/measure.sh wrote
+    tools/compare_runs.py OUT [--spread]      OUT: what tools/measure.sh wrote
 
 One row a map and number of agents: sums over the seeds, or means where a mean is asked for. GAMMA's figure stands first, plain SUMO's
-(--control none) second. Travel time is the ratio over those who arrived in both runs of a seed.
+(--control none) second. Travel time is the ratio over those who arrived in both runs of a seed. With --spread mean ± standard
+deviation a run instead, of fewer figures; a seed is locked where more than half of those under way at its end have been stuck.
 """
 import csv
 import os
+import statistics
 import sys
 from collections import defaultdict
 
@@ -32,8 +34,35 @@ def travel_ratio(both):
     return gamma / plain if plain > 0 else float("nan")
 
 
+def is_locked(run):
+    return run["flow"]["stuck_agents"] > 0.5 * (run["agents"]["inserted"] - run["agents"]["arrived"])
+
+
+def print_spread(runs):
+    """Mean ± standard deviation over the seeds, a row a map and number of agents."""
+    figures = [("arrived", lambda r: r["agents"]["arrived"]), ("colliding pairs", lambda r: r["collisions"]["unique_pairs"]),
+               ("deep pairs", lambda r: r["collisions"]["deep_pairs"]), ("stuck", lambda r: r["flow"]["stuck_agents"]),
+               ("longest standstill s", lambda r: r["flow"]["longest_standstill_s"]), ("mean speed m/s", lambda r: r["flow"]["mean_speed"])]
+
+    def cell(found, figure):
+        values = [figure(run) for run in found]
+        return f"{statistics.mean(values):.1f} ± {statistics.stdev(values) if len(values) > 1 else 0:.1f}"
+
+    columns = ["map", "agents", "seeds"] + [name for name, _ in figures] + ["seeds with somebody stuck", "locked"]
+    print("| " + " | ".join(columns) + " |\n|---" + "|---:" * (len(columns) - 1) + "|")
+    for (name, agents), both in sorted(runs.items()):
+        sides = [both["all"], both["none"]]
+        if not all(sides):
+            continue
+        cells = [name, str(agents), " / ".join(str(len(side)) for side in sides)]
+        cells += [" / ".join(cell(side, figure) for side in sides) for _, figure in figures]
+        cells.append(" / ".join(str(sum(run["flow"]["stuck_agents"] > 0 for run in side)) for side in sides))
+        cells.append(" / ".join(str(sum(map(is_locked, side))) for side in sides))
+        print("| " + " | ".join(cells) + " |")
+
+
 def main():
-    if len(sys.argv) != 2:
+    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["--spread"]):
         sys.exit(__doc__)
     runs = defaultdict(lambda: {"all": [], "none": []})
     folders = defaultdict(lambda: {"all": {}, "none": {}})
@@ -43,6 +72,9 @@ def main():
     versions = {run.get("metrics_version") for both in runs.values() for control in both.values() for run in control}
     if len(versions) > 1:
         print("the runs were measured by different definitions (metrics_version): their figures can't be compared", file=sys.stderr)
+    if len(sys.argv) == 3:
+        print_spread(runs)
+        return
     columns = ["map", "agents", "seeds", "arrived", "travel time", "colliding pairs (deep)", "pairs per agent-hour", "stuck", "red lights", "wrong way s",
                "sidewalk s", "mean speed m/s", "accel p95", "jerk p95", "real-time factor"]
     print("| " + " | ".join(columns) + " |")

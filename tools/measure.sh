@@ -3,7 +3,7 @@
 #   tools/measure.sh OUT MAP...      OUT: folder for scenarios and runs; MAP: .osm or .osm.pbf files
 # Goes on where it was stopped: imports and runs that OUT has are kept. Another program needs another OUT.
 # Environment: PROGRAM (build/release/sumo-gamma), AGENTS ("100 300"), SEEDS ("1 2 3 4 5"), DURATION (600 s), THREADS (1),
-# JOBS (1): runs at once.
+# OPTIONS: further ones of `run` ("--preset unregulated"), TABLE (--spread: means and deviations), JOBS (1): runs at once.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib/measuring.sh"
 if (($# < 2)); then
@@ -13,6 +13,7 @@ fi
 out=$1
 shift
 begin_measuring "$out"
+read -ra options <<< "${OPTIONS:-}"
 for map in "$@"; do
   name=$(basename "$map")
   name=${name%%.*}
@@ -22,10 +23,10 @@ for map in "$@"; do
     for seed in ${SEEDS:-1 2 3 4 5}; do
       for control in all none; do
         in_parallel run_once "$out/$name-$agents-$seed-$control" "$scenario" --agents "$agents" --duration "${DURATION:-600}" \
-          --seed "$seed" --threads "${THREADS:-1}" --control "$control"
+          --seed "$seed" --threads "${THREADS:-1}" --control "$control" "${options[@]}"
       done
     done
   done
 done
 wait
-"$project/tools/compare_runs.py" "$out"
+"$project/tools/compare_runs.py" "$out" ${TABLE:+"$TABLE"}

@@ -3,7 +3,8 @@
 #   tools/planner_drives.sh OUT MAPS      MAPS: folder with meskel_square.osm, magic.osm and highway.osm
 # Goes on where it was stopped: scenarios and episodes that OUT has are kept. Another program needs another OUT.
 # Environment: PROGRAM (build/release/sumo-gamma), SEEDS (200: from 1 on), PLANNERS, SITES, ARM (unregulated: a name for what OPTIONS
-# ask; its folder in OUT), OPTIONS ("--preset unregulated"), JOBS (1): drives at once.
+# ask; its folder in OUT), OPTIONS ("--preset unregulated"), AGENTS: alive in a drive, instead of each site's own number; JOBS (1): drives
+# at once.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib/measuring.sh"
 if (($# != 2)); then
@@ -27,7 +28,7 @@ drive_once() {
   local folder=$out/$arm/$1/$2 reference=()
   [[ $2 == gamma ]] || reference=(--reference "$out/$arm/$1/gamma")
   mkdir -p "${folder%/*}"
-  "$program" drive "$out/maps/$1" -o "$folder" --seeds "1..$3" --planner "$2" "--window=${window[$1]}" --agents "${agents[$1]}" \
+  "$program" drive "$out/maps/$1" -o "$folder" --seeds "1..$3" --planner "$2" "--window=${window[$1]}" --agents "${AGENTS:-${agents[$1]}}" \
     --threads 1 --quiet "${reference[@]}" "${options[@]}" >> "$folder.txt" 2>&1 < /dev/null ||
     echo "$arm $1 $2: $(tail -1 "$folder.txt")" >&2
 }

@@ -292,8 +292,7 @@ class Episode {
     }
     if (replay_) {
       replay_->close();
-      write_replay_page(drive_.replay / ("replay_" + std::to_string(seed_) + ".html"),
-                        drive_.replay / "replay.bin");
+      write_replay_page(replay_page(drive_.replay, seed_), drive_.replay / "replay.bin");
       std::filesystem::remove(drive_.replay / "replay.bin");
     }
     backend_->close();
@@ -320,6 +319,10 @@ class Episode {
 };
 
 }  // namespace
+
+std::filesystem::path replay_page(const std::filesystem::path& folder, std::uint64_t seed) {
+  return folder / ("replay_" + std::to_string(seed) + ".html");
+}
 
 std::optional<EpisodeResult> run_episode(Drive& drive, std::uint64_t seed) {
   return Episode(drive, seed).run();

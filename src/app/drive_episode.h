@@ -28,6 +28,9 @@ inline constexpr const char* kEgoId = "sumo-gamma.ego";
 /// Of the vType of such an ego: its own, whatever the demand calls its types.
 inline constexpr const char* kEgoTypeId = "sumo-gamma.ego";
 
+/// The page that shows an episode.
+std::filesystem::path replay_page(const std::filesystem::path& folder, std::uint64_t seed);
+
 /// One episode from the start of SUMO to its end; nothing where the user interrupted it. Throws
 /// SumoError where SUMO fails, and Error where no start has room or the ego can't be driven.
 std::optional<EpisodeResult> run_episode(Drive& drive, std::uint64_t seed);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <exception>
 #include <utility>
 
 #include "app/drive_episode.h"
@@ -104,14 +105,21 @@ void require_same_drive(const std::filesystem::path& folder, const Json& setting
   throw Error(folder.string(), "holds another drive, choose another folder");
 }
 
-/// Makes the folder this drive's own, or finds that it is.
+bool has_episodes(const std::filesystem::path& folder) {
+  const std::filesystem::path episodes = folder / "episodes";
+  return std::filesystem::exists(episodes) && !std::filesystem::is_empty(episodes);
+}
+
+/// Makes the folder this drive's own, or finds that it is. One whose drive came to nothing (a
+/// window without a lane, say) is free for the next.
 void claim(const std::filesystem::path& folder, const Json& settings) {
   make_output_folder(folder);
-  if (std::filesystem::exists(folder / kSettingsFile)) {
+  const bool is_ours = std::filesystem::exists(folder / kSettingsFile);
+  if (is_ours && has_episodes(folder)) {
     require_same_drive(folder, settings);
   } else {
     for (const char* const file : {"results.json", "drive.json"})
-      if (std::filesystem::exists(folder / file))
+      if (!is_ours && std::filesystem::exists(folder / file))
         throw Error(folder.string(),
                     "holds " + std::string(file) + " of something else, choose another folder");
     write_file(folder / kSettingsFile, settings.dump(2) + "\n");
@@ -136,10 +144,25 @@ bool is_done(const std::filesystem::path& folder, std::uint64_t seed) {
   return !episode.is_null() && episode["episode"]["outcome"] != outcome::kClientFailed;
 }
 
-Seeds left_of_drive(const std::filesystem::path& folder, const Seeds& seeds) {
+/// Seeds of which a page is asked for. Throws Error where one is none of `seeds`.
+Seeds replays_of(const DriveOptions& options, const Seeds& seeds) {
+  if (options.replay.empty()) return {};
+  Seeds replays = parse_seeds("--replay", options.replay);
+  for (const std::uint64_t seed : replays)
+    if (!std::binary_search(seeds.begin(), seeds.end(), seed))
+      throw Error("--replay",
+                  "seed " + std::to_string(seed) + " is none of --seeds: add it there, too");
+  return replays;
+}
+
+/// Those that aren't done, or lack the page that is asked for: of a planner in the box, which
+/// drives the same again.
+Seeds left_of_drive(const std::filesystem::path& folder, const Seeds& seeds, const Seeds& replays) {
   Seeds left;
-  std::copy_if(seeds.begin(), seeds.end(), std::back_inserter(left),
-               [&](std::uint64_t seed) { return !is_done(folder, seed); });
+  std::copy_if(seeds.begin(), seeds.end(), std::back_inserter(left), [&](std::uint64_t seed) {
+    return !is_done(folder, seed) || (std::binary_search(replays.begin(), replays.end(), seed) &&
+                                      !std::filesystem::exists(replay_page(folder, seed)));
+  });
   return left;
 }
 
@@ -239,12 +262,11 @@ struct Ended {
 };
 
 /// Episodes one after the other until none is left, or nobody drives any more.
-Ended drive_episodes(Drive& drive, const DriveOptions& options, const Seeds& seeds, bool quiet) {
+Ended drive_episodes(Drive& drive, const std::filesystem::path& folder, Seeds left,
+                     const Seeds& replays, bool quiet) {
   Ended ended;
-  const std::filesystem::path& folder = options.run.output;
-  const Seeds replays = options.replay.empty() ? Seeds() : parse_seeds("--replay", options.replay);
-  Seeds left = left_of_drive(folder, seeds);
-  Progress progress("drive", static_cast<double>(seeds.size()), "episodes", quiet);
+  const std::size_t wanted = left.size();
+  Progress progress("drive", static_cast<double>(wanted), "episodes", quiet);
   while (!left.empty() && !interrupted()) {
     std::uint64_t seed = left.front();
     if (drive.external) {
@@ -260,7 +282,7 @@ Ended drive_episodes(Drive& drive, const DriveOptions& options, const Seeds& see
     write_episode(folder, *result);
     ended.failed += result->outcome == outcome::kClientFailed ? 1 : 0;
     std::erase(left, seed);
-    progress.update(static_cast<double>(seeds.size() - left.size()),
+    progress.update(static_cast<double>(wanted - left.size()),
                     fmt::format("seed {}: {}", seed, result->outcome));
   }
   ended.interrupted = interrupted();
@@ -322,7 +344,8 @@ Seeds parse_seeds(const std::string& option, const std::string& text) {
 
 int drive_session(const DriveOptions& options, const CommonOptions& common) {
   const Shard shard = parse_shard(options.shard);
-  const Seeds seeds = shard_of(parse_seeds("--seeds", options.seeds), shard);
+  const Seeds all = parse_seeds("--seeds", options.seeds);
+  const Seeds seeds = shard_of(all, shard), replays = replays_of(options, all);
   Drive drive = make_drive(options, common);
   const std::filesystem::path& folder = options.run.output;
   make_output_folder(folder);
@@ -332,7 +355,8 @@ int drive_session(const DriveOptions& options, const CommonOptions& common) {
   for (const auto& from : options.merge) merge_from(from, folder, settings, seeds);
 
   Ended ended;
-  const Seeds left = left_of_drive(folder, seeds);
+  std::exception_ptr failure;
+  const Seeds left = left_of_drive(folder, seeds, options.address.empty() ? replays : Seeds());
   if (!left.empty()) {
     provide_type(drive, folder);
     if (!common.quiet) print(stderr, "drive: reading {}\n", drive.plan.input.network.string());
@@ -346,7 +370,11 @@ int drive_session(const DriveOptions& options, const CommonOptions& common) {
                                         hello_of(drive, left), [] { return interrupted(); });
       print(stderr, "drive: waits for an ego at {}\n", drive.external->address());
     }
-    ended = drive_episodes(drive, options, seeds, common.quiet);
+    try {
+      ended = drive_episodes(drive, folder, left, replays, common.quiet);
+    } catch (...) {  // SUMO failed, say: what was driven until then has its tables
+      failure = std::current_exception();
+    }
   }
   std::vector<Json> episodes;
   std::size_t done = 0;
@@ -356,8 +384,11 @@ int drive_session(const DriveOptions& options, const CommonOptions& common) {
     done += episode["episode"]["outcome"] != outcome::kClientFailed ? 1 : 0;
     episodes.push_back(std::move(episode));
   }
-  write_drive(folder, settings, episodes);
-  print_summary(folder, episodes);
+  if (!failure || !episodes.empty()) {
+    write_drive(folder, settings, episodes);
+    print_summary(folder, episodes);
+  }
+  if (failure) std::rethrow_exception(failure);
   return exit_code(drive, ended, done, seeds.size());
 }
 

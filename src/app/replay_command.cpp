@@ -68,8 +68,8 @@ double checked_time(const std::string& option, double time, const PageCamera& ca
   return std::clamp(time, camera.begin(), camera.end());
 }
 
-fs::path make_picture(const ReplayOptions& options, const fs::path& page, const fs::path& folder) {
-  const fs::path file = options.output.empty() ? folder / "replay.png" : fs::path(options.output);
+fs::path make_picture(const ReplayOptions& options, const fs::path& page, const fs::path& usual) {
+  const fs::path file = options.output.empty() ? usual : fs::path(options.output);
   if (file.extension() != ".png")
     throw Error("--output " + file.string(), "is no name of a picture, expected FILE.png");
   PageCamera camera(page, shot_of(options));
@@ -134,6 +134,21 @@ void require_recording(const fs::path& folder) {
                 "holds no replay.bin, expected the output folder of `sumo-gamma run --replay`");
 }
 
+/// A picture or video: of a run's recording, or of a page that is there, as drives leave them.
+fs::path picture_of(const ReplayOptions& options, const fs::path& shown, bool quiet) {
+  const ScratchFolder scratch;
+  const bool is_page = shown.extension() == ".html" && fs::is_regular_file(shown);
+  const fs::path page = is_page ? shown : scratch.path() / "replay.html";
+  if (!is_page) {
+    require_recording(shown);
+    write_replay_page(page, shown / "replay.bin");
+  }
+  if (!options.picture) return make_video(options, page, quiet);
+  fs::path usual = shown / "replay.png";
+  if (is_page) usual = fs::path(shown).replace_extension(".png");
+  return make_picture(options, page, usual);
+}
+
 int run_replay(const ReplayOptions& options, const CommonOptions& common) {
   const bool one = options.folders.size() == 1;
   if (!one && (!options.output.empty() || options.makes_picture()))
@@ -142,16 +157,12 @@ int run_replay(const ReplayOptions& options, const CommonOptions& common) {
   if (options.picture && !options.video.empty())
     throw Error("--picture", "and --video at once, make one after the other");
   for (const fs::path folder : options.folders) {
-    require_recording(folder);
     fs::path made;
     if (options.makes_picture()) {
-      const ScratchFolder scratch;
-      const fs::path page = scratch.path() / "replay.html";
-      write_replay_page(page, folder / "replay.bin");
-      made = options.picture ? make_picture(options, page, folder)
-                             : make_video(options, page, common.quiet);
+      made = picture_of(options, folder, common.quiet);
       if (made.empty()) return kExitInterrupted;
     } else {
+      require_recording(folder);
       made = options.output.empty() ? folder / "replay.html" : fs::path(options.output);
       require_page_name(made);
       write_replay_page(made, folder / "replay.bin");
@@ -188,7 +199,11 @@ CommandRunner add_replay_command(CLI::App& parent) {
   CLI::App* command = parent.add_subcommand(
       "replay", "make the replay page of a run again from what it recorded; a picture, a video");
   auto options = std::make_shared<ReplayOptions>();
-  command->add_option("DIR", options->folders, "output folder of `run --replay`")->required();
+  command
+      ->add_option("DIR", options->folders,
+                   "output folder of `run --replay`, or for pictures and videos a page, as `drive "
+                   "--replay` leaves")
+      ->required();
   command->add_option("-o,--output", options->output,
                       "where to write the page or picture (one DIR alone; default "
                       "DIR/replay.html, DIR/replay.png)");

@@ -34,7 +34,8 @@ ShareInterval wilson_interval(std::size_t count, std::size_t n) {
   const double middle = share + z * z / (2.0 * total);
   const double half = z * std::sqrt(share * (1.0 - share) / total + z * z / (4.0 * total * total));
   const double scale = 1.0 + z * z / total;
-  return {std::max(0.0, (middle - half) / scale), std::min(1.0, (middle + half) / scale)};
+  // at the ends exactly, whatever rounding leaves
+  return {count == 0 ? 0.0 : (middle - half) / scale, count == n ? 1.0 : (middle + half) / scale};
 }
 
 }  // namespace sumogamma

@@ -161,7 +161,9 @@ std::optional<EgoAction> ExternalEgo::answer(const EgoView& view, const json& me
     const auto number = message.find("step");
     if (number != message.end() && !number->is_number_integer())
       throw ProtocolError{"\"step\" is no whole number"};
-    const bool is_old = number != message.end() && number->get<std::int64_t>() < plan_;
+    const std::int64_t answered = number != message.end() ? number->get<std::int64_t>() : plan_;
+    if (answered > plan_) throw ProtocolError{"a \"step\" beyond the last observation's"};
+    const bool is_old = answered < plan_;
     const auto action = message.find("action");
     if (action == message.end()) throw ProtocolError{"a step without an \"action\""};
     const EgoAction asked = action_of(*action);

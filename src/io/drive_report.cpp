@@ -115,8 +115,12 @@ void adjust(std::vector<DriveFigure>& figures) {
     for (double& p : figures[k].p) p = adjusted[next++];
 }
 
+const std::string kNote =
+    "95 % intervals: Wilson's and Newcombe's of shares, BCa bootstrap over seeds of means. p: "
+    "McNemar's mid-p, bootstrap; of the first three figures adjusted after Holm.";
+
 std::string text_of(const IntervalEstimate& estimate) {
-  return fmt::format("{:.4g} [{:.4g}, {:.4g}]", estimate.value, estimate.low, estimate.high);
+  return fmt::format("{:.3g} [{:.3g}, {:.3g}]", estimate.value, estimate.low, estimate.high);
 }
 
 /// One panel: a point and its interval for each drive.
@@ -207,17 +211,14 @@ std::string drive_report_markdown(const DriveReport& report) {
       text += " " + text_of(figure.difference[k]) + fmt::format(" | {:.3g} |", figure.p[k]);
     text += "\n";
   }
-  return text +
-         "\n95 % intervals: Wilson's and Newcombe's of shares, BCa bootstrap over seeds of means. "
-         "p: "
-         "McNemar's mid-p, bootstrap; of the first three figures adjusted after Holm.\n";
+  return text + "\n" + kNote + "\n";
 }
 
 std::string drive_report_html(const DriveReport& report) {
   std::string page =
       "<!DOCTYPE html><html lang=\"en\"><meta charset=\"utf-8\"><title>Drives</title><style>body{"
       "font:14px sans-serif;margin:2em}td,th{padding:2px 10px;text-align:left;border-bottom:1px "
-      "solid #ddd}svg text{font-size:12px}</style>";
+      "solid #ddd}td+td{white-space:nowrap}svg text{font-size:12px}</style>";
   page +=
       fmt::format("<h1>Drives side by side</h1><p>{} paired seeds, {} left out for a gridlock</p>",
                   report.seeds, report.left_out);
@@ -236,7 +237,7 @@ std::string drive_report_html(const DriveReport& report) {
           "<td>" + text_of(figure.difference[k]) + fmt::format("</td><td>{:.3g}</td>", figure.p[k]);
     page += "</tr>";
   }
-  return page + "</table></html>\n";
+  return page + "</table><p>" + escaped(kNote) + "</p></html>\n";
 }
 
 }  // namespace sumogamma

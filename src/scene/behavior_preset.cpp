@@ -29,7 +29,7 @@ constexpr Observed kObserved[] = {
 /// was measured at each. Behind others at equal speed 1.63 to 1.97 s apart, by the median of each
 /// driver, with a coefficient of variation of 0.34 to 0.50; standing 2.0 to 2.9 m apart (medians);
 /// from 0 to 5 m/s with 1.3 to 1.6 m/s^2; beside the middle of their lanes by 0.47 to 0.73 m
-/// (deviation). People go first in 0.68 of 752 meetings with cars (CQUT).
+/// (deviation). People go first in 0.68 of 209 meetings with cars (CQUT, two places).
 void drive_as_at_interaction(AgentType& type) {
   constexpr double kHeadway = 1.76, kHeadwayDeviation = 0.4, kStandingGap = 2.4;
   constexpr double kAcceleration = 1.5, kPlaceDeviation = 0.58, kYielding = 0.68;

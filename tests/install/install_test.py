@@ -70,7 +70,7 @@ class Installed(unittest.TestCase):
     @unittest.skipIf(PYTHON == "none", "the Python module was not made: pybind11 is missing")
     def test_python_finds_the_library(self):
         path = os.path.join(self.prefix, "lib/python3/dist-packages")
-        script = ("import sumo_gamma\n"
+        script = ("import sumo_gamma, sumo_gamma_ego\n"
                   f"with sumo_gamma.Session({CROSSING!r}, duration=20, quiet=True) as session:\n"
                   "    while not session.finished: session.drive()\n"
                   "    print(session.state_hash)\n")

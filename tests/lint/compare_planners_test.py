@@ -9,7 +9,9 @@ import sys
 import tempfile
 
 COLUMNS = {"outcome": "goal", "contact": 0, "contact_at_fault": 0, "restricted_time_s": 10.0, "speed_change_per_m": 0.5, "mean_speed": 4.0,
-           "score_without_comfort": 0.9, "plans": 30, "driven_m": 50.0, "gridlock": 0}
+           "score_without_comfort": 0.9, "plans": 30, "driven_m": 50.0, "gridlock": 0, "contact_moving": 0, "near_miss": 0,
+           "mean_acceleration": 0.3, "mean_jerk": 0.5, "braking_share": 0.1, "braking_of_others_s": 0.0, "delay_of_others_s": 0.0,
+           "time_to_collision": 1.0, "score": 0.8}
 
 
 def write_drive(out, site, planner, episodes):
@@ -52,6 +54,14 @@ def main():
         assert row_of(of_a, "policy", "collisions")[4:] == ["0.008", "pomdp-gamma is better"], of_a
         assert row_of(of_a, "policy", "time to goal [s]")[2] == "+2.00 [+2.00, +2.00]", of_a
         assert row_of(of_a, "policy", "speed change [m/s per m]")[4:] == ["1.000", "not told apart"], of_a
+        every = subprocess.run([tool, out, "--all"], capture_output=True, text=True, check=True).stdout
+        assert every.startswith("23 seeds (2 locked up"), every
+        # 2 in 23 of one, 18 of the other, both on seed 1 alone (phi 0.163): Newcombe's interval by hand
+        contacts = row_of(every, "**collisions**, %")
+        assert contacts[1:3] == ["8.7 [2.4, 26.8]", "78.3 [58.1, 90.3]"], contacts
+        assert contacts[3] == "+69.6 [+44.8, +82.2], 0.000", contacts
+        assert row_of(every, "goal reached, %")[3] == "+0.0 [-14.3, +14.3], 1.000", every
+        assert row_of(every, "collisions per km driven")[1:3] == ["1.74", "15.65"], every
         empty = subprocess.run([tool, os.path.join(out, "a", "policy")], capture_output=True, text=True, check=False)
         assert empty.returncode != 0 and "no SITE/PLANNER" in empty.stderr, empty.stderr
     print("compare_planners: figures, intervals and p as worked out by hand")

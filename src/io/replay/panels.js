@@ -134,9 +134,9 @@ function showAgent(agent, step) {
   const now = tell('now', limitWords(state, bind, foe?.name ?? ''));
   now.classList.toggle('link', !!foe);
   now.onclick = foe ? () => follow(foe) : null;
-  tell('behaviour', control === 0 ? behaviourWords(agent) : 'as ' + kDrivers[control].replace(/ .*/, '') + ' has it');
+  tell('behaviour', control === 0 ? behaviourWords(agent) : kBehaviours[control]);
   // on wheels the road says more: their own limit is mostly the body's
-  tell('likes to go', map.types[agent.type].walks ? `${agent.behaviour.speed.toFixed(1)} m/s` : 'as the road allows');
+  tell('likes to go', control === 3 ? kBehaviours[control] : map.types[agent.type].walks ? `${agent.behaviour.speed.toFixed(1)} m/s` : 'as the road allows');
   tell('size', `${(agent.front - agent.back).toFixed(1)} × ${(agent.left - agent.right).toFixed(1)} m`);
   tell('under way', clockText(time - times[agent.first]));
   showSpace(agent, step, pose.h, control);

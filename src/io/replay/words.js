@@ -4,6 +4,8 @@
 const kReason = {none: 0, signal: 1, yield: 2, crossing: 3, blocked: 4, leader: 5, stop: 6, merge: 7, givesWay: 8, turningRoom: 9, letsIn: 10};
 const kBind = {none: 0, kinematic: 1, neighbour: 2, obstacle: 3, boundary: 4, direction: 5, road: 6, guard: 7, backing: 8};
 const kDrivers = ['GAMMA', 'SUMO', 'nobody: parked', 'a planner (the ego)'];
+// of those whom GAMMA doesn't drive
+const kBehaviours = ['', 'as SUMO has it', 'parked', 'as its planner decides'];
 
 /// What a colour or a line of the legend stands for.
 const kLimits = ['free', 'signal', 'gives way', 'leader', 'junction blocked', 'stop, lane change', 'keeps clear of others',

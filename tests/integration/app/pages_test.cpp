@@ -138,6 +138,12 @@ TEST_F(Pages, MakesAPicture) {
       program({"replay", run, "--picture", "5", "-o", file, "--size", "800x600"});
   ASSERT_EQ(made.exit_code, 0) << made.errors;
   EXPECT_EQ(png_size(read_file(file)), std::pair(800u, 600u));
+  // of a page alone, as a drive leaves it
+  const std::string page = (folder_ / "replay_7.html").string();
+  ASSERT_TRUE(program({"replay", run, "-o", page}).ok());
+  const ProcessResult of_page = program({"replay", page, "--picture", "5", "--size", "800x600"});
+  ASSERT_EQ(of_page.exit_code, 0) << of_page.errors;
+  EXPECT_EQ(read_file(folder_ / "replay_7.png"), read_file(file));
   const ProcessResult late = program({"replay", run, "--picture", "99"});
   EXPECT_EQ(late.exit_code, 2);
   EXPECT_NE(late.errors.find("from 0.0 to 9.9 s"), std::string::npos) << late.errors;

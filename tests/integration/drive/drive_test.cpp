@@ -264,6 +264,9 @@ INSTANTIATE_TEST_SUITE_P(
                      "body = b'{\"type\": \"step\", \"action\": {\"acceleration\": NaN}}'\n"
                      "raw.sendall(struct.pack('>I', len(body)) + body); time.sleep(1)",
                      "neither JSON nor CBOR"},
+        Misbehaviour{"AStepAhead",
+                     "env._ask({'type': 'step', 'step': 9, 'action': {'acceleration': 0}})",
+                     "beyond the last observation's"},
         Misbehaviour{"NoMessage", "raw.sendall(struct.pack('>I', 3) + b'abc'); time.sleep(1)",
                      "neither JSON nor CBOR"},
         Misbehaviour{"SaysNothing", "time.sleep(6)", "doesn't answer any more"},
@@ -351,6 +354,7 @@ TEST_F(Drive, BadInputIsToldInOneLine) {
       {{"--ego", "8.8.8.8:9"}, "loopback"},
       {{"--seeds", "5..1"}, "A at most B"},
       {{"--seeds", "x"}, "no whole number"},
+      {{"--replay", "7"}, "seed 7 is none of --seeds"},
       {{"--shard", "3/2"}, "from 1 to n"},
       {{"--merge", "/nowhere"}, "no folder of a drive"}};
   for (const auto& [more, complaint] : wrong) {
@@ -370,6 +374,29 @@ TEST_F(Drive, AFolderOfAnotherDriveIsRefused) {
   const ProcessResult other = drive("one", {"--seeds", "1", "--planner", "idm"});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.errors, HasSubstr("holds another drive: its planner is \"gamma\""));
+  EXPECT_EQ(text("one", "episodes.csv"), before);
+}
+
+TEST_F(Drive, AFolderWhoseDriveCameToNothingIsFreeForTheNext) {
+  ASSERT_EQ(drive("one", {"--seeds", "1", "--window", "-900,-900,-800,-800"}).exit_code, 2);
+  EXPECT_EQ(drive("one", {"--seeds", "1", "--planner", "idm"}).exit_code, 0);
+}
+
+TEST_F(Drive, APageOfASeedThatIsDoneIsMadeByDrivingItAgain) {
+  ASSERT_EQ(drive("one", {"--seeds", "1..2", "--planner", "idm"}).exit_code, 0);
+  const std::string before = text("one", "episodes.csv");
+  ASSERT_EQ(drive("one", {"--seeds", "1..2", "--planner", "idm", "--replay", "2"}).exit_code, 0);
+  EXPECT_THAT(text("one", "replay_2.html"), HasSubstr("</html>"));
+  EXPECT_EQ(text("one", "episodes.csv"), before);
+}
+
+TEST_F(Drive, WhatWasDrivenBeforeAFailureHasItsTables) {
+  ASSERT_EQ(drive("one", {"--seeds", "1", "--planner", "idm"}).exit_code, 0);
+  const std::string before = text("one", "episodes.csv");
+  std::filesystem::remove(here_.file("one/episodes.csv"));
+  const ProcessResult failed =
+      drive("one", {"--seeds", "1..2", "--planner", "idm", "--sumo-options", "--no-such-option"});
+  EXPECT_EQ(failed.exit_code, 2) << failed.errors;
   EXPECT_EQ(text("one", "episodes.csv"), before);
 }
 

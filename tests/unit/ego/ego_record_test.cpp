@@ -161,6 +161,8 @@ TEST(WilsonInterval, IsThatOfTheBooks) {
   EXPECT_NEAR(wilson_interval(15, 148).high, 0.1605, 5e-5);
   EXPECT_EQ(wilson_interval(0, 20).low, 0.0);
   EXPECT_NEAR(wilson_interval(0, 20).high, 0.1611, 5e-5);
+  EXPECT_EQ(wilson_interval(0, 3).low, 0.0);
+  EXPECT_EQ(wilson_interval(3, 3).high, 1.0);
   EXPECT_EQ(wilson_interval(0, 0).high, 1.0);
 }
 
