@@ -51,6 +51,21 @@ StartDraw::StartDraw(const RoadNetwork& network, const AgentType& type, const Eg
   }
   if (places_.empty())
     throw Error("[ego] window", "has no lane on which a " + type.name + " could start");
+  if (goal_ != kNoEdge && !is_goal_reachable())
+    throw Error("[ego] goal_edge", "no way leads to '" + settings.goal_edge + "' from " +
+                                       (settings.window.empty() ? "anywhere" : "the window") +
+                                       " for a " + type.name + ": no edge before it that admits " +
+                                       type.sumo_class + " leads on to it; name another");
+}
+
+bool StartDraw::is_goal_reachable() const {
+  LaneId last = kNoLane;
+  for (const auto& [lane, front] : places_) {  // those of a lane follow each other
+    if (lane == last) continue;
+    last = lane;
+    if (!fastest_route(network_, lane, goal_, class_, travel_times_).empty()) return true;
+  }
+  return false;
 }
 
 std::vector<EdgeId> StartDraw::random_route(LaneId from, double front, std::uint64_t key) const {

@@ -23,7 +23,7 @@ struct EgoStart {
 class StartDraw {
  public:
   /// Throws Error where the window has no such lane, or [ego] goal_edge is none that the class may
-  /// use. `network` must outlive it.
+  /// use or that could be reached from there. `network` must outlive it.
   StartDraw(const RoadNetwork& network, const AgentType& type, const EgoSettings& settings);
 
   /// The `attempt`-th draw of a seed: a pure function of both. Nothing where no way of the length
@@ -31,6 +31,7 @@ class StartDraw {
   std::optional<EgoStart> draw(std::uint64_t seed, std::uint64_t attempt) const;
 
  private:
+  bool is_goal_reachable() const;
   std::vector<EdgeId> random_route(LaneId from, double front, std::uint64_t key) const;
 
   const RoadNetwork& network_;
