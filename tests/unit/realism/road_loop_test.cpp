@@ -58,7 +58,7 @@ class RoadLoopTest : public ::testing::Test {
   }
   Rollout drive(RecordedRoad& road, const std::string& state) {
     for (SignalPhase& phase : road.road.network.signals.at(0).phases) phase.state = state;
-    const RoadLoop loop(scene_, road, {}, workers_);
+    const RoadLoop loop(scene_, road, {}, BehaviorPreset::Interaction, workers_);
     EntryCounts entries;
     return loop.drive(window(), 1, entries);
   }
