@@ -7,7 +7,7 @@
 namespace sumogamma {
 
 /// The k-th number of a test's seed, uniform in [low, high).
-inline double draw(std::uint64_t seed, std::uint64_t k, double low, double high) {
+inline double drawn_number(std::uint64_t seed, std::uint64_t k, double low, double high) {
   return random_uniform(seed, k, 0, Draw::ProcessNoise, low, high);
 }
 

@@ -15,11 +15,11 @@ namespace {
 
 /// A line that winds, with pieces from millimetres to a hundred metres.
 std::vector<Vec2> winding_line(std::uint64_t seed, std::size_t count) {
-  std::vector<Vec2> points{{draw(seed, 0, -1e4, 1e4), draw(seed, 1, -1e4, 1e4)}};
+  std::vector<Vec2> points{{drawn_number(seed, 0, -1e4, 1e4), drawn_number(seed, 1, -1e4, 1e4)}};
   double heading = 0.0;
   for (std::size_t i = 1; i < count; ++i) {
-    heading += draw(seed, 3 * i, -1.0, 1.0);
-    const double length = std::pow(10.0, draw(seed, 3 * i + 1, -3.0, 2.0));
+    heading += drawn_number(seed, 3 * i, -1.0, 1.0);
+    const double length = std::pow(10.0, drawn_number(seed, 3 * i + 1, -3.0, 2.0));
     points.push_back(points.back() + length * Vec2(std::cos(heading), std::sin(heading)));
   }
   return points;
@@ -68,12 +68,12 @@ TEST(PolylineLaws, ProjectionsAreThoseThatASearchFinds) {
     SCOPED_TRACE(seed);
     const Polyline line(winding_line(seed, 2 + seed));
     for (std::uint64_t k = 0; k < 50; ++k) {
-      const double along = draw(seed, 10 * k, -20.0, line.length() + 20.0);
-      const double away = std::pow(10.0, draw(seed, 10 * k + 1, -9.0, 3.0));
-      const Vec2 point = line.point_at(along) +
-                         away * Vec2(draw(seed, 10 * k + 2, -1, 1), draw(seed, 10 * k + 3, -1, 1));
-      const double from = draw(seed, 10 * k + 4, -50.0, line.length() + 50.0);
-      const double to = from + draw(seed, 10 * k + 5, 0.0, 200.0);
+      const double along = drawn_number(seed, 10 * k, -20.0, line.length() + 20.0);
+      const double away = std::pow(10.0, drawn_number(seed, 10 * k + 1, -9.0, 3.0));
+      const Vec2 point = line.point_at(along) + away * Vec2(drawn_number(seed, 10 * k + 2, -1, 1),
+                                                            drawn_number(seed, 10 * k + 3, -1, 1));
+      const double from = drawn_number(seed, 10 * k + 4, -50.0, line.length() + 50.0);
+      const double to = from + drawn_number(seed, 10 * k + 5, 0.0, 200.0);
       const PolylinePosition found = line.project(point, from, to);
       const PolylinePosition searched = project_by_search(
           line, point, segment_by_search(line, from), segment_by_search(line, to));

@@ -27,7 +27,7 @@ std::vector<Vec2> random_outline(std::uint64_t seed) {
   const auto corners = 3 + random_bits(seed, 0, 1, Draw::ProcessNoise) % 6;
   std::vector<Vec2> outline;
   for (std::uint64_t k = 0; k < corners; ++k) {
-    const double angle = (static_cast<double>(k) + draw(seed, k, 0.05, 0.95)) * 2 * kPi /
+    const double angle = (static_cast<double>(k) + drawn_number(seed, k, 0.05, 0.95)) * 2 * kPi /
                          static_cast<double>(corners);
     outline.push_back({3.0 * std::cos(angle), 1.2 * std::sin(angle)});
   }
@@ -35,7 +35,7 @@ std::vector<Vec2> random_outline(std::uint64_t seed) {
 }
 
 ConvexPolygon random_polygon(std::uint64_t seed) {
-  return place_polygon(random_outline(seed), direction_of(draw(seed, 99, -kPi, kPi)));
+  return place_polygon(random_outline(seed), direction_of(drawn_number(seed, 99, -kPi, kPi)));
 }
 
 /// Largest dot product of the outline's vertices with a direction: defines a convex set completely.
@@ -92,7 +92,7 @@ TEST(MinkowskiDifference, HasTheSupportOfTheTwo) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     SCOPED_TRACE(seed);
     const ConvexPolygon a = random_polygon(2 * seed), b = random_polygon(2 * seed + 1);
-    const Vec2 offset(draw(seed, 7, -9, 9), draw(seed, 8, -9, 9));
+    const Vec2 offset(drawn_number(seed, 7, -9, 9), drawn_number(seed, 8, -9, 9));
     const PolygonDifference difference = minkowski_difference(b, a, offset);
     expect_well_formed(difference);
     EXPECT_LE(difference.count, a.count + b.count);
@@ -120,12 +120,12 @@ TEST(BoxDifference, IsTheMinkowskiDifference) {
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     SCOPED_TRACE(seed);
     const bool parallel = seed % 5 == 0;
-    const double angle = draw(seed, 1, -kPi, kPi);
-    const double other =
-        parallel ? angle + kPi / 2 * static_cast<double>(seed % 4) : draw(seed, 2, -kPi, kPi);
-    const OrientedBox a{Vec2(draw(seed, 3, -3, 3), 1), direction_of(angle), Vec2(2.4, 1.0)};
-    const OrientedBox b{Vec2(draw(seed, 4, -9, 9), draw(seed, 5, -9, 9)), direction_of(other),
-                        Vec2(0.8, 0.5)};
+    const double angle = drawn_number(seed, 1, -kPi, kPi);
+    const double other = parallel ? angle + kPi / 2 * static_cast<double>(seed % 4)
+                                  : drawn_number(seed, 2, -kPi, kPi);
+    const OrientedBox a{Vec2(drawn_number(seed, 3, -3, 3), 1), direction_of(angle), Vec2(2.4, 1.0)};
+    const OrientedBox b{Vec2(drawn_number(seed, 4, -9, 9), drawn_number(seed, 5, -9, 9)),
+                        direction_of(other), Vec2(0.8, 0.5)};
     const ConvexPolygon pa = place_polygon(box_outline(4.8, 2.0), a.forward);
     const ConvexPolygon pb = place_polygon(box_outline(1.6, 1.0), b.forward);
     const PolygonDifference exact = minkowski_difference(pb, pa, b.center - a.center);
@@ -165,7 +165,7 @@ TEST(OverlapDepth, IsTheLeastDisplacementThatSeparates) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
     const ConvexPolygon a = random_polygon(2 * seed), b = random_polygon(2 * seed + 1);
-    const Vec2 offset(draw(seed, 7, -3, 3), draw(seed, 8, -3, 3));
+    const Vec2 offset(drawn_number(seed, 7, -3, 3), drawn_number(seed, 8, -3, 3));
     const double depth = overlap_depth(a, b, offset);
     if (depth <= 0) continue;
     // oracle: the smallest shift over many directions after which the supports no longer overlap

@@ -25,11 +25,12 @@ Case random_case(std::uint64_t seed) {
   c.hard = random_bits(seed, 0, 1, Draw::ProcessNoise) % 5;
   const std::size_t soft = random_bits(seed, 0, 2, Draw::ProcessNoise) % 10;
   for (std::size_t k = 0; k < c.hard + soft; ++k) {
-    const Vec2 normal = direction_of(draw(seed, 10 + k, -kPi, kPi));
-    const double offset = k < c.hard ? draw(seed, 40 + k, -4, 0) : draw(seed, 40 + k, -4, 3);
+    const Vec2 normal = direction_of(drawn_number(seed, 10 + k, -kPi, kPi));
+    const double offset =
+        k < c.hard ? drawn_number(seed, 40 + k, -4, 0) : drawn_number(seed, 40 + k, -4, 3);
     c.planes.push_back({offset * normal, normal});
   }
-  c.target = {draw(seed, 80, -6, 6), draw(seed, 81, -6, 6)};
+  c.target = {drawn_number(seed, 80, -6, 6), drawn_number(seed, 81, -6, 6)};
   return c;
 }
 

@@ -21,9 +21,10 @@ TEST(Tracking, WheelsRollWithinTheirLimitsWhateverIsAsked) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       for (double dt : {0.01, 0.05, 0.5}) {
         BodyState body;
-        body.heading = draw(seed, 1, -kPi, kPi);
+        body.heading = drawn_number(seed, 1, -kPi, kPi);
         for (std::uint64_t step = 0; step < 100; ++step) {
-          const Vec2 asked(draw(seed, 10 + 2 * step, -20, 20), draw(seed, 11 + 2 * step, -20, 20));
+          const Vec2 asked(drawn_number(seed, 10 + 2 * step, -20, 20),
+                           drawn_number(seed, 11 + 2 * step, -20, 20));
           const BodyState next = advance_body(type, body, asked, dt);
           ASSERT_GE(next.speed, 0) << "never backwards";
           ASSERT_LE(next.speed, std::max(body.speed + type.max_acceleration * dt, 0.0) + 1e-9);

@@ -50,14 +50,15 @@ struct Encounter {
 };
 
 std::optional<Encounter> random_encounter(std::uint64_t seed) {
-  const ConvexPolygon a =
-      box(draw(seed, 1, 0.2, 5), draw(seed, 2, 0.2, 2.5), draw(seed, 3, -kPi, kPi));
-  const ConvexPolygon b =
-      box(draw(seed, 4, 0.2, 5), draw(seed, 5, 0.2, 2.5), draw(seed, 6, -kPi, kPi));
-  const Vec2 offset(draw(seed, 7, -15, 15), draw(seed, 8, -15, 15));
+  const ConvexPolygon a = box(drawn_number(seed, 1, 0.2, 5), drawn_number(seed, 2, 0.2, 2.5),
+                              drawn_number(seed, 3, -kPi, kPi));
+  const ConvexPolygon b = box(drawn_number(seed, 4, 0.2, 5), drawn_number(seed, 5, 0.2, 2.5),
+                              drawn_number(seed, 6, -kPi, kPi));
+  const Vec2 offset(drawn_number(seed, 7, -15, 15), drawn_number(seed, 8, -15, 15));
   if (overlap_depth(a, b, offset) > 0) return std::nullopt;
   return Encounter{minkowski_difference(b, a, offset),
-                   Vec2(draw(seed, 9, -8, 8), draw(seed, 10, -8, 8)), draw(seed, 11, 1, 5)};
+                   Vec2(drawn_number(seed, 9, -8, 8), drawn_number(seed, 10, -8, 8)),
+                   drawn_number(seed, 11, 1, 5)};
 }
 
 TEST(VelocityObstacle, EscapeReachesTheBoundaryOnTheShortestWay) {
@@ -95,14 +96,14 @@ TEST(VelocityObstacle, SafeVelocitiesNeverCollideWhateverPartTheyLeaveThrough) {
     const auto encounter = random_encounter(seed);
     if (!encounter) continue;
     const auto& [difference, v, horizon] = *encounter;
-    const Vec2 intended(draw(seed, 21, -8, 8), draw(seed, 22, -8, 8));
+    const Vec2 intended(drawn_number(seed, 21, -8, 8), drawn_number(seed, 22, -8, 8));
     const Escape escape = intended_escape(near_side(difference), v, intended, horizon);
     // anywhere on the free side of the line is outside the obstacle
     for (int k = 0; k < 20; ++k) {
       const Vec2 free =
           v + escape.change +
-          draw(seed, 30 + static_cast<std::uint64_t>(k), 0.01, 5) * escape.normal +
-          draw(seed, 60 + static_cast<std::uint64_t>(k), -9, 9) * left_of(escape.normal);
+          drawn_number(seed, 30 + static_cast<std::uint64_t>(k), 0.01, 5) * escape.normal +
+          drawn_number(seed, 60 + static_cast<std::uint64_t>(k), -9, 9) * left_of(escape.normal);
       EXPECT_FALSE(in_velocity_obstacle(difference, free, horizon));
     }
   }
@@ -139,13 +140,14 @@ TEST(VelocityObstacle, RoundFootprintsReproduceClosedFormOrca) {
     SCOPED_TRACE(seed);
     // the sum of an octagon and one turned by half a corner is a regular 16-gon: within 1 % of a
     // disc
-    const double size = draw(seed, 1, 0.3, 2);
-    const PolygonDifference difference = minkowski_difference(
-        octagon(size, 0), octagon(size, kPi / 8), Vec2(draw(seed, 7, 5, 12), draw(seed, 8, -3, 3)));
-    const Vec2 offset(draw(seed, 7, 5, 12), draw(seed, 8, -3, 3));
+    const double size = drawn_number(seed, 1, 0.3, 2);
+    const PolygonDifference difference =
+        minkowski_difference(octagon(size, 0), octagon(size, kPi / 8),
+                             Vec2(drawn_number(seed, 7, 5, 12), drawn_number(seed, 8, -3, 3)));
+    const Vec2 offset(drawn_number(seed, 7, 5, 12), drawn_number(seed, 8, -3, 3));
     const double radius = 2 * size * std::cos(kPi / 16) * std::cos(kPi / 16);
-    const Vec2 v(draw(seed, 9, -2, 5), draw(seed, 10, -3, 3));
-    const double horizon = draw(seed, 11, 2, 5);
+    const Vec2 v(drawn_number(seed, 9, -2, 5), drawn_number(seed, 10, -3, 3));
+    const double horizon = drawn_number(seed, 11, 2, 5);
     const Escape polygon = nearest_escape(near_side(difference), v, horizon),
                  disc = disc_escape(offset, radius, v, horizon);
     EXPECT_NEAR(polygon.change.norm(), disc.change.norm(), 0.05 * size / 2 + 0.02);
