@@ -5,10 +5,11 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
+# error.cpp is compiled into the shared library itself, so that Error is exported; an object of its own in the base library,
+# too, it is not taken from there once more
+set_source_files_properties(src/base/error.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 # one shared library of everything, with the symbols of src/sumo_gamma and of the errors that it throws alone: users need
 # none of what it is made of
-# an object of its own in the base library, too, which is not taken where the one beside it is
-set_source_files_properties(src/base/error.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 add_library(sumo_gamma SHARED $<TARGET_OBJECTS:sumogamma_sumo_gamma> src/base/error.cpp)
 target_link_libraries(sumo_gamma PRIVATE sumogamma_app)
 target_link_options(sumo_gamma PRIVATE -Wl,--no-undefined -Wl,--exclude-libs,ALL)

@@ -28,10 +28,6 @@ if(SUMOGAMMA_PRECOMPILED_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   target_compile_options(sumogamma_options INTERFACE -Wno-array-bounds -Wno-restrict
     -Wno-stringop-overflow -Wno-stringop-overread)
 endif()
-if(CMAKE_UNITY_BUILD)
-  # one file's local name may be another's, of the same source now; clang's presets compile each source by itself
-  target_compile_options(sumogamma_options INTERFACE -Wno-shadow)
-endif()
 set(SUMOGAMMA_COMMON_HEADERS <algorithm> <array> <charconv> <chrono> <cmath> <filesystem> <fstream> <functional> <limits>
   <map> <memory> <numeric> <optional> <set> <span> <sstream> <string> <string_view> <unordered_map> <vector>
   <Eigen/Core> <fmt/format.h>)

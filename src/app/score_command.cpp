@@ -31,7 +31,7 @@ struct ScoreOptions {
   fs::path output, map;
   std::vector<std::string> methods;
   std::size_t rollouts = 32;
-  std::string preset{name_of(ScoreSettings{}.preset)};
+  std::optional<std::string> preset;
   bool force = false;
   SceneArguments reading;
 };
@@ -69,7 +69,7 @@ void write_results(const ScoreOptions& options, const ScoreSettings& settings,
                    const std::vector<Scored>& all, const std::vector<std::string>& left_out) {
   nlohmann::ordered_json json{
       {"version", SUMOGAMMA_VERSION},          {"seed", settings.seed},
-      {"rollouts", settings.rollouts},         {"preset", options.preset},
+      {"rollouts", settings.rollouts},         {"preset", name_of(settings.preset)},
       {"point", options.reading.point},        {"boxes", options.reading.boxes},
       {"window_s", kScoreStep * kWindowSteps}, {"left_out", left_out}};
   json["weights"] = nlohmann::ordered_json::object();
@@ -120,8 +120,10 @@ int score(const ScoreOptions& options, const CommonOptions& common) {
   }
   settings.seed = common.seed;
   settings.rollouts = options.rollouts;
+  // the last word counts: --preset, --set behavior.preset, what stands without either
   std::vector<std::string> set = common.set;
-  set.push_back("behavior.preset=" + options.preset);
+  set.insert(set.begin(), fmt::format("behavior.preset={}", name_of(settings.preset)));
+  if (options.preset) set.push_back("behavior.preset=" + *options.preset);
   const ScenarioConfig config = read_config({}, set);
   settings.model = config.model;
   settings.preset = config.preset;
@@ -172,9 +174,8 @@ CommandRunner add_score_command(CLI::App& parent) {
       ->capture_default_str();
   command
       ->add_option("--preset", options->preset,
-                   "how GAMMA's drivers behave on a network, as of run")
-      ->check(CLI::IsMember(preset_names()))
-      ->capture_default_str();
+                   "how GAMMA's drivers behave on a network, as of run; default: interaction")
+      ->check(CLI::IsMember(preset_names()));
   command->add_flag("--force", options->force, "write into a folder that holds other results");
   add_scene_reading_options(*command, options->reading);
   return [options](const CommonOptions& common) { return score(*options, common); };

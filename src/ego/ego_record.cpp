@@ -35,12 +35,12 @@ bool may_meet(const Model& model, const Scene& scene, std::size_t ego, std::size
 }
 
 double meeting_time(const Scene& scene, std::size_t ego, std::size_t other, double most) {
-  constexpr double kStep = 0.1;  // [s]
+  constexpr double kLookEvery = 0.1;  // [s]
   OrientedBox own = box_of(scene, ego), their = box_of(scene, other);
   const Vec2 start = own.center, foe = their.center;
-  const int steps = static_cast<int>(std::lround(most / kStep));
+  const int steps = static_cast<int>(std::lround(most / kLookEvery));
   for (int k = 1; k <= steps; ++k) {
-    const double time = kStep * k;
+    const double time = kLookEvery * k;
     own.center = start + time * scene.velocity[ego];
     their.center = foe + time * scene.velocity[other];
     if (separation(own, their) <= 0.0) return time;

@@ -33,7 +33,7 @@ Clock::time_point after(double seconds) {
 }
 
 /// True once something can be read or written (`events`); false where time is up.
-bool wait_for(int descriptor, short events, Clock::time_point end, const Stop& stop) {
+bool wait_for(int descriptor, short events, Clock::time_point end, const StopAsked& stop) {
   constexpr double kSlice = 0.2;  // between two looks whether to stop [s]
   for (;;) {
     const double left = std::max(left_until(end), 0.0);
@@ -53,7 +53,7 @@ bool wait_for(int descriptor, short events, Clock::time_point end, const Stop& s
 
 EgoConnection::~EgoConnection() { close(descriptor_); }
 
-Received EgoConnection::receive(double seconds, const Stop& stop) {
+Received EgoConnection::receive(double seconds, const StopAsked& stop) {
   constexpr std::size_t kHead = 4;
   const Clock::time_point end = after(seconds);
   for (;;) {
@@ -169,7 +169,7 @@ void EgoListener::listen_at_port(const std::string& host, const std::string& por
   address_ = host + ":" + std::to_string(ntohs(place.sin_port));
 }
 
-std::unique_ptr<EgoConnection> EgoListener::accept(double seconds, const Stop& stop) {
+std::unique_ptr<EgoConnection> EgoListener::accept(double seconds, const StopAsked& stop) {
   if (!wait_for(descriptor_, POLLIN, after(seconds), stop)) return nullptr;
   const int joined = accept4(descriptor_, nullptr, nullptr, SOCK_CLOEXEC);
   if (joined < 0) return nullptr;

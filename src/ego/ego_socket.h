@@ -20,7 +20,7 @@ struct Received {
 };
 
 /// Asked every now and then while waiting: is the program to end?
-using Stop = std::function<bool()>;
+using StopAsked = std::function<bool()>;
 
 /// One that has joined. Every message has its length before it: four bytes, the highest first.
 class EgoConnection {
@@ -32,7 +32,7 @@ class EgoConnection {
 
   /// Waits `seconds` at the most; what has come of an unfinished message is kept for the next call.
   /// A length of 0 or above kLongestMessage is Bad before anything of it is read.
-  Received receive(double seconds, const Stop& stop);
+  Received receive(double seconds, const StopAsked& stop);
   /// False where the other side is gone or takes nothing for `seconds`.
   bool send(std::string_view bytes, double seconds);
 
@@ -51,7 +51,7 @@ class EgoListener {
   EgoListener& operator=(const EgoListener&) = delete;
 
   /// The next one that joins within `seconds`; null: nobody.
-  std::unique_ptr<EgoConnection> accept(double seconds, const Stop& stop);
+  std::unique_ptr<EgoConnection> accept(double seconds, const StopAsked& stop);
   /// As it is written for a client; with the port that was chosen for port 0.
   const std::string& address() const { return address_; }
 

@@ -20,7 +20,7 @@ std::string type_of_message(const json& message) { return message["type"].get<st
 }  // namespace
 
 ExternalEgo::ExternalEgo(const std::string& address, bool anywhere, ExternalLimits limits,
-                         json hello, Stop stop)
+                         json hello, StopAsked stop)
     : listener_(address, anywhere),
       limits_(limits),
       hello_(std::move(hello)),

@@ -32,7 +32,7 @@ class ExternalEgo {
  public:
   /// `hello`: what it is told of the drive.
   ExternalEgo(const std::string& address, bool anywhere, ExternalLimits limits,
-              nlohmann::json hello, Stop stop);
+              nlohmann::json hello, StopAsked stop);
 
   const std::string& address() const { return listener_.address(); }
 
@@ -69,7 +69,7 @@ class ExternalEgo {
   EgoListener listener_;
   ExternalLimits limits_;
   nlohmann::json hello_;
-  Stop stop_;
+  StopAsked stop_;
   std::unique_ptr<EgoConnection> connection_;
   MessageFormat format_ = MessageFormat::Json;
   ForwardModel forward_;

@@ -104,11 +104,11 @@ std::vector<std::int64_t> piece_of_ring(const std::vector<Taken>& run, std::size
 
 /// Which of two stops of the relation comes first along a way whose direction nothing else tells.
 int direction_by_stops(const OsmMap& map, const MapWay& way, const std::vector<LineStop>& stops) {
-  constexpr double kBeside = 25.0;  // [m]
+  constexpr double kFarthestRoad = 25.0;  // [m]
   const LocalMetric metric(map.nodes.at(way.nodes.front()).place);
   std::vector<double> at;
   for (const LineStop& stop : stops) {
-    double nearest = kBeside, along = -1, so_far = 0;
+    double nearest = kFarthestRoad, along = -1, so_far = 0;
     for (std::size_t i = 0; i + 1 < way.nodes.size(); ++i) {
       const GeoPoint a = map.nodes.at(way.nodes[i]).place, b = map.nodes.at(way.nodes[i + 1]).place;
       const double length = metric.distance(a, b);

@@ -13,7 +13,6 @@ namespace sumogamma {
 namespace {
 
 constexpr std::size_t kEvery = 5;       // steps from one point to the next
-constexpr double kAlike = 60.0;         // of headings [degrees]
 constexpr double kWalkReach = 10.0;     // [m]
 constexpr std::size_t kCandidates = 4;  // of edges at a point
 constexpr std::size_t kAtEnd = 6;       // points at either end
@@ -65,7 +64,7 @@ std::vector<MatchedPlace> lanes_at(const RoadNetwork& network, const Vec2& point
     const PolylinePosition at = lane.centerline.project(point);
     if (at.distance > kOnRoute) continue;
     const double direction = heading_of(lane.centerline.direction_at(at.along));
-    if (std::abs(wrap_angle(direction - heading)) > radians(kAlike)) continue;
+    if (std::abs(wrap_angle(direction - heading)) > radians(kSameWay)) continue;
     const MatchedPlace place =
         off_junction(network, {static_cast<LaneId>(k), at.along, at.distance}, backwards);
     if (network.lane(place.lane).kind == LaneKind::Normal) places.push_back(place);

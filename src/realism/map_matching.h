@@ -9,6 +9,8 @@ namespace sumogamma {
 
 /// Farther than this from the lanes of its route a point isn't on it [m].
 inline constexpr double kOnRoute = 1.5;
+/// Whose heading is farther from a lane's than this isn't going its way [degrees].
+inline constexpr double kSameWay = 60.0;
 
 /// A recorded agent's way over a network.
 struct MatchedRoute {
@@ -21,7 +23,7 @@ struct MatchedRoute {
 
 /// The route that most of the agent's points lie by: of those that lead from an edge at its first
 /// points on the network (3 s) to one at its last, each the fastest. Lanes count that admit the
-/// classes and run within 60 degrees of its heading; who begins or ends on a junction is on the
+/// classes and run within kSameWay of its heading; who begins or ends on a junction is on the
 /// edge before or behind it.
 MatchedRoute match_route(const RoadNetwork& network, const RecordedAgent& agent,
                          VehicleClassMask classes);

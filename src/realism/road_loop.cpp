@@ -20,7 +20,6 @@ namespace sumogamma {
 namespace {
 
 constexpr double kFactorSpread = 0.1;   // of SUMO's default speedFactor
-constexpr double kSameWay = 60.0;       // of headings [degrees]
 constexpr double kLeastWay = 1.0;       // of a path on its first lane [m]
 constexpr double kMostAside = 1.0;      // liked place beside a path [m]
 constexpr double kRoadsOnward = 400.0;  // roads behind the route's end that somebody may need [m]

@@ -14,13 +14,13 @@ namespace {
 
 /// Bearing of the way as it leaves its first or last node, measured at least 15 m out.
 double bearing_out(const OsmMap& map, const MapWay& way, bool from_first) {
-  constexpr double kReach = 15.0;
+  constexpr double kEndReach = 15.0;
   const auto place = [&](std::size_t i) {
     return map.nodes.at(way.nodes[from_first ? i : way.nodes.size() - 1 - i]).place;
   };
   const LocalMetric metric(place(0));
   std::size_t i = 1;
-  while (i + 1 < way.nodes.size() && metric.distance(place(0), place(i)) < kReach) ++i;
+  while (i + 1 < way.nodes.size() && metric.distance(place(0), place(i)) < kEndReach) ++i;
   return metric.bearing(place(0), place(i));
 }
 

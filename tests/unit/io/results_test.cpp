@@ -27,11 +27,11 @@ class Results : public ::testing::Test {
 };
 
 TEST_F(Results, EveryKeyIsThereInAnEmptyRun) {
-  const nlohmann::json json = nlohmann::json::parse(results_json(RunResults{}));
+  const nlohmann::json written = nlohmann::json::parse(results_json(RunResults{}));
   for (const char* key : {"sumo_version", "sumo_gamma_version", "metrics_version", "scenario",
                           "seed", "step", "duration", "backend", "threads", "agents", "timing",
                           "collisions", "flow", "rules", "smoothness", "coupling", "state_hash"})
-    EXPECT_TRUE(json.contains(key)) << key;
+    EXPECT_TRUE(written.contains(key)) << key;
   const std::map<std::string, std::vector<std::string>> inner{
       {"agents",
        {"inserted", "arrived", "controlled_now", "controlled_peak", "controlled_mean", "by_type",
@@ -53,9 +53,9 @@ TEST_F(Results, EveryKeyIsThereInAnEmptyRun) {
         "emergency_stops", "sumo_warnings"}}};
   for (const auto& [section, keys] : inner)
     for (const std::string& key : keys)
-      EXPECT_TRUE(json.at(section).contains(key)) << section << "." << key;
+      EXPECT_TRUE(written.at(section).contains(key)) << section << "." << key;
   for (const char* key : {"observe", "context", "model", "track", "advance_sumo", "record"})
-    EXPECT_TRUE(json.at("timing").at("share").contains(key)) << key;
+    EXPECT_TRUE(written.at("timing").at("share").contains(key)) << key;
 }
 
 TEST_F(Results, SaysHowThoseBehavedWhoCame) {

@@ -74,7 +74,7 @@ TEST(TimeToCollision, OnArcsFollowsTheTurn) {
 }
 
 TEST(TimeToCollision, AgreesWithSteppingInTime) {
-  constexpr double kStep = 2.5e-3;
+  constexpr double kTimeStep = 2.5e-3;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
     const auto draw = [&](std::uint64_t k, double low, double high) {
@@ -86,11 +86,12 @@ TEST(TimeToCollision, AgreesWithSteppingInTime) {
     if (seed % 2 == 0) a.turn_rate = draw(7, -0.6, 0.6);
     double stepped = std::numeric_limits<double>::infinity();
     for (int k = 0; k <= 1200 && std::isinf(stepped); ++k)
-      if (outline_gap(moved(a, kStep * k), moved(b, kStep * k)) <= 0.0) stepped = kStep * k;
+      if (outline_gap(moved(a, kTimeStep * k), moved(b, kTimeStep * k)) <= 0.0)
+        stepped = kTimeStep * k;
     const double time = time_to_collision(a, b, 3.0);
     // a graze of less than a step may be missed by stepping
     if (std::isfinite(stepped)) {
-      EXPECT_NEAR(time, stepped, kStep + 1e-3);
+      EXPECT_NEAR(time, stepped, kTimeStep + 1e-3);
     } else if (std::isfinite(time)) {
       EXPECT_LT(outline_gap(moved(a, time), moved(b, time)), 2e-3);
     }
