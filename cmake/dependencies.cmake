@@ -19,9 +19,18 @@ pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(POLYCLIPPING REQUIRED IMPORTED_TARGET polyclipping)
 
-# Debian's SUMO ships headers and libraries without a CMake package
-find_path(LIBSUMO_INCLUDE_DIR libsumo/libsumo.h)
+# SUMO ships headers and libraries without a CMake package: in a built or installed tree (SUMO_HOME, as a variable of
+# CMake or of the environment), where there is one with a libsumo, else Debian's
+set(sumo_homes ${SUMO_HOME} $ENV{SUMO_HOME})
+find_library(LIBSUMO_LIBRARY sumocpp PATHS ${sumo_homes} PATH_SUFFIXES bin lib lib64 NO_DEFAULT_PATH)
 find_library(LIBSUMO_LIBRARY sumocpp)
+if(LIBSUMO_LIBRARY)
+  # headers of the same SUMO: bin/../src of a built tree, lib/../include of an installed one
+  get_filename_component(sumo_prefix ${LIBSUMO_LIBRARY} DIRECTORY)
+  get_filename_component(sumo_prefix ${sumo_prefix} DIRECTORY)
+  find_path(LIBSUMO_INCLUDE_DIR libsumo/libsumo.h PATHS ${sumo_prefix} PATH_SUFFIXES include src NO_DEFAULT_PATH)
+endif()
+find_path(LIBSUMO_INCLUDE_DIR libsumo/libsumo.h)
 find_path(OSMIUM_INCLUDE_DIR osmium/io/any_input.hpp)
 foreach(variable LIBSUMO_INCLUDE_DIR LIBSUMO_LIBRARY OSMIUM_INCLUDE_DIR)
   if(NOT ${variable})

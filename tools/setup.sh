@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what sumo-gamma needs, as Debian packages by name. Running it again costs a moment.
-#   tools/setup.sh          what it takes to build and run the program
-#   tools/setup.sh --test   that, and what the test suite takes
+#   tools/setup.sh               what it takes to build and run the program
+#   tools/setup.sh --run-tests   that, and what its tests take
+#   tools/setup.sh --test        that, and the linters and the second compiler of tools/test.sh
 set -euo pipefail
 # a plain user's PATH has no sbin on Debian, and dpkg insists on it
 export PATH="$PATH:/usr/local/sbin:/usr/sbin:/sbin"
@@ -24,14 +25,15 @@ build_packages+=(libcpp-httplib-dev)
 # the Python module
 build_packages+=(pybind11-dev python3-dev python3-numpy)
 
-# test and benchmark libraries, the second compiler with its linters and sanitizers, script checks, XML schemas
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev
-  clang-14 clang-tidy-14 clang-format-14 libclang-rt-14-dev llvm-14 shellcheck git python3 libxml2-utils)
+# test and benchmark libraries, XML schemas
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev git python3 libxml2-utils)
 # the replay page is checked by node and opened in a browser that needs a font, SUMO's window in a screen
 # that nobody sees; memory checks
 test_packages+=(nodejs chromium fonts-dejavu-core ffmpeg xvfb valgrind)
+# the second compiler with its linters and sanitizers, script checks
+second_packages=(clang-14 clang-tidy-14 clang-format-14 libclang-rt-14-dev llvm-14 shellcheck)
 
-usage() { sed -n '2,4s/^# \{0,1\}//p' "$0"; }
+usage() { sed -n '2,5s/^# \{0,1\}//p' "$0"; }
 fail() {
   echo "setup: $*" >&2
   exit 1
@@ -40,7 +42,8 @@ fail() {
 packages=("${build_packages[@]}")
 case "${1-}" in
   "") ;;
-  --test) packages+=("${test_packages[@]}") ;;
+  --run-tests) packages+=("${test_packages[@]}") ;;
+  --test) packages+=("${test_packages[@]}" "${second_packages[@]}") ;;
   -h | --help)
     usage
     exit 0

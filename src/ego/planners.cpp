@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "ego/futures.h"
 #include "ego/search_planners.h"
@@ -77,11 +78,11 @@ class ByFutures {
                              view.seed * 1000003u + static_cast<std::uint64_t>(view.plan)};
       const Futures futures = sample_futures(view, request, mind_->beliefs, mind_->forward);
       int meet = 0;
-      for (int sample = 0; sample < request.samples; ++sample) {
-        const auto begin =
-            futures.gap.begin() + static_cast<std::ptrdiff_t>(futures.steps) * sample;
-        meet += *std::min_element(begin, begin + static_cast<std::ptrdiff_t>(futures.steps)) <
-                kLeastGap;
+      for (std::size_t begin = 0; begin < futures.gap.size(); begin += futures.steps) {
+        const auto gaps = std::span(futures.gap).subspan(begin, futures.steps);
+        const double least = *std::min_element(gaps.begin(), gaps.end());
+        // who is near already, and isn't come nearer to, holds nobody up
+        meet += least < kLeastGap && (least <= 0.0 || least < gaps.front());
       }
       if (meet <= kMostMeet * request.samples) return action;
     }
