@@ -112,7 +112,8 @@ struct SumoStep {
   std::vector<SumoAgent> agents;  ///< poses of the agents asked for with watch(), after the step
   std::vector<std::pair<bool, std::string>>
       gone;  ///< watched ones that SUMO doesn't know any more: is it a person, id
-  std::vector<std::string> signal_states;  ///< one a signal, in the order of signal_ids()
+  std::vector<std::string> signal_states;    ///< one a signal, in the order of signal_ids()
+  std::vector<std::uint32_t> asked_signals;  ///< those of which this step has told the state
   int teleports = 0, emergency_stops = 0, collisions = 0;
   int waiting_to_insert = 0;  ///< SUMO's own insertion backlog
 };
@@ -231,6 +232,10 @@ struct SumoStart {
   std::optional<int> client_order;  ///< our place among several TraCI clients
   int clients = 1;  ///< of a child: how many it waits for, us included (its --num-clients)
   int port = 0;     ///< for a child to listen on; 0: any free one
+  /// Signals change when their own programs say so: neither a WAUT nor anybody at SUMO's window
+  /// switches them. Then a step asks for those alone whose program has an event in it. Other
+  /// clients may do anything: where there are some, all are asked for.
+  bool signals_by_schedule = false;
   /// Told of the port before others are waited for; may be empty.
   std::function<void(int)> on_listening;
 };

@@ -146,12 +146,6 @@ class LibsumoBackend final : public SteppedBackend {
   std::vector<std::string> edge_ids() override {
     return guarded([] { return libsumo::Edge::getIDList(); });
   }
-  double next_switch(std::size_t signal) override {
-    return guarded([&] {
-      return value_or(std::numeric_limits<double>::infinity(),
-                      [&] { return libsumo::TrafficLight::getNextSwitch(signal_ids_[signal]); });
-    });
-  }
   std::vector<SumoAgentDetails> details(std::span<const std::string> vehicles,
                                         std::span<const std::string> persons) override;
   void remove_vehicle(const std::string& id) override;
@@ -191,6 +185,10 @@ class LibsumoBackend final : public SteppedBackend {
   void talk_to_sumo(const std::function<void()>& talk) override { guarded(talk); }
   void move_and_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
                      SumoStep& result) override;
+  double ask_next_switch(std::size_t signal) override {
+    return value_or(std::numeric_limits<double>::infinity(),
+                    [&] { return libsumo::TrafficLight::getNextSwitch(signal_ids_[signal]); });
+  }
   std::vector<std::string> route_of(const std::string& vehicle) override {
     return value_or(std::vector<std::string>(),
                     [&] { return libsumo::Vehicle::getRoute(vehicle); });
@@ -216,7 +214,7 @@ class LibsumoBackend final : public SteppedBackend {
   SumoOutput output_;
 };
 
-LibsumoBackend::LibsumoBackend(const SumoStart& start) : start_(start) {
+LibsumoBackend::LibsumoBackend(const SumoStart& start) : SteppedBackend(start), start_(start) {
   if (!start.connect_host.empty())
     throw Error("--connect", "needs the traci back end; leave --backend libsumo out");
   if (start.clients > 1 || start.client_order)
@@ -332,9 +330,12 @@ void LibsumoBackend::read_step(SumoStep& result) {
   result.emergency_stops = Simulation::getEmergencyStoppingVehiclesNumber();
   result.collisions = Simulation::getCollidingVehiclesNumber();
   result.waiting_to_insert = static_cast<int>(Simulation::getPendingVehicles().size());
-  result.signal_states.resize(signal_ids_.size());
-  for (std::size_t i = 0; i < signal_ids_.size(); ++i)
+  for (std::size_t i = 0; i < signal_ids_.size(); ++i) {
+    if (by_schedule_ && !is_due(i)) continue;
     result.signal_states[i] = libsumo::TrafficLight::getRedYellowGreenState(signal_ids_[i]);
+    if (by_schedule_) next_switch_[i] = ask_next_switch(i);
+    result.asked_signals.push_back(static_cast<std::uint32_t>(i));
+  }
 }
 
 void LibsumoBackend::move_and_step(std::span<const SumoPose> vehicles,

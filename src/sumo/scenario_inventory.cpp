@@ -211,6 +211,7 @@ void Inventory::begin(Reading& reading, std::string_view element, const char** a
   const std::string id(attribute(attributes, "id"));
   if (with_ids_ && !id.empty()) gather_id(element, id);
   if (element == "calibrator") result.complete = false;
+  if (element == "WAUT") result.switches_programs = true;
   if (element == "include") {
     read(reading.file.parent_path() / std::string(attribute(attributes, "href")));
     return;

@@ -29,6 +29,7 @@ struct ScenarioInventory {
   std::vector<std::string> sign_lanes;      ///< of variable speed signs
   std::vector<AskedOutput> outputs;         ///< that sumo-gamma writes, in the order of the files
   std::vector<std::filesystem::path> output_folders;  ///< in which SUMO writes files
+  bool switches_programs = false;  ///< a WAUT puts other programs in charge of signals
   bool complete = true;  ///< all demand was read: a loaded state or calibrators may bring others
 };
 

@@ -15,7 +15,7 @@ std::vector<SignalId> signals_in_order(const RoadNetwork& network, const SumoBac
 
 void show_signals(const std::vector<SignalId>& order, const SumoStep& step, double now,
                   SumoBackend& backend, RoadState& road) {
-  for (std::size_t i = 0; i < order.size() && i < step.signal_states.size(); ++i) {
+  for (const std::uint32_t i : step.asked_signals) {
     if (order[i] == kNoSignal) continue;
     const std::size_t signal = index_of(order[i]);
     if (road.signal_states[signal] == step.signal_states[i]) continue;

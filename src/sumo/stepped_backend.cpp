@@ -1,8 +1,13 @@
 #include "sumo/stepped_backend.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace sumogamma {
+
+SteppedBackend::SteppedBackend(const SumoStart& start)
+    : by_schedule_(start.signals_by_schedule && start.socket < 0 && start.connect_host.empty() &&
+                   !start.client_order && start.clients <= 1) {}
 
 void SteppedBackend::send(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons) {
   talk_to_sumo([&] {
@@ -24,7 +29,9 @@ void SteppedBackend::receive(SumoStep& result) {
                              &result.arrived_vehicles, &result.arrived_persons, &result.lost})
       list->clear();
     result.gone.clear();
+    result.asked_signals.clear();
     result.signal_states.resize(signal_ids_.size());
+    next_switch_.resize(signal_ids_.size(), -std::numeric_limits<double>::infinity());
     move_and_step(sent_vehicles_, sent_persons_, result);
     result.lost.insert(result.lost.end(), lost_ahead_.begin(), lost_ahead_.end());
     time_ = result.time;

@@ -16,9 +16,13 @@ namespace sumogamma {
 /// watched. How to talk to SUMO is left to them.
 class SteppedBackend : public SumoBackend {
  public:
+  explicit SteppedBackend(const SumoStart& start);
   const std::vector<std::string>& signal_ids() const final { return signal_ids_; }
   const std::vector<Detector>& detectors() const final { return detectors_; }
   double time() const final { return time_; }
+  double next_switch(std::size_t signal) final {
+    return by_schedule_ ? next_switch_[signal] : ask_next_switch(signal);
+  }
   void send(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons) final;
   void receive(SumoStep& result) final;
   void watch(const std::string& id, bool is_person) final {
@@ -41,6 +45,7 @@ class SteppedBackend : public SumoBackend {
   virtual void move_and_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
                              SumoStep& result) = 0;
   virtual std::vector<std::string> route_of(const std::string& vehicle) = 0;
+  virtual double ask_next_switch(std::size_t signal) = 0;
   /// Nothing where it has left.
   virtual std::optional<GhostObservation> observe(const std::string& id, bool is_person) = 0;
   /// Reads the entries of the watch list into `agents`, in order; those whom SUMO doesn't know any
@@ -49,11 +54,17 @@ class SteppedBackend : public SumoBackend {
                             std::vector<SumoAgent>& agents,
                             std::vector<WatchList::Entry>& gone) = 0;
 
+  /// Does the step that comes ask for a signal? SUMO runs the events of its programs that are due
+  /// when a step begins.
+  bool is_due(std::size_t signal) const { return next_switch_[signal] <= time_ + 1e-6; }
+
   GhostMode mode(bool is_person) const { return (is_person ? person_test_ : vehicle_test_).mode(); }
 
   bool started_ = false;  ///< a step was made: what fails from now on isn't the user's input
   double time_ = 0;       ///< [s]
   std::vector<std::string> signal_ids_;
+  bool by_schedule_;                 ///< see SumoStart
+  std::vector<double> next_switch_;  ///< of each signal where so, as last told [s]
   std::vector<Detector> detectors_;
   std::vector<std::string> warnings_;  ///< of our own
   bool watch_changed_ = false;         ///< since the back end last put it back to false

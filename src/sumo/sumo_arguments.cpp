@@ -55,7 +55,9 @@ constexpr Default kQuiet[] = {{"no-step-log", "true", true}, {"xml-validation", 
 constexpr Default kHeld[] = {{"time-to-teleport", "-1", true},
                              {"collision.action", "none", true},
                              {"pedestrian.model", "striping", false}};
-constexpr Default kShown[] = {{"start", "true", true}, {"quit-on-end", "true", true}};
+// a ghost that comes a long way in a step is a warning of its own in the window
+constexpr Default kShown[] = {
+    {"start", "true", true}, {"quit-on-end", "true", true}, {"aggregate-warnings", "5", true}};
 
 std::vector<std::string> default_words(const SumoArguments& wish) {
   std::vector<std::string> words;

@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
 #include "base/error.h"
@@ -65,7 +64,7 @@ void append_ghost(TraciWriter& message, const SumoPose& pose, bool is_person, Gh
 
 class TraciBackend final : public SteppedBackend {
  public:
-  explicit TraciBackend(const SumoStart& start) : start_(start) {
+  explicit TraciBackend(const SumoStart& start) : SteppedBackend(start), start_(start) {
     if (start.socket >= 0) {
       client_ = std::make_unique<TraciClient>(start.socket);
       handshake(start.start_timeout);
@@ -86,7 +85,6 @@ class TraciBackend final : public SteppedBackend {
   std::string version() const override { return version_; }
   std::string option(const std::string& name) override;
   std::vector<std::string> edge_ids() override;
-  double next_switch(std::size_t signal) override;
   std::vector<SumoAgentDetails> details(std::span<const std::string> vehicles,
                                         std::span<const std::string> persons) override;
   void remove_vehicle(const std::string& id) override;
@@ -152,6 +150,7 @@ class TraciBackend final : public SteppedBackend {
   void move_and_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
                      SumoStep& result) override;
   std::vector<std::string> route_of(const std::string& vehicle) override;
+  double ask_next_switch(std::size_t signal) override;
   std::optional<GhostObservation> observe(const std::string& id, bool is_person) override;
   void read_watched(const std::vector<WatchList::Entry>& entries, std::vector<SumoAgent>& agents,
                     std::vector<WatchList::Entry>& gone) override;
@@ -180,6 +179,7 @@ class TraciBackend final : public SteppedBackend {
                   std::span<const SumoPose> persons, std::vector<std::string>& lost);
   /// What another client's step has brought: it has the answers to subscriptions.
   void ask_step(SumoStep& result);
+  void ask_signals(SumoStep& result);
   bool is_guest() const { return start_.socket >= 0; }
   void read_subscriptions(TraciReader& reply, SumoStep& result);
   void read_simulation(TraciReader& reply, int variables, SumoStep& result);
@@ -193,7 +193,6 @@ class TraciBackend final : public SteppedBackend {
   std::unique_ptr<TraciClient> client_;
   bool closed_ = false;
   std::string version_;
-  std::unordered_map<std::string, std::size_t> signal_index_;
   std::map<std::string, std::string> options_;
 
   TraciWriter queued_;  // commands that can wait for the next step
@@ -328,19 +327,13 @@ void TraciBackend::read_inventory() {
        require_answer(lists, traci::kInductionLoop, traci::kIdList, "its detectors")
            .typed_strings())
     detectors_.push_back({std::move(id), "", 0});
-  signal_index_.clear();
-  for (std::size_t i = 0; i < signal_ids_.size(); ++i) signal_index_[signal_ids_[i]] = i;
 
   message_.clear();
   for (const Detector& detector : detectors_) {
     message_.get(traci::kInductionLoop, traci::kLane, detector.id);
     message_.get(traci::kInductionLoop, traci::kPosition, detector.id);
   }
-  if (!is_guest()) {
-    message_.subscribe(traci::kSimulation, "", kStepVariables);
-    for (const std::string& id : signal_ids_)
-      message_.subscribe(traci::kTrafficLight, id, std::span(&traci::kSignalState, 1));
-  }
+  if (!is_guest()) message_.subscribe(traci::kSimulation, "", kStepVariables);
   if (message_.command_count() == 0) return;
   TraciReader reply = exchange(message_);
   for (Detector& detector : detectors_) {
@@ -348,13 +341,10 @@ void TraciBackend::read_inventory() {
     detector.position = read_number(reply, traci::kInductionLoop, traci::kPosition, 0);
   }
   if (is_guest()) return;
+  const TraciStatus status = reply.status();
+  if (!status.ok()) throw SumoError("SUMO", "refuses a subscription: " + status.text);
   SumoStep ignored;
-  ignored.signal_states.resize(signal_ids_.size());
-  for (std::size_t i = 0; i <= signal_ids_.size(); ++i) {
-    const TraciStatus status = reply.status();
-    if (!status.ok()) throw SumoError("SUMO", "refuses a subscription: " + status.text);
-    read_subscriptions(reply, ignored);
-  }
+  read_subscriptions(reply, ignored);
 }
 
 std::vector<std::string> TraciBackend::edge_ids() {
@@ -381,7 +371,7 @@ std::string TraciBackend::option(const std::string& name) {
   });
 }
 
-double TraciBackend::next_switch(std::size_t signal) {
+double TraciBackend::ask_next_switch(std::size_t signal) {
   return guarded([&] {
     message_.clear();
     message_.get(traci::kTrafficLight, traci::kNextSwitch, signal_ids_[signal]);
@@ -430,15 +420,31 @@ void TraciBackend::move_ahead(std::span<const SumoPose> vehicles, std::span<cons
 void TraciBackend::ask_step(SumoStep& result) {
   message_.clear();
   for (const std::uint8_t variable : kStepVariables) message_.get(traci::kSimulation, variable, "");
-  for (const std::string& id : signal_ids_)
-    message_.get(traci::kTrafficLight, traci::kSignalState, id);
   TraciReader reply = exchange(message_);
   for (const std::uint8_t variable : kStepVariables) {
     std::optional<TraciReader> value = read_answer(reply, traci::kSimulation, variable);
     if (value) read_simulation_value(*value, variable, result);
   }
-  for (std::string& state : result.signal_states)
-    state = read_text(reply, traci::kTrafficLight, traci::kSignalState);
+}
+
+/// By gets: for each object that is subscribed to SUMO looks through all that are already, and
+/// thousands of signals may switch at once.
+void TraciBackend::ask_signals(SumoStep& result) {
+  message_.clear();
+  for (std::size_t i = 0; i < signal_ids_.size(); ++i) {
+    if (by_schedule_ && !is_due(i)) continue;
+    result.asked_signals.push_back(static_cast<std::uint32_t>(i));
+    message_.get(traci::kTrafficLight, traci::kSignalState, signal_ids_[i]);
+    if (by_schedule_) message_.get(traci::kTrafficLight, traci::kNextSwitch, signal_ids_[i]);
+  }
+  if (result.asked_signals.empty()) return;
+  TraciReader reply = exchange(message_);
+  for (const std::uint32_t i : result.asked_signals) {
+    result.signal_states[i] = read_text(reply, traci::kTrafficLight, traci::kSignalState);
+    if (by_schedule_)
+      next_switch_[i] = read_number(reply, traci::kTrafficLight, traci::kNextSwitch,
+                                    std::numeric_limits<double>::infinity());
+  }
 }
 
 void TraciBackend::read_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
@@ -465,22 +471,16 @@ void TraciBackend::read_subscriptions(TraciReader& reply, SumoStep& result) {
   constexpr std::size_t kKnownLengthFault = 4;
   reply.block_length(kKnownLengthFault);
   const std::uint8_t response = reply.byte();
-  const std::string id = reply.string();
+  reply.string();
   const int variables = reply.byte();
   if (response == traci::subscribe_response(traci::kSimulation)) {
     read_simulation(reply, variables, result);
     return;
   }
-  const auto signal = signal_index_.find(id);
   for (int i = 0; i < variables; ++i) {
-    const std::uint8_t variable = reply.byte();
-    const bool good = reply.byte() == traci::kOk;
-    if (good && response == traci::subscribe_response(traci::kTrafficLight) &&
-        variable == traci::kSignalState && signal != signal_index_.end()) {
-      result.signal_states[signal->second] = reply.typed_string();
-    } else {
-      reply.skip_value();
-    }
+    reply.byte();
+    reply.byte();
+    reply.skip_value();
   }
 }
 
@@ -534,10 +534,12 @@ void TraciBackend::move_and_step(std::span<const SumoPose> vehicles,
   if (!is_guest()) {
     compose_step(vehicles, persons);
     read_step(vehicles, persons, result);
+    ask_signals(result);
     return;
   }
   result.time = std::nan("");
   ask_step(result);
+  ask_signals(result);
   if (!std::isfinite(result.time)) throw SumoError("SUMO", "does not tell its time over TraCI");
 }
 

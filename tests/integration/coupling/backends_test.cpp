@@ -37,10 +37,12 @@ class Backends : public ::testing::TestWithParam<const char*> {
     request.arguments = sumo_arguments(wish);
     request.start_timeout = 30;
     request.step_timeout = 30;
+    request.signals_by_schedule = by_schedule_;
     return std::string(GetParam()) == "libsumo" ? start_libsumo_backend(request)
                                                 : start_traci_backend(request);
   }
   std::unique_ptr<SumoBackend> start() { return start(scenario().config()); }
+  bool by_schedule_ = false;
 
   // steps without ghosts until the condition holds; false: it never did
   static bool run_until(SumoBackend& sumo, SumoStep& step, int most,
@@ -374,6 +376,36 @@ TEST_P(Backends, DetectorsThatAreToldOfTrafficExtendTheGreen) {
     return count;
   };
   EXPECT_LT(changes(true), changes(false));
+}
+
+// actuated ones, too, whose next switch is put off again and again
+TEST_P(Backends, SignalsBySchedulesAreThoseThatAreAskedForAtEachStep) {
+  using Shown = std::vector<std::pair<std::string, double>>;
+  std::size_t asked = 0;
+  auto shown_in = [&](bool by_schedule) {
+    by_schedule_ = by_schedule;
+    const auto sumo = start();
+    SumoStep step;
+    std::vector<Shown> all;
+    asked = 0;
+    for (int i = 0; i < 1200; ++i) {
+      std::vector<std::pair<std::string, double>> ages;
+      for (const auto& detector : sumo->detectors())
+        if (i % 300 < 150) ages.emplace_back(detector.id, 0.1 * (i % 10));
+      sumo->override_detectors(ages);
+      sumo->step({}, {}, step);
+      asked += step.asked_signals.size();
+      Shown shown;
+      for (std::size_t k = 0; k < step.signal_states.size(); ++k)
+        shown.emplace_back(step.signal_states[k], sumo->next_switch(k));
+      all.push_back(std::move(shown));
+    }
+    return all;
+  };
+  const auto every = shown_in(false);
+  EXPECT_EQ(asked, 1200 * every.front().size());
+  EXPECT_EQ(shown_in(true), every);
+  EXPECT_LT(asked, 0.5 * 1200 * static_cast<double>(every.front().size()));
 }
 
 TEST_P(Backends, WatchesInOrderUntilToldOtherwise) {

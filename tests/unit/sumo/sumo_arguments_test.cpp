@@ -46,6 +46,7 @@ TEST(SumoArguments, TheWindowStartsAtOnce) {
   SumoArguments wish;
   wish.gui = true;
   EXPECT_EQ(value_of(sumo_arguments(wish), "--start"), "true");
+  EXPECT_EQ(value_of(sumo_arguments(wish), "--aggregate-warnings"), "5");
   wish.user = {"-S", "false"};
   EXPECT_EQ(times(sumo_arguments(wish), "--start"), 0);
   EXPECT_EQ(value_of(sumo_arguments(wish), "-S"), "false");
