@@ -17,6 +17,14 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(PROJ REQUIRED IMPORTED_TARGET proj)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
+# newer headers of it call OpenSSL by themselves, which their .pc says nothing of to who links the shared library
+set(HTTPLIB_WITH PkgConfig::HTTPLIB)
+if("${HTTPLIB_CFLAGS}" MATCHES OPENSSL)
+  pkg_check_modules(OPENSSL IMPORTED_TARGET openssl)
+  if(OPENSSL_FOUND)
+    list(APPEND HTTPLIB_WITH PkgConfig::OPENSSL)
+  endif()
+endif()
 pkg_check_modules(POLYCLIPPING REQUIRED IMPORTED_TARGET polyclipping)
 
 # SUMO ships headers and libraries without a CMake package: in a built or installed tree (SUMO_HOME, as a variable of
@@ -56,5 +64,5 @@ set(SUMOGAMMA_LIBS_demand pugixml::pugixml)
 set(SUMOGAMMA_LIBS_ego nlohmann_json::nlohmann_json)
 set(SUMOGAMMA_LIBS_prediction nlohmann_json::nlohmann_json)
 set(SUMOGAMMA_LIBS_io nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus ZLIB::ZLIB pugixml::pugixml
-  SQLite::SQLite3 PkgConfig::ZSTD PkgConfig::HTTPLIB)
+  SQLite::SQLite3 PkgConfig::ZSTD ${HTTPLIB_WITH})
 set(SUMOGAMMA_LIBS_app CLI11::CLI11 spdlog::spdlog nlohmann_json::nlohmann_json)
