@@ -423,8 +423,7 @@ constexpr Make kObservers[] = {
 
 RunObservers::RunObservers(const RunPlan& plan, const Simulation& sim, SumoWorld& world,
                            SumoBackend& backend, LivePage* page)
-    : run_{plan, sim, world, LaneLocator(sim.model.road), backend, page},
-      inspector_(plan, sim, world) {
+    : run_{plan, sim, world, world.locator(), backend, page}, inspector_(plan, sim, world) {
   for (const Make maker : kObservers)
     if (auto observer = maker(run_)) list_.push_back(std::move(observer));
 }

@@ -19,7 +19,7 @@ struct WatchedRun {
   const RunPlan& plan;
   const Simulation& sim;
   SumoWorld& world;
-  LaneLocator locator;
+  const LaneLocator& locator;
   SumoBackend& backend;
   LivePage* page;  ///< of --serve, or null
 

@@ -93,6 +93,7 @@ class SumoWorld : public World {
   /// SUMO's id of an agent, by AgentId.
   const std::vector<std::string>& names() const { return names_; }
   const SumoStep& last_step() const { return step_; }
+  const LaneLocator& locator() const { return locator_; }
   /// What is known of agents, by AgentId.
   const std::vector<KnownAgent>& known_agents() const { return known_; }
   /// Who waits off the map for room: ours, and SUMO's own.

@@ -4,7 +4,6 @@
 #include <iterator>
 
 #include "base/error.h"
-#include "scene/sumo_defaults.h"
 
 namespace sumogamma {
 
@@ -124,7 +123,6 @@ void ask_details(TraciWriter& message, const std::string& id, bool is_person) {
 namespace {
 
 void read_person(TraciReader& reply, SumoAgentDetails& details) {
-  details.max_speed = walking_speed(details.max_speed);
   if (std::optional<TraciReader> value = read_answer(reply, traci::kPerson, traci::kStage)) {
     const TraciStage stage = read_stage(*value);
     details.stage = stage_kind(stage.type);

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "scene/sumo_defaults.h"
 #include "sumo/stepped_backend.h"
 #include "sumo/sumo_process.h"
 #include "sumo/traci_answers.h"
@@ -171,6 +172,7 @@ class TraciBackend final : public SteppedBackend {
   std::string scenario() const;
   std::vector<std::string> id_list(std::uint8_t domain);
   void read_reroute_periods(std::vector<SumoAgentDetails>& all);
+  void read_walking_speeds(std::vector<SumoAgentDetails>& all);
 
   void compose_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons);
   void read_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
@@ -194,6 +196,7 @@ class TraciBackend final : public SteppedBackend {
   bool closed_ = false;
   std::string version_;
   std::map<std::string, std::string> options_;
+  std::map<std::string, double> type_max_speed_;  ///< of people's types [m/s]
 
   TraciWriter queued_;  // commands that can wait for the next step
   TraciWriter message_;
@@ -632,6 +635,7 @@ std::vector<SumoAgentDetails> TraciBackend::details(std::span<const std::string>
     for (const std::string& id : vehicles) all.push_back(read_details(reply, id, false));
     for (const std::string& id : persons) all.push_back(read_details(reply, id, true));
     read_reroute_periods(all);
+    read_walking_speeds(all);
     return all;
   });
 }
@@ -690,6 +694,26 @@ void TraciBackend::read_reroute_periods(std::vector<SumoAgentDetails>& all) {
   for (SumoAgentDetails& details : all)
     if (reroutes(details))
       details.reroute_period = reroute_period(read_text(reply, traci::kVehicle, traci::kParameter));
+}
+
+/// Of people's types: a newer SUMO has the person's own factor in what it tells of the person.
+void TraciBackend::read_walking_speeds(std::vector<SumoAgentDetails>& all) {
+  message_.clear();
+  std::vector<double*> asked;
+  for (const SumoAgentDetails& details : all) {
+    if (!details.is_person) continue;
+    const auto [type, is_new] = type_max_speed_.try_emplace(details.type_id, details.max_speed);
+    if (!is_new) continue;
+    message_.get(traci::kVehicleType, traci::kMaxSpeed, details.type_id);
+    asked.push_back(&type->second);
+  }
+  if (!asked.empty()) {
+    TraciReader reply = exchange(message_);
+    for (double* const speed : asked)
+      *speed = read_number(reply, traci::kVehicleType, traci::kMaxSpeed, *speed);
+  }
+  for (SumoAgentDetails& details : all)
+    if (details.is_person) details.max_speed = walking_speed(type_max_speed_.at(details.type_id));
 }
 
 std::vector<std::string> TraciBackend::id_list(std::uint8_t domain) {

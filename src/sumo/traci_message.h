@@ -18,7 +18,7 @@ inline constexpr std::uint8_t kGetVersion = 0x00, kSimulationStep = 0x02, kSetOr
 /// A domain's get command; set, subscribe and the responses are fixed offsets from it.
 inline constexpr std::uint8_t kInductionLoop = 0xa0, kTrafficLight = 0xa2, kVehicle = 0xa4,
                               kEdge = 0xaa, kSimulation = 0xab, kPerson = 0xae, kLaneDomain = 0xa3,
-                              kRouteDomain = 0xa6;
+                              kRouteDomain = 0xa6, kVehicleType = 0xa5;
 constexpr std::uint8_t set_command(std::uint8_t domain) {
   return static_cast<std::uint8_t>(domain + 0x20);
 }
