@@ -25,7 +25,7 @@ const count = value => { while (value >= 128) { byte(value % 128 + 128); value =
 const signed = value => count(value >= 0 ? 2 * value : -2 * value - 1);
 const text = words => { const letters = Buffer.from(words); count(letters.length); for (const letter of letters) byte(letter); };
 
-for (const letter of Buffer.from('SGR2')) byte(letter);
+for (const letter of Buffer.from('SGR3')) byte(letter);
 text(JSON.stringify(decoder.recording.map));
 const made = Array.from({length: +agents}, (_, i) => ({way: ways[i % ways.length], begin: i * 37, x: 0, y: 0, dx: 0, dy: 0, h: 0}));
 for (let step = 0; step < 10 * seconds; ++step) {

@@ -218,8 +218,9 @@ class Episode {
         drive_.external
             ? Planner([this](const EgoView& view) { return drive_.external->decide(view); })
             : make_planner(settings.planner);
-    driver_.emplace(EgoTask{settings, goal_, seed_, sim_.dt, sim_.rules}, *sim_.workers,
-                    std::move(planner));
+    EgoTask task{settings, goal_, seed_, sim_.dt, sim_.rules};
+    if (replay_) task.look_on = [this](const PlanTrace& trace) { replay_->add_plan(trace); };
+    driver_.emplace(std::move(task), *sim_.workers, std::move(planner));
     sim_.planned = [this](const TrafficView& view, std::size_t ego) {
       return (*driver_)(view, ego);
     };

@@ -60,6 +60,22 @@ PlanRoot plan_root(const EgoView& view, const WayBeliefs& beliefs, bool knows,
   return root;
 }
 
+std::size_t draw_choice(const PlanRoot& root, std::size_t row, std::uint64_t key,
+                        std::uint32_t index, std::uint32_t count) {
+  const std::uint32_t id = root.fork.scene.id[row].value;
+  const std::vector<PlanRoot::Choice>& choices = root.choices[row];
+  // a tooth of the agent's own comb: which one is a matter of rank among random numbers
+  std::uint32_t tooth = 0;
+  const std::uint64_t rank = random_bits(key, id, index, Draw::Intention);
+  for (std::uint32_t other = 0; other < count; ++other)
+    tooth += random_bits(key, id, other, Draw::Intention) < rank ? 1u : 0u;
+  const double place = (tooth + random_uniform(key, id, count, Draw::Intention)) / count;
+  std::size_t chosen = 0;
+  for (double up_to = choices[0].weight; place >= up_to && chosen + 1 < choices.size();)
+    up_to += choices[++chosen].weight;
+  return chosen;
+}
+
 void draw_scenario(const Model& model, const PlanRoot& root, std::uint64_t key, std::uint32_t index,
                    std::uint32_t count, DrivingState& state) {
   state.scene = root.fork.scene;
@@ -79,23 +95,14 @@ void draw_scenario(const Model& model, const PlanRoot& root, std::uint64_t key, 
     scene.preferred_speed[row] *= std::max(pace, 0.0);
     const std::vector<PlanRoot::Choice>& choices = root.choices[row];
     if (choices.empty()) continue;
-    // a tooth of the agent's own comb: which one is a matter of rank among random numbers
-    std::uint32_t tooth = 0;
-    const std::uint64_t rank = random_bits(key, id, index, Draw::Intention);
-    for (std::uint32_t other = 0; other < count; ++other)
-      tooth += random_bits(key, id, other, Draw::Intention) < rank ? 1u : 0u;
-    const double place = (tooth + random_uniform(key, id, count, Draw::Intention)) / count;
-    std::size_t chosen = 0;
-    for (double up_to = choices[0].weight; place >= up_to && chosen + 1 < choices.size();)
-      up_to += choices[++chosen].weight;
-    const PathId path = choices[chosen].path;
-    if (path == kNoPath) {
-      Intention& way = scene.behavior[row].intention = choices[chosen].intention;
+    const PlanRoot::Choice& chosen = choices[draw_choice(root, row, key, index, count)];
+    if (chosen.path == kNoPath) {
+      Intention& way = scene.behavior[row].intention = chosen.intention;
       if (way.kind == IntentionKind::Velocity) way.goal *= std::max(pace, 0.0);
       continue;
     }
-    scene.path[row] = path;
-    scene.path_along[row] = state.road.path(path)->line.project(scene.position[row]).along;
+    scene.path[row] = chosen.path;
+    scene.path_along[row] = state.road.path(chosen.path)->line.project(scene.position[row]).along;
     scene.behavior[row].intention.kind = IntentionKind::Path;
   }
 }

@@ -50,6 +50,10 @@ struct PlanRoot {
 PlanRoot plan_root(const EgoView& view, const WayBeliefs& beliefs, bool knows,
                    std::size_t observed);
 
+/// Which of the choices of a row that has some is taken in scenario `index` of `count`.
+std::size_t draw_choice(const PlanRoot& root, std::size_t row, std::uint64_t key,
+                        std::uint32_t index, std::uint32_t count);
+
 /// Scenario `index` of `count`: each agent's ways drawn by their shares (systematic over the
 /// scenarios, in an order of its own), and what is hidden in it. A pure function of its arguments.
 void draw_scenario(const Model& model, const PlanRoot& root, std::uint64_t key, std::uint32_t index,

@@ -31,13 +31,29 @@ bool must_brake_now(const Model& model, const Scene& scene, std::size_t row) {
 void EgoDriver::plan(const TrafficView& world, std::size_t row) {
   const Scene& scene = world.scene;
   const auto number = static_cast<std::int64_t>(plans_.size());
-  const EgoView view{world,      workers_, row,     task_.settings, task_.goal,
-                     task_.seed, number,   since(), progress_,      task_.rules};
+  PlanTrace trace;
+  const EgoView view{world,
+                     workers_,
+                     row,
+                     task_.settings,
+                     task_.goal,
+                     task_.seed,
+                     number,
+                     since(),
+                     progress_,
+                     task_.rules,
+                     task_.look_on ? &trace : nullptr};
   const auto start = std::chrono::steady_clock::now();
   EgoAction action = planner_(view);
   if (!action.trajectory.empty())
     action.trajectory.insert(action.trajectory.begin(), {0.0, scene.position[row]});
   times_.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  if (task_.look_on) {
+    trace.ego = scene.id[row];
+    trace.time = scene.time;
+    trace.action = action;
+    task_.look_on(trace);
+  }
   plans_.push_back({number, since(), scene.position[row], scene.heading[row], scene.speed[row],
                     progress_, std::move(action), 0});
   planned_at_ = since();

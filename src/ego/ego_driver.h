@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "ego/plan_trace.h"
 #include "ego/planners.h"
 
 namespace sumogamma {
@@ -25,6 +26,8 @@ struct EgoTask {
   std::uint64_t seed = 1;
   double step = 0.05;  ///< of the world [s]
   bool rules = true;
+  /// Told of every plan; empty: nobody looks on, and planners note nothing.
+  std::function<void(const PlanTrace&)> look_on = {};
 };
 
 /// The ego's driver: asks the planner at the first tick at or after every k / rate seconds and does

@@ -10,6 +10,8 @@
 
 namespace sumogamma {
 
+struct PlanTrace;
+
 /// Where the ego wants to: a place on its way, and the direction of its road there.
 struct EgoGoal {
   Vec2 position = Vec2::Zero();
@@ -30,10 +32,11 @@ struct EgoView {
   const EgoSettings& settings;
   const EgoGoal& goal;
   std::uint64_t seed;
-  std::int64_t plan;  ///< number of this plan in its episode, from 0
-  double since;       ///< the episode's begin [s]
-  double progress;    ///< made along the way so far [m]
-  bool rules;         ///< does the world keep the rules of the road?
+  std::int64_t plan;           ///< number of this plan in its episode, from 0
+  double since;                ///< the episode's begin [s]
+  double progress;             ///< made along the way so far [m]
+  bool rules;                  ///< does the world keep the rules of the road?
+  PlanTrace* trace = nullptr;  ///< where to note what it thinks; null: nobody looks on
 };
 
 /// Rows about a row: those nearer than `reach` [m] on its storey, the nearest `most` of them,

@@ -7,7 +7,9 @@
 #include <limits>
 #include <span>
 
+#include "ego/driving_problem.h"
 #include "ego/futures.h"
+#include "ego/plan_trace.h"
 #include "ego/search_planners.h"
 #include "scene/extent.h"
 #include "traffic/longitudinal/car_following.h"
@@ -70,13 +72,14 @@ class ByFutures {
     std::vector<double> choices = view.settings.accelerations;
     std::sort(choices.begin(), choices.end(), std::greater<>());
     EgoAction action;
+    Futures futures;
     mind_->beliefs.observe(view, mind_->forward);
     for (const double acceleration : choices) {
       action.acceleration = acceleration;
       FuturesRequest request{{acceleration, acceleration, choices.back()},
                              9,
                              view.seed * 1000003u + static_cast<std::uint64_t>(view.plan)};
-      const Futures futures = sample_futures(view, request, mind_->beliefs, mind_->forward);
+      futures = sample_futures(view, request, mind_->beliefs, mind_->forward);
       int meet = 0;
       for (std::size_t begin = 0; begin < futures.gap.size(); begin += futures.steps) {
         const auto gaps = std::span(futures.gap).subspan(begin, futures.steps);
@@ -84,12 +87,25 @@ class ByFutures {
         // who is near already, and isn't come nearer to, holds nobody up
         meet += least < kLeastGap && (least <= 0.0 || least < gaps.front());
       }
-      if (meet <= kMostMeet * request.samples) return action;
+      if (view.trace != nullptr) {
+        const double share = static_cast<double>(meet) / request.samples;
+        view.trace->choices.push_back({acceleration, share, share});
+      }
+      if (meet <= kMostMeet * request.samples) break;
     }
+    if (view.trace != nullptr) note(view, futures);
     return action;
   }
 
  private:
+  /// What was believed, and the futures of what was chosen.
+  void note(const EgoView& view, const Futures& futures) const {
+    view.trace->figures = PlanTrace::Figures::Meetings;
+    trace_beliefs(view.world.model.types, plan_root(view, mind_->beliefs, false, 0),
+                  futures.step * static_cast<double>(futures.steps), *view.trace);
+    trace_futures(view.world.scene, futures, *view.trace);
+  }
+
   struct Mind {
     ForwardModel forward;
     WayBeliefs beliefs;

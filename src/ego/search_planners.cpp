@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/random.h"
+#include "ego/plan_trace.h"
 
 namespace sumogamma {
 
@@ -64,14 +65,29 @@ SearchDecision DrivingSearch::decide(const EgoView& view) {
     const std::vector<SearchParticle> particle = {{1.0, 0, 0, 0}};
     found.action = problem.default_action(ScenarioGroup<DrivingState>(particle, states_.data()));
     found.statistics.by_default = true;
-  } else if (size_.trees == 2 && count >= 2 && !rolls) {
+  } else if (is_paired(count)) {
     DrivingProblem other(view, root, others_, driving_, forward_[1]);
     found =
         trees_.search({&problem, &other}, {states_, weights_, key}, parameters, budget, workers_);
   } else {
     found = tree_.search(problem, {states_, weights_, key}, parameters, budget);
   }
+  if (view.trace != nullptr && kind_ != SearchPlanner::Policy) note(view, root, key, problem);
   return {found.action, problem.acceleration_of(found.action), found.statistics};
+}
+
+/// What was believed, drawn and found.
+void DrivingSearch::note(const EgoView& view, const PlanRoot& root, std::uint64_t key,
+                         const DrivingProblem& problem) const {
+  PlanTrace& trace = *view.trace;
+  const auto count = static_cast<std::uint32_t>(states_.size());
+  trace_beliefs(view.world.model.types, root, size_.search.depth * ForwardModel::kStep, trace);
+  trace_scenarios(root, key, count, trace);
+  trace.figures = PlanTrace::Figures::Values;
+  for (int action = 0; action < std::ssize(view.settings.accelerations); ++action) {
+    const NodeBounds bounds = is_paired(count) ? trees_.bounds_of(action) : tree_.bounds_of(action);
+    trace.choices.push_back({problem.acceleration_of(action), bounds.lower, bounds.upper});
+  }
 }
 
 Planner make_search_planner(SearchPlanner kind) {

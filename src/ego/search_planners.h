@@ -46,6 +46,12 @@ class DrivingSearch {
   const BeliefTree<DrivingProblem>& tree() const { return tree_; }
 
  private:
+  bool is_paired(std::uint32_t scenarios) const {
+    return size_.trees == 2 && scenarios >= 2 && kind_ != SearchPlanner::RolloutGamma;
+  }
+  void note(const EgoView& view, const PlanRoot& root, std::uint64_t key,
+            const DrivingProblem& problem) const;
+
   SearchPlanner kind_;
   PlanSize size_;
   DrivingParameters driving_;

@@ -52,6 +52,11 @@ void ReplayRecorder::add_spaces(std::span<const InspectedAgent> agents) {
   write_where_much();
 }
 
+void ReplayRecorder::add_plan(const PlanTrace& plan) {
+  encoder_.add_plan(plan);
+  write_where_much();
+}
+
 void ReplayRecorder::close() {
   if (!stream_) return;
   encoder_.end();

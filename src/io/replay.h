@@ -29,6 +29,7 @@ class ReplayRecorder {
   void add_event(const ReplayEvent& event);
   /// Of the last recorded step: see ReplayEncoder.
   void add_spaces(std::span<const InspectedAgent> agents);
+  void add_plan(const PlanTrace& plan);
   bool is_at(double time) const { return encoder_.is_at(time); }
 
   /// Ends the file. Idempotent. Throws Error naming the file.

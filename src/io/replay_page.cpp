@@ -37,9 +37,9 @@ void check_recording(const std::filesystem::path& file) {
   const bool direct = stream && gzdirect(stream) != 0;
   if (stream) gzclose(stream);
   const std::string_view found(magic.data(), magic.size());
-  if (read == 4 && !direct && found != "SGR2" && found.substr(0, 3) == "SGR")
+  if (read == 4 && !direct && found != "SGR3" && found.substr(0, 3) == "SGR")
     throw Error(file.string(), "another version of sumo-gamma recorded it, run again");
-  if (read != 4 || direct || found != "SGR2")
+  if (read != 4 || direct || found != "SGR3")
     throw Error(file.string(),
                 "isn't a recording, expected replay.bin of `sumo-gamma run --replay`");
 }

@@ -11,7 +11,7 @@ namespace sumogamma {
 // The layout. count: unsigned, seven bits a byte, low first. signed: zigzag of a count. text:
 // count, bytes. foe: count(id + 1), 0 for nobody.
 //
-//   "SGR2"  text(map JSON)  record*
+//   "SGR3"  text(map JSON)  record*
 //   record 1, a step:   count(milliseconds since the last step)
 //                       count(gone)  count(index in the list of agents, less the previous one)*
 //                       count(new)   newcomer*
@@ -37,6 +37,16 @@ namespace sumogamma {
 //                       admits v where v . normal >= offset
 //   record 5, again:    all agents are gone, time is at zero and signals aren't known: readers may
 //                       begin here
+//   record 6, a plan of the ego, which holds until the next one:
+//                       count(milliseconds) count(id) byte(0: along its way, 1: with steering, 2: a
+//                       trajectory) signed(acceleration in mm/s^2) signed(steering in mrad)
+//                       line(the trajectory) byte(PlanTrace::Figures)
+//                       count(choices) [signed(acceleration) byte(1: its figures follow)
+//                       [signed(lower, upper in 1/1000)]]*
+//                       count(beliefs) [count(id) count(ways) [count(probability in 1/1000)
+//                       line]*]*
+//                       count(scenarios) [count(agents) [count(id) count(way + 1) line]*]*
+//     line:             count(points) signed(x, y in cm less those of the point before)*
 //   record 0: the end
 //
 // New agents stand at the end of the list: ids only grow. A new agent's differences start from
@@ -87,6 +97,17 @@ void ReplayEncoder::put_text(std::string_view text) {
 void ReplayEncoder::put_point(const Vec2& point, double unit) {
   put_signed(std::llround(point.x() / unit));
   put_signed(std::llround(point.y() / unit));
+}
+
+void ReplayEncoder::put_line(const std::vector<Vec2>& line) {
+  put_count(line.size());
+  std::int64_t x = 0, y = 0;
+  for (const Vec2& point : line) {
+    const std::int64_t next_x = std::llround(point.x() / kCentimetre),
+                       next_y = std::llround(point.y() / kCentimetre);
+    put_signed(next_x - std::exchange(x, next_x));
+    put_signed(next_y - std::exchange(y, next_y));
+  }
 }
 
 bool ReplayEncoder::add_step(const ReplayStep& step) {
@@ -246,10 +267,55 @@ void ReplayEncoder::append_space(const InspectedAgent& agent) {
   }
 }
 
+void ReplayEncoder::add_plan(const PlanTrace& plan) {
+  const EgoAction& action = plan.action;
+  put_byte(6);
+  put_count(whole(plan.time, 0.001));
+  put_count(plan.ego.value);
+  put_byte(!action.trajectory.empty() ? 2 : action.steering ? 1 : 0);
+  put_signed(std::llround(action.acceleration / kMillimetre));
+  put_signed(std::llround(action.steering.value_or(0.0) / 0.001));
+  std::vector<Vec2> trajectory;
+  for (const TrajectoryPoint& point : action.trajectory) trajectory.push_back(point.position);
+  put_line(trajectory);
+  append_choices(plan);
+  put_count(plan.beliefs.size());
+  for (const PlanTrace::Belief& belief : plan.beliefs) {
+    put_count(belief.id.value);
+    put_count(belief.ways.size());
+    for (const PlanTrace::Way& way : belief.ways) {
+      put_count(whole(way.probability, 0.001));
+      put_line(way.line);
+    }
+  }
+  put_count(plan.scenarios.size());
+  for (const PlanTrace::Scenario& scenario : plan.scenarios) {
+    put_count(scenario.size());
+    for (const PlanTrace::Part& part : scenario) {
+      put_count(part.id.value);
+      put_count(static_cast<std::uint64_t>(part.way + 1));
+      put_line(part.line);
+    }
+  }
+}
+
+void ReplayEncoder::append_choices(const PlanTrace& plan) {
+  put_byte(static_cast<unsigned>(plan.figures));
+  put_count(plan.choices.size());
+  for (const PlanTrace::Choice& choice : plan.choices) {
+    put_signed(std::llround(choice.acceleration / kMillimetre));
+    const bool known = std::isfinite(choice.lower);
+    put_byte(known ? 1 : 0);
+    if (!known) continue;
+    put_signed(std::llround(choice.lower / 0.001));
+    put_signed(std::llround(choice.upper / 0.001));
+  }
+}
+
 std::string replay_header(const std::string& title, const RoadNetwork& network,
                           const AgentTypeTable& types) {
   const std::string map = replay_map_json(title, network, types);
-  std::string header = "SGR2";
+  std::string header = "SGR3";
   append_count(map.size(), header);
   return header + map;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "ego/plan_trace.h"
 #include "io/trajectories.h"
 #include "model/gamma_velocity.h"
 #include "road/road_network.h"
@@ -59,13 +60,13 @@ struct ReplayStep {
   std::span<const Binding> bindings = {};  ///< one a row, or none
 };
 
-/// "SGR2" and the map: with what a recording begins.
+/// "SGR3" and the map: with what a recording begins.
 std::string replay_header(const std::string& title, const RoadNetwork& network,
                           const AgentTypeTable& types);
 
 /// Makes records of what a replay page draws: poses in centimetres as second differences, signals
-/// and agents' foes where they change, events, velocity spaces. The layout is documented above it
-/// in replay_stream.cpp and read by replay/recording.js.
+/// and agents' foes where they change, events, velocity spaces, plans of an ego. The layout is
+/// documented above it in replay_stream.cpp and read by replay/recording.js.
 class ReplayEncoder {
  public:
   static constexpr double kDefaultPeriod = 0.1;  ///< [s]
@@ -78,6 +79,8 @@ class ReplayEncoder {
   void add_event(const ReplayEvent& event);
   /// Belong to the last step. Precondition: is_at(their scene's time).
   void add_spaces(std::span<const InspectedAgent> agents);
+  /// In order of time.
+  void add_plan(const PlanTrace& plan);
   /// Is the last step that was recorded the one of this time?
   bool is_at(double time) const { return started_ && std::abs(time - last_time_) < 1e-6; }
   /// The next step will be readable without what came before, by readers who know the header.
@@ -101,11 +104,13 @@ class ReplayEncoder {
   void append_limits(const ReplayStep& step, std::size_t row, Agent& agent);
   void append_signals(const RoadState& road);
   void append_space(const InspectedAgent& agent);
+  void append_choices(const PlanTrace& plan);
   void put_byte(unsigned value) { buffer_.push_back(static_cast<char>(value & 0xffu)); }
   void put_count(std::uint64_t value);
   void put_signed(std::int64_t value);
   void put_text(std::string_view text);
   void put_point(const Vec2& point, double unit);
+  void put_line(const std::vector<Vec2>& line);
 
   double period_, next_time_ = 0, last_time_ = 0;
   bool started_ = false;

@@ -155,9 +155,9 @@ class BeliefTree {
   }
   SearchResult result() const;
 
-  /// Lower bound on the root's value if it begins with this action; nothing is known of those that
-  /// the root hasn't (minus infinity).
-  double value_of(int action) const;
+  /// Bounds on the root's value if it begins with this action; nothing but the root's upper bound
+  /// is known of those that the root hasn't (lower: minus infinity).
+  NodeBounds bounds_of(int action) const;
   int default_action() const { return default_action_; }
 
   /// Belief nodes, the root first, parents before children.
@@ -555,14 +555,19 @@ void BeliefTree<Problem>::backup(std::uint32_t belief) {
 }
 
 template <BeliefProblem Problem>
-double BeliefTree<Problem>::value_of(int action) const {
-  double value = -std::numeric_limits<double>::infinity();
+NodeBounds BeliefTree<Problem>::bounds_of(int action) const {
   const BeliefNode& root = beliefs_.front();
+  NodeBounds bounds = root.bounds;
+  bounds.lower = -std::numeric_limits<double>::infinity();
   for (std::uint32_t i = 0; i < root.actions; ++i) {
     const ActionNode& node = action_nodes_[root.first_action + i];
-    if (node.action == action) value = node.bounds.lower;
+    if (node.action == action) bounds = node.bounds;
   }
-  return action == default_action_ ? std::max(value, root.default_value) : value;
+  if (action == default_action_) {
+    bounds.lower = std::max(bounds.lower, root.default_value);
+    bounds.upper = std::max(bounds.upper, bounds.lower);
+  }
+  return bounds;
 }
 
 template <BeliefProblem Problem>

@@ -25,6 +25,8 @@ class PairedSearch {
                       Workers& workers);
 
   const BeliefTree<Problem>& tree(std::size_t half) const { return halves_[half].tree; }
+  /// Both trees' BeliefTree::bounds_of, their means by weight.
+  NodeBounds bounds_of(int action) const;
 
  private:
   struct Half {
@@ -75,13 +77,18 @@ SearchResult PairedSearch<Problem>::search(const std::array<Problem*, 2>& proble
 }
 
 template <BeliefProblem Problem>
+NodeBounds PairedSearch<Problem>::bounds_of(int action) const {
+  const NodeBounds first = tree(0).bounds_of(action), second = tree(1).bounds_of(action);
+  const auto mean = [&](double NodeBounds::*bound) {
+    return halves_[0].share * first.*bound + halves_[1].share * second.*bound;
+  };
+  return {mean(&NodeBounds::lower), mean(&NodeBounds::upper), mean(&NodeBounds::utility)};
+}
+
+template <BeliefProblem Problem>
 SearchResult PairedSearch<Problem>::joint_result() const {
   SearchResult found = halves_[0].tree.result();
   const SearchResult other = halves_[1].tree.result();
-  const auto value = [&](int action) {
-    return halves_[0].share * tree(0).value_of(action) +
-           halves_[1].share * tree(1).value_of(action);
-  };
   SearchStatistics& sum = found.statistics;
   const SearchStatistics& more = other.statistics;
   sum.trials += more.trials;
@@ -98,11 +105,12 @@ SearchResult PairedSearch<Problem>::joint_result() const {
     return found;
   }
   const BeliefNode& root = tree(0).beliefs().front();
-  double best = value(found.action);
+  double best = bounds_of(found.action).lower;
   for (std::uint32_t i = 0; i < root.actions; ++i) {
     const int action = tree(0).action_nodes()[root.first_action + i].action;
-    if (value(action) <= best) continue;
-    best = value(action);
+    const double value = bounds_of(action).lower;
+    if (value <= best) continue;
+    best = value;
     found.action = action;
   }
   sum.by_default = false;

@@ -20,7 +20,7 @@ class Bytes {
   count(value) { while (value >= 128) { this.byte(value % 128 + 128); value = Math.floor(value / 128); } return this.byte(value); }
   signed(value) { return this.count(value >= 0 ? 2 * value : -2 * value - 1); }
   text(text) { const bytes = Buffer.from(text); this.count(bytes.length); this.list.push(...bytes); return this; }
-  header(title) { this.list.push(...Buffer.from('SGR2')); return this.text(JSON.stringify({title})); }
+  header(title) { this.list.push(...Buffer.from('SGR3')); return this.text(JSON.stringify({title})); }
   newcomer(id, name) {
     this.count(id).byte(0).text(name).byte(4);
     for (const [x, y] of [[200, 90], [-200, 90], [-200, -90], [200, -90]]) this.signed(x).signed(y);
@@ -30,7 +30,7 @@ class Bytes {
   done() { return Uint8Array.from(this.list); }
 }
 
-const {Decoder, spaceAt} = load(['recording.js'], ['Decoder', 'spaceAt']);
+const {Decoder, spaceAt, planAt} = load(['recording.js'], ['Decoder', 'spaceAt', 'planAt']);
 
 
 test('poses are sums of second differences, foes stay until another follows', () => {
@@ -108,6 +108,48 @@ test('a velocity space belongs to its step, and for a second to those after it',
   assert.equal(spaceAt(recording, 8, 1), null);
 });
 
+test('a plan is read with its beliefs, scenarios and choices, and one that is cut off is left out', () => {
+  const bytes = new Bytes().header('town');
+  const line = (...points) => {
+    bytes.count(points.length);
+    points.forEach(([x, y], i) => bytes.signed(x - (points[i - 1]?.[0] ?? 0)).signed(y - (points[i - 1]?.[1] ?? 0)));
+    return bytes;
+  };
+  const begin = bytes.list.length;
+  bytes.byte(6).count(12350).count(7).byte(0).signed(-3000).signed(0);
+  line();
+  bytes.byte(1).count(2).signed(3000).byte(0).signed(-3000).byte(1).signed(-21250).signed(-3000);
+  bytes.count(1).count(9).count(2).count(750);
+  line([1000, -500], [2000, -510]).count(250);
+  line([1000, -500]);
+  bytes.count(1).count(2).count(9).count(2);
+  line().count(7).count(0);
+  line([0, 0], [100, 0]);
+  const end = bytes.list.length;
+  const decoder = new Decoder();
+  decoder.push(bytes.done());
+  assert.deepEqual(decoder.recording.plans, [{
+    time: 12.35, ego: 7, action: 0, acceleration: -3, steering: 0, trajectory: [], figures: 1,
+    choices: [{acceleration: 3}, {acceleration: -3, lower: -21.25, upper: -3}],
+    beliefs: new Map([[9, [{probability: 0.75, line: [[10, -5], [20, -5.1]]}, {probability: 0.25, line: [[10, -5]]}]]]),
+    scenarios: [[{id: 9, way: 1, line: []}, {id: 7, way: -1, line: [[0, 0], [1, 0]]}]],
+  }]);
+  for (let size = begin; size < end; ++size) {
+    const other = new Decoder();
+    other.push(bytes.done().subarray(0, size));
+    assert.equal(other.recording.plans.length, 0, `cut to ${size}`);
+  }
+});
+
+test('a plan holds until the next one', () => {
+  const plans = [{time: 1}, {time: 1.35}, {time: 1.7}];
+  assert.equal(planAt(plans, 0.9), null);
+  assert.equal(planAt(plans, 1), plans[0]);
+  assert.equal(planAt(plans, 1.5), plans[1]);
+  assert.equal(planAt(plans, 60), plans[2]);
+  assert.equal(planAt([], 1), null);
+});
+
 const words = load(['words.js'], ['limitOf', 'limitWords', 'kLimits', 'kBind', 'kReason', 'kEvents', 'eventWords']);
 const onRoad = reason => 16 | reason;
 
@@ -170,4 +212,46 @@ test('the plane that binds comes first, then the nearest', () => {
   const planes = [{normal: [1, 0], offset: -9, kind: 0}, {normal: [1, 0], offset: -1, kind: 1}, {normal: [1, 0], offset: -5, kind: 1}];
   const order = space.planesByWeight({planes, plane: 2, chosen: [0, 0]}).map(plane => plane.offset);
   assert.deepEqual(order, [-5, -1, -9]);
+});
+
+const plans = load(['words.js', 'plans.js'], ['turnOf', 'lineOf', 'apart', 'planLines', 'wayWords', 'planWords', 'figureWords'],
+  'const clockText = t => t.toFixed(1);');
+
+test('ways are told by where they end up against where the agent points', () => {
+  const {turnOf, wayWords} = plans, north = Math.PI / 2;
+  const told = (line, h) => wayWords(turnOf(line, h));
+  assert.equal(told([[0, 0]], 0), 'stops');
+  assert.equal(told([[0, 0], [0, 10], [0, 20]], north), 'goes on');
+  assert.equal(told([[0, 0], [0, 10], [-10, 20], [-20, 20], [-20, 20]], north), 'turns left');
+  assert.equal(told([[0, 0], [0, 10], [10, 20], [20, 20]], north), 'turns right');
+  assert.equal(told([[0, 0], [0, -10]], north), 'turns back');
+  // across the seam of angles
+  assert.equal(told([[0, 0], [-10, 0]], -Math.PI + 0.1), 'goes on');
+});
+
+test('of the ego its choices are told, of others what is believed of them', () => {
+  const plan = {ego: 7, acceleration: -3, figures: 1, choices: [{acceleration: 0}, {acceleration: -3, lower: -21.25, upper: -812.4}],
+    beliefs: new Map([[9, [{probability: 0.756, line: [[0, 0], [5, 0]]}, {probability: 0.244, line: [[0, 0]]}]]])};
+  assert.deepEqual(plans.planLines(plan, 7, 0), [
+    {mark: '○', text: 'keeps its speed', value: 'not looked at', share: 0, bold: false},
+    {mark: '●', text: 'brakes by 3.0 m/s²', value: '-21.25 … -812', share: 0, bold: true}]);
+  assert.deepEqual(plans.planLines(plan, 9, 0), [
+    {mark: 1, text: 'goes on', value: '76 %', share: 0.756, bold: false},
+    {mark: 2, text: 'stops', value: '24 %', share: 0.244, bold: false}]);
+  assert.deepEqual(plans.planLines(plan, 8, 0), []);
+  assert.equal(plans.figureWords(2, {lower: 1 / 9}), '11 %');
+  assert.equal(plans.planWords({time: 3, action: 1, acceleration: 1, steering: -0.2}), 'plan of 3.0: speeds up by 1.0 m/s², front wheels 11° right');
+});
+
+test('numbers at ends that coincide are side by side', () => {
+  const placed = plans.apart([[10, 10], [11, 10], [10, 10], [80, 10]], 16);
+  assert.deepEqual([placed[0], placed[3]], [[10, 10], [80, 10]]);
+  for (const [i, [x, y]] of placed.entries()) for (const [u, v] of placed.slice(0, i)) assert.ok(Math.hypot(x - u, y - v) >= 16);
+});
+
+test('in a scenario everybody goes along one of its ways, or as was predicted', () => {
+  const plan = {beliefs: new Map([[9, [{line: [[0, 0]]}, {line: [[1, 1]]}]]])};
+  assert.deepEqual(plans.lineOf(plan, {id: 9, way: 1, line: []}), [[1, 1]]);
+  assert.deepEqual(plans.lineOf(plan, {id: 9, way: -1, line: [[2, 2]]}), [[2, 2]]);
+  assert.deepEqual(plans.lineOf(plan, {id: 5, way: 0, line: []}), []);
 });

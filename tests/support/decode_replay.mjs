@@ -10,10 +10,11 @@ let bytes = fs.readFileSync(file);
 if (bytes[0] === 0x1f) bytes = await inflate(bytes);
 const decoder = new Decoder();
 decoder.push(new Uint8Array(bytes));
-const {map, times, alive, agents, signals, events, spaces} = decoder.recording;
+const {map, times, alive, agents, signals, events, spaces, plans} = decoder.recording;
 const list = (column, agent) => [...column.slice(0, agent.length)];
 console.log(JSON.stringify({
   title: map.title, ended: decoder.ended, times, alive, signals, events, spaces: Object.fromEntries(spaces),
+  plans: plans.map(plan => ({...plan, beliefs: Object.fromEntries(plan.beliefs)})),
   agents: agents.map(agent => ({id: agent.id, name: agent.name, type: agent.type, first: agent.first, length: agent.length,
     outline: agent.outline, behaviour: agent.behaviour, x: list(agent.x, agent), y: list(agent.y, agent), h: list(agent.h, agent),
     state: list(agent.state, agent), foe: list(agent.foe, agent), bind: list(agent.bind, agent), bindFoe: list(agent.bindFoe, agent)})),

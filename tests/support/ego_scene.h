@@ -30,7 +30,7 @@ class EgoScene {
                               traffic_.code,
                               rules_};
     return use(EgoView{traffic, workers_, ego_, settings_, goal_, 1, plan_, here_.scene.time, 0.0,
-                       rules_});
+                       rules_, trace_});
   }
 
   RoadScene here_;
@@ -42,6 +42,7 @@ class EgoScene {
   bool rules_ = true;
   std::size_t ego_ = 0;
   std::int64_t plan_ = 0;
+  PlanTrace* trace_ = nullptr;
 };
 
 /// An ego that stands before a crossroads without signals, and looks at others.

@@ -69,6 +69,7 @@ const keys = {
   m: () => toggleList(),
   l: () => { if (live.on) goLive(); },
   c: () => setPaint(kPaints[(kPaints.indexOf(paint) + 1) % kPaints.length]),
+  s: () => { if (!$('scenarios').hidden) toggleScenarios(); },
   p: () => { trails = !trails; dirty = true; },
   t: () => setTheme(root.dataset.theme === 'light' ? 'dark' : 'light'),
   Escape: () => { follow(null); $('help').hidden = true; if (!$('list').hidden) toggleList(); },
@@ -88,8 +89,9 @@ $('fit').onclick = keys.f;
 $('theme').onclick = keys.t;
 $('keys').onclick = keys['?'];
 $('live').onclick = goLive;
+$('scenarios').onclick = keys.s;
 $('rate').onchange = () => { rate = +$('rate').value; };
 $('paint').onchange = () => setPaint($('paint').value);
 $('scrub').oninput = () => seek(+$('scrub').value);
-for (const id of ['play', 'fit', 'theme', 'keys', 'rate', 'paint'])
+for (const id of ['play', 'fit', 'theme', 'keys', 'rate', 'paint', 'scenarios'])
   $(id).addEventListener('pointerup', () => setTimeout(() => { if (document.activeElement.tagName !== 'SELECT') canvas.focus(); }, 0));

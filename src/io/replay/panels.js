@@ -87,7 +87,7 @@ const inspector = {agent: null, values: new Map()};
 /// The lines of the inspector stay, their words change: what is clicked on isn't replaced under the finger.
 function buildInspector(agent) {
   const info = $('info');
-  inspector.agent = agent;
+  Object.assign(inspector, {agent, space: null, planShown: null});
   inspector.values.clear();
   info.textContent = '';
   const head = made('h2', undefined, info);
@@ -103,6 +103,7 @@ function buildInspector(agent) {
     made('dt', name, list);
     inspector.values.set(name, made('dd', '', list));
   }
+  inspector.plan = made('div', undefined, info, 'plan');
   const space = made('div', undefined, info, 'space');
   inspector.caption = made('p', '', space);
   inspector.picture = made('canvas', undefined, space);
@@ -139,6 +140,7 @@ function showAgent(agent, step) {
   tell('likes to go', control === 3 ? kBehaviours[control] : map.types[agent.type].walks ? `${agent.behaviour.speed.toFixed(1)} m/s` : 'as the road allows');
   tell('size', `${(agent.front - agent.back).toFixed(1)} × ${(agent.left - agent.right).toFixed(1)} m`);
   tell('under way', clockText(time - times[agent.first]));
+  showPlan(agent, step, pose.h);
   showSpace(agent, step, pose.h, control);
 }
 

@@ -58,7 +58,7 @@ class Reader {
 }
 
 const kTurn = 2 * Math.PI / 4096;
-const kRecord = {end: 0, step: 1, signals: 2, event: 3, spaces: 4, again: 5};
+const kRecord = {end: 0, step: 1, signals: 2, event: 3, spaces: 4, again: 5, plan: 6};
 
 const kColumns = {x: Float32Array, y: Float32Array, h: Float32Array, state: Uint8Array, foe: Int32Array, bind: Uint8Array, bindFoe: Int32Array};
 const kValues = 7;
@@ -88,7 +88,8 @@ class Agent {
 /// A recording that grows by what is pushed: whole records, the header first.
 class Decoder {
   constructor() {
-    this.recording = {map: null, times: [], alive: [], agents: [], byId: new Map(), signals: [], events: [], spaces: new Map()};
+    this.recording = {map: null, times: [], alive: [], agents: [], byId: new Map(), signals: [], events: [], spaces: new Map(),
+      plans: []};
     this.known = new Map();  // events by what they are about
     this.now = [];           // agents that are there
     this.values = new Float64Array(kValues * 256);  // of a step
@@ -98,7 +99,7 @@ class Decoder {
 
   header(reader) {
     const magic = String.fromCharCode(...reader.bytes.subarray(reader.at, reader.at + 4));
-    if (magic !== 'SGR2') throw new Error('not a recording of this version');
+    if (magic !== 'SGR3') throw new Error('not a recording of this version');
     reader.at += 4;
     this.recording.map = JSON.parse(reader.text());
   }
@@ -107,7 +108,7 @@ class Decoder {
   push(bytes) {
     const reader = new Reader(bytes);
     const read = {[kRecord.step]: this.step, [kRecord.signals]: this.signals, [kRecord.event]: this.event,
-      [kRecord.spaces]: this.spaces, [kRecord.again]: this.again};
+      [kRecord.spaces]: this.spaces, [kRecord.again]: this.again, [kRecord.plan]: this.plan};
     try {
       if (!this.recording.map) this.header(reader);
       while (reader.at < bytes.length && !this.ended) {
@@ -220,6 +221,33 @@ class Decoder {
     this.now = [];
     this.ms = 0;
   }
+
+  plan(reader) {
+    const times = make => Array.from({length: reader.count()}, make);
+    const line = () => {
+      let x = 0, y = 0;
+      return times(() => [(x += reader.signed()) / 100, (y += reader.signed()) / 100]);
+    };
+    const plan = {time: reader.count() / 1000, ego: reader.count(), action: reader.byte(), acceleration: reader.signed() / 1000,
+      steering: reader.signed() / 1000, trajectory: line(), figures: reader.byte()};
+    plan.choices = times(() => {
+      const acceleration = reader.signed() / 1000;
+      return reader.byte() ? {acceleration, lower: reader.signed() / 1000, upper: reader.signed() / 1000} : {acceleration};
+    });
+    plan.beliefs = new Map(times(() => [reader.count(), times(() => ({probability: reader.count() / 1000, line: line()}))]));
+    plan.scenarios = times(() => times(() => ({id: reader.count(), way: reader.count() - 1, line: line()})));
+    this.recording.plans.push(plan);
+  }
+}
+
+/// The plan that holds at an instant: the last one before it; null before the first.
+function planAt(plans, time) {
+  let low = 0, high = plans.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (plans[middle].time <= time + 1e-9) low = middle + 1; else high = middle;
+  }
+  return low ? plans[low - 1] : null;
 }
 
 /// The velocity space of an agent at a step, or the last one up to a second before; null where there is none.

@@ -114,6 +114,7 @@ function drawScene(now) {
   let alive = 0;
   if (trails) for (const agent of agents) if (!hidden.has(agent.type) && poseAt(agent, step, share)) drawTrail(agent, step, colourOf(agent));
   if (followed && !trails) drawTrail(followed, step, css.accent);
+  drawScenarios(step);
   // people on foot last: they are small
   for (const walks of [false, true])
     for (const agent of agents) {
@@ -121,6 +122,7 @@ function drawScene(now) {
       ++counts[agent.type]; ++alive; ++byDriver[pose.control];
       if (!hidden.has(agent.type)) drawAgent(agent);
     }
+  drawPlan(step);
   drawBond(step, share);
   drawEvents();
   drawScaleBar();

@@ -15,7 +15,7 @@ function frame(now) {
 }
 
 
-// #t=12&x=..&y=..&s=px per metre&theme=light&play=0&follow=NAME&paint=speed&rate=5&paths=1&list=1&mark=3: a view to link to
+// #t=12&x=..&y=..&s=px per metre&theme=light&play=0&follow=NAME&paint=speed&rate=5&paths=1&scenarios=1&list=1&mark=3: a view to link to
 const wish = new URLSearchParams(location.hash.slice(1));
 document.title = map.title + ' · sumo-gamma replay';
 $('title').textContent = map.title;
@@ -37,6 +37,8 @@ if (wish.get('list') === '1') toggleList();
 if (wish.has('bare')) root.dataset.bare = '';
 if (wish.has('follow')) follow(agents.find(agent => agent.name === wish.get('follow')) || null);
 if (wish.get('paths') === '1') trails = true;
+$('scenarios').hidden = !recording.plans.some(plan => plan.scenarios.length);
+if (wish.get('scenarios') === '1') keys.s();
 if (wish.has('mark') && events[+wish.get('mark')]) jumpTo(events[+wish.get('mark')]);
 const rateIndex = [...$('rate').options].findIndex(option => option.value === wish.get('rate'));
 if (rateIndex >= 0) setRate(rateIndex);
@@ -51,7 +53,8 @@ if (times.length) {
 } else {
   $('notice').textContent = 'The recording holds no step.';
 }
-Object.assign(root.dataset, {state: times.length ? 'ready' : 'empty', steps: times.length, agents: agents.length, events: events.length});
+Object.assign(root.dataset, {state: times.length ? 'ready' : 'empty', steps: times.length, agents: agents.length, events: events.length,
+  plans: recording.plans.length});
 
 // what draws pictures from outside: the page at an instant
 window.replay = {

@@ -57,6 +57,36 @@ const kPlaneKinds = ['K, its body', 'G', 'C, house or wall', 'C, lane edge', 'C,
 /// 'K', 'C' or 'G' of a half-plane's kind.
 const planeSet = kind => kPlaneKinds[kind][0];
 
+const kFigures = {none: 0, values: 1, meetings: 2};
+const kFigureNames = ['', 'what each choice is worth: lower and upper bound', 'futures in which the ego meets somebody'];
+
+function accelerationWords(acceleration) {
+  if (Math.abs(acceleration) < 0.05) return 'keeps its speed';
+  return (acceleration > 0 ? 'speeds up by ' : 'brakes by ') + `${Math.abs(acceleration).toFixed(1)} m/s²`;
+}
+
+/// What the ego does from a plan on.
+function planWords({time, action, acceleration, steering}) {
+  let words = action === 2 ? 'follows a trajectory' : accelerationWords(acceleration);
+  if (action === 1) words += `, front wheels ${Math.abs(steering * 180 / Math.PI).toFixed(0)}° ${steering < 0 ? 'right' : 'left'}`;
+  return `plan of ${clockText(time)}: ${words}`;
+}
+
+function figureWords(figures, {lower, upper}) {
+  if (lower === undefined) return 'not looked at';
+  if (figures === kFigures.meetings) return `${(100 * lower).toFixed(0)} %`;
+  const short = value => value.toFixed(Math.abs(value) < 100 ? 2 : 0);
+  return `${short(lower)} … ${short(upper)}`;
+}
+
+/// Where a way ends up against where its agent points: see turnOf.
+function wayWords(turn) {
+  if (turn === null) return 'stops';
+  const degrees = turn * 180 / Math.PI;
+  if (Math.abs(degrees) < 25) return 'goes on';
+  return Math.abs(degrees) > 135 ? 'turns back' : degrees > 0 ? 'turns left' : 'turns right';
+}
+
 const kEvents = [
   {name: 'collision', plural: 'collisions', shape: 'cross'},
   {name: 'red light run', plural: 'red lights run', shape: 'square'},

@@ -37,7 +37,8 @@ class Pages : public ::testing::Test {
     return run_process(request);
   }
 
-  /// Ten seconds of boxes on the small network, with one collision marked.
+  /// Ten seconds of boxes on the small network, with one collision marked, and one of them an ego
+  /// with a plan.
   void record() const {
     const RoadNetwork net = testing::small_net();
     testing::SyntheticTraffic traffic(net, 30, 0.05);
@@ -51,9 +52,23 @@ class Pages : public ::testing::Test {
       if (tick == 60)
         recorder.add_event(
             {ReplayEventKind::Collision, 3.0, {20, 0}, AgentId{1}, AgentId{2}, "0.2 m deep"});
+      if (tick == 100) recorder.add_plan(plan_of(traffic.scene));
       traffic.advance();
     }
     recorder.close();
+  }
+
+  static PlanTrace plan_of(const Scene& scene) {
+    PlanTrace plan;
+    plan.ego = AgentId{3};
+    plan.time = scene.time;
+    plan.action.acceleration = -3;
+    plan.figures = PlanTrace::Figures::Values;
+    plan.choices = {{3, -812, -1.5}, {-3, -21.25, -3}};
+    const Vec2 here = scene.position[find_row(scene, AgentId{4})];
+    plan.beliefs = {{AgentId{4}, {{0.75, {here, here + Vec2(10, 0)}}, {0.25, {here}}}}};
+    plan.scenarios = {{{AgentId{4}, 0, {}}}, {{AgentId{4}, 1, {}}}};
+    return plan;
   }
 
   /// The page's document as headless Chromium has it after its scripts ran; complaints of the
@@ -108,6 +123,26 @@ TEST_F(Pages, BeginsWhereTrafficIsAndTellsOfMarksAndAgents) {
   EXPECT_NE(looked_at.find("nothing holds it back"), std::string::npos);
   EXPECT_NE(looked_at.find("<em>collision</em><span>agent1 and agent2: 0.2 m deep</span>"),
             std::string::npos);
+  EXPECT_EQ(console, "");
+}
+
+TEST_F(Pages, TellsOfTheEgosPlan) {
+  if (find_program("chromium").empty())
+    GTEST_SKIP() << "no chromium in PATH: the replay page was NOT tested in a browser";
+  record();
+  ASSERT_TRUE(program({"replay", (folder_ / "run").string()}).ok());
+  const fs::path page = folder_ / "run" / "replay.html";
+  std::string console;
+  const std::string ego = dom_of(page, "play=0&t=7&follow=agent3&scenarios=1", console);
+  EXPECT_NE(ego.find("data-plans=\"1\""), std::string::npos);
+  EXPECT_NE(ego.find("plan of 0:05.0: brakes by 3.0 m/s²"), std::string::npos);
+  EXPECT_NE(ego.find("<span>brakes by 3.0 m/s²</span><b>-21.25 … -3.00</b>"), std::string::npos);
+  EXPECT_NE(ego.find("<span>speeds up by 3.0 m/s²</span><b>-812 … -1.50</b>"), std::string::npos);
+  const std::string other = dom_of(page, "play=0&t=5.5&follow=agent4", console);
+  EXPECT_NE(other.find("<b>75 %</b>"), std::string::npos);
+  EXPECT_NE(other.find("<span>stops</span><b>25 %</b>"), std::string::npos);
+  const std::string before = dom_of(page, "play=0&t=4&follow=agent4", console);
+  EXPECT_EQ(before.find("<b>75 %</b>"), std::string::npos);
   EXPECT_EQ(console, "");
 }
 

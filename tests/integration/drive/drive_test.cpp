@@ -390,6 +390,53 @@ TEST_F(Drive, APageOfASeedThatIsDoneIsMadeByDrivingItAgain) {
   EXPECT_EQ(text("one", "episodes.csv"), before);
 }
 
+/// What a page holds, as its own decoder has it.
+nlohmann::json recording_of(const TemporaryFolder& folder, const std::string& page) {
+  const std::string html = folder.read(page), begin = "id=\"data\">";
+  const std::size_t from = html.find(begin) + begin.size();
+  folder.write("data.txt", html.substr(from, html.find('<', from) - from));
+  ProcessRequest request;
+  request.arguments = {
+      "sh",
+      "-c",
+      "base64 -d \"$1\" > \"$1.gz\" && node \"$2/tests/support/decode_replay.mjs\" "
+      "\"$2\" \"$1.gz\"",
+      "sh",
+      folder.file("data.txt"),
+      SUMOGAMMA_SOURCE_DIR};
+  request.time_limit = 60;
+  const ProcessResult result = run_process(request);
+  EXPECT_TRUE(result.ok()) << result.errors;
+  return nlohmann::json::parse(result.output);
+}
+
+TEST_F(Drive, APageHasItsPlansAndChangesNoEpisode) {
+  if (find_program("node").empty())
+    GTEST_SKIP() << "no node in PATH: the page was NOT read by its decoder";
+  for (const std::string planner : {"idm", "futures", "pomdp-gamma"}) {
+    SCOPED_TRACE(planner);
+    const std::vector<std::string> what{"--seeds", "1", "--planner", planner};
+    ASSERT_EQ(drive(planner, what).exit_code, 0);
+    ASSERT_EQ(drive("shown", {"--seeds", "1", "--planner", planner, "--replay", "1"}).exit_code, 0);
+    expect_same_tables(planner, "shown");
+    const nlohmann::json plans = recording_of(here_, "shown/replay_1.html")["plans"];
+    const std::string rows = text("shown", "plans.csv");
+    EXPECT_EQ(static_cast<long>(plans.size()) + 1, std::count(rows.begin(), rows.end(), '\n'));
+    std::size_t believed = 0;
+    for (const nlohmann::json& plan : plans) {
+      for (const nlohmann::json& ways : plan["beliefs"]) {
+        double sum = 0;
+        for (const nlohmann::json& way : ways) sum += way["probability"].get<double>();
+        EXPECT_NEAR(sum, 1.0, 0.005);
+        ++believed;
+      }
+      EXPECT_EQ(plan["choices"].empty(), planner == "idm");
+    }
+    EXPECT_EQ(believed > 0, planner != "idm");
+    fs::remove_all(here_.file("shown"));
+  }
+}
+
 TEST_F(Drive, WhatWasDrivenBeforeAFailureHasItsTables) {
   ASSERT_EQ(drive("one", {"--seeds", "1", "--planner", "idm"}).exit_code, 0);
   const std::string before = text("one", "episodes.csv");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "base/subprocess.h"
@@ -173,6 +174,52 @@ TEST(ReplayStream, IsReadableFromWhereItBeganAgain) {
   EXPECT_EQ(rest["agents"][0]["length"], 5);
   EXPECT_EQ(rest["times"].back(), all["times"].back());
   EXPECT_EQ(rest["agents"][2]["x"].back(), all["agents"][3]["x"].back());
+}
+
+TEST(ReplayStream, PlansAreReadAsTheyWere) {
+  SKIP_WITHOUT_NODE();
+  const Model model = test::open_model();
+  const Scene scene = test::random_scene(model, 3, 4, 80);
+  PlanTrace plan;
+  plan.ego = scene.id[0];
+  plan.time = 12.35;
+  plan.action.acceleration = -3;
+  plan.action.steering = 0.125;
+  plan.beliefs = {
+      {scene.id[2], {{0.875, {Vec2(10, -20), Vec2(11.5, -20.25)}}, {0.125, {Vec2(10, -20)}}}}};
+  plan.scenarios.resize(2);
+  plan.scenarios[0] = {{scene.id[2], 1, {}}};
+  plan.scenarios[1] = {{scene.id[0], -1, {Vec2(1, 2), Vec2(3, 4)}}};
+  plan.figures = PlanTrace::Figures::Values;
+  const double infinity = std::numeric_limits<double>::infinity();
+  plan.choices = {{3, -infinity, 0}, {-3, -1234.5678, -2.25}};
+  PlanTrace next;
+  next.ego = scene.id[0];
+  next.time = 12.7;
+  next.action.trajectory = {{0, {5, 5}}, {1, {7, 5}}};
+  ReplayEncoder encoder;
+  ASSERT_TRUE(encoder.add_step({scene, kName}));
+  encoder.add_plan(plan);
+  encoder.add_plan(next);
+  encoder.end();
+  const json found = decoded(header(model) + encoder.take());
+  EXPECT_TRUE(found["ended"].get<bool>());
+  ASSERT_EQ(found["plans"].size(), 2u);
+  json expected = {{"time", 12.35},      {"ego", scene.id[0].value}, {"action", 1},
+                   {"acceleration", -3}, {"steering", 0.125},        {"trajectory", json::array()},
+                   {"figures", 1}};
+  expected["choices"] = json::parse(
+      R"([{"acceleration": 3}, {"acceleration": -3, "lower": -1234.568, "upper": -2.25}])");
+  expected["beliefs"][std::to_string(scene.id[2].value)] = json::parse(
+      R"([{"probability": 0.875, "line": [[10, -20], [11.5, -20.25]]},
+          {"probability": 0.125, "line": [[10, -20]]}])");
+  expected["scenarios"] = json::array(
+      {json::array({{{"id", scene.id[2].value}, {"way", 1}, {"line", json::array()}}}),
+       json::array(
+           {{{"id", scene.id[0].value}, {"way", -1}, {"line", json::parse("[[1, 2], [3, 4]]")}}})});
+  EXPECT_EQ(found["plans"][0], expected);
+  EXPECT_EQ(found["plans"][1]["action"], 2);
+  EXPECT_EQ(found["plans"][1]["trajectory"], json::parse("[[5, 5], [7, 5]]"));
 }
 
 TEST(ReplayMarks, SayWhatHappened) {
