@@ -65,9 +65,9 @@ class Pages : public ::testing::Test {
     plan.action.acceleration = -3;
     plan.figures = PlanTrace::Figures::Values;
     plan.choices = {{3, -812, -1.5}, {-3, -21.25, -3}};
-    const Vec2 here = scene.position[find_row(scene, AgentId{4})];
-    plan.beliefs = {{AgentId{4}, {{0.75, {here, here + Vec2(10, 0)}}, {0.25, {here}}}}};
-    plan.scenarios = {{{AgentId{4}, 0, {}}}, {{AgentId{4}, 1, {}}}};
+    const Vec2 here = scene.position[find_row(scene, AgentId{5})];
+    plan.beliefs = {{AgentId{5}, {{0.75, {here, here + Vec2(10, 0)}}, {0.25, {here}}}}};
+    plan.scenarios = {{{AgentId{5}, 0, {}}}, {{AgentId{5}, 1, {}}}};
     return plan;
   }
 
@@ -138,10 +138,10 @@ TEST_F(Pages, TellsOfTheEgosPlan) {
   EXPECT_NE(ego.find("plan of 0:05.0: brakes by 3.0 m/s²"), std::string::npos);
   EXPECT_NE(ego.find("<span>brakes by 3.0 m/s²</span><b>-21.25 … -3.00</b>"), std::string::npos);
   EXPECT_NE(ego.find("<span>speeds up by 3.0 m/s²</span><b>-812 … -1.50</b>"), std::string::npos);
-  const std::string other = dom_of(page, "play=0&t=5.5&follow=agent4", console);
+  const std::string other = dom_of(page, "play=0&t=7&follow=agent5", console);
   EXPECT_NE(other.find("<b>75 %</b>"), std::string::npos);
   EXPECT_NE(other.find("<span>stops</span><b>25 %</b>"), std::string::npos);
-  const std::string before = dom_of(page, "play=0&t=4&follow=agent4", console);
+  const std::string before = dom_of(page, "play=0&t=4&follow=agent5", console);
   EXPECT_EQ(before.find("<b>75 %</b>"), std::string::npos);
   EXPECT_EQ(console, "");
 }
