@@ -14,15 +14,10 @@ from sumo_gamma_ego import Ego  # noqa: E402
 SAMPLES, LEAST_GAP, MOST = 8, 0.5, 0.13  # samples, [m], share of the samples
 
 
-def too_near(gaps):
-    """Whether it touches somebody, or comes nearer than it may; who is near already holds nobody up."""
-    return min(gaps) < LEAST_GAP and (min(gaps) <= 0 or min(gaps) < gaps[0])
-
-
 def meets(env, acceleration, brake):
     """Share of the futures in which it comes too near somebody: this for two periods, then a stop."""
     futures = env.futures([acceleration, acceleration, brake], SAMPLES)
-    return sum(too_near(one["gap"]) for one in futures["samples"]) / SAMPLES
+    return sum(min(one["gap"]) < LEAST_GAP for one in futures["samples"]) / SAMPLES
 
 
 def choose(env):

@@ -83,9 +83,7 @@ class ByFutures {
       int meet = 0;
       for (std::size_t begin = 0; begin < futures.gap.size(); begin += futures.steps) {
         const auto gaps = std::span(futures.gap).subspan(begin, futures.steps);
-        const double least = *std::min_element(gaps.begin(), gaps.end());
-        // who is near already, and isn't come nearer to, holds nobody up
-        meet += least < kLeastGap && (least <= 0.0 || least < gaps.front());
+        meet += *std::min_element(gaps.begin(), gaps.end()) < kLeastGap;
       }
       if (view.trace != nullptr) {
         const double share = static_cast<double>(meet) / request.samples;
