@@ -34,6 +34,8 @@ if [[ ! -e $root/.bare ]]; then
   }
   touch "$root/.bare"
 fi
+# a bare Debian has none, and SUMO's Python client looks for localhost
+[[ -s $root/etc/hosts ]] || echo "127.0.0.1 localhost" > "$root/etc/hosts"
 mountpoint -q "$root/proc" || mount -t proc proc "$root/proc"
 trap 'umount "$root/proc"' EXIT
 

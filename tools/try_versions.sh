@@ -48,6 +48,8 @@ try_release() {
     echo 'Acquire::Check-Valid-Until "false";' > "$root/etc/apt/apt.conf.d/90old-mirror"
     touch "$root.bare"
   fi
+  # a bare Debian has none, and SUMO's Python client looks for localhost
+  [[ -s $root/etc/hosts ]] || echo "127.0.0.1 localhost" > "$root/etc/hosts"
   mounted=("$root/proc" "$root/dev")
   mountpoint -q "$root/proc" || mount -t proc proc "$root/proc"
   mountpoint -q "$root/dev" || mount --bind /dev "$root/dev"
