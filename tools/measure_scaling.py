@@ -194,10 +194,8 @@ def main():
             if (str(size), driver, threads) in done:
                 continue
             found = measure_sumo(options, config) if driver == "sumo" else measure_gamma(options, config, driver, threads)
-            rows.append({"size": str(size), "driver": driver, "threads": threads,
-                         **{key: str(value) for key, value in found.items() if key in COLUMNS}})
-            for key in COLUMNS:
-                rows[-1].setdefault(key, "")
+            rows.append({**dict.fromkeys(COLUMNS, ""), "size": str(size), "driver": driver, "threads": threads,
+                         **{key: str(value) for key, value in found.items()}})
             write_rows(file, rows)
     print_table([row for row in rows if int(row["size"]) in sizes], options)
 

@@ -4,6 +4,7 @@
 #   tools/try_packages.sh PACKAGES FOLDER [MIRROR]     PACKAGES: folder with .debs; FOLDER: for the chroot, some 2 GB
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib/common.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/lib/bare_debian.sh"
 
 if (($# < 2 || $# > 3)) || [[ $1 == -* ]]; then
   sed -n '2,4s/^# \{0,1\}//p' "$0"
@@ -11,33 +12,14 @@ if (($# < 2 || $# > 3)) || [[ $1 == -* ]]; then
   exit
 fi
 packages=$(realpath "$1")
-root=$(realpath -m "$2")
+folder=$(realpath -m "$2")
 mirror=${3:-http://deb.debian.org/debian}
 compgen -G "$packages/*.deb" > /dev/null || {
   echo "try_packages: $packages: no .deb there, make them with tools/package.sh" >&2
   exit 2
 }
-if ((EUID != 0)) || ! command -v debootstrap > /dev/null; then
-  echo "try_packages: needs root and debootstrap" >&2
-  exit 2
-fi
-
-inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
-
-if [[ ! -e $root/.bare ]]; then
-  headline "a bare Debian 12"
-  rm -rf "$root"
-  mkdir -p "$root"
-  debootstrap --variant=minbase bookworm "$root" "$mirror" > "$root.log" 2>&1 || {
-    tail -n 20 "$root.log" >&2
-    exit 1
-  }
-  touch "$root/.bare"
-fi
-# a bare Debian has none, and SUMO's Python client looks for localhost
-[[ -s $root/etc/hosts ]] || echo "127.0.0.1 localhost" > "$root/etc/hosts"
-mountpoint -q "$root/proc" || mount -t proc proc "$root/proc"
-trap 'umount "$root/proc"' EXIT
+require_debootstrap try_packages
+bare_debian bookworm "$folder" "$mirror"
 
 headline "install"
 mkdir -p "$root/srv/packages" "$root/srv/maps" "$root/srv/example"

@@ -5,6 +5,7 @@
 # Needs root, debootstrap and git. MIRROR=URL asks another mirror, LABELS=REGEX for other tests.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/lib/common.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/lib/bare_debian.sh"
 
 if (($# < 1)) || [[ $1 == -* ]]; then
   sed -n '2,5s/^# \{0,1\}//p' "$0"
@@ -17,46 +18,19 @@ releases=("$@")
 ((${#releases[@]} > 0)) || releases=(bookworm trixie sid)
 mirror=${MIRROR:-http://deb.debian.org/debian}
 labels=${LABELS:-^integration$}
-if ((EUID != 0)) || ! command -v debootstrap > /dev/null; then
-  echo "try_versions: needs root and debootstrap" >&2
-  exit 2
-fi
+require_debootstrap try_versions
 mkdir -p "$folder"
-
-inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive "$@"; }
-mounted=()
-unmount_all() {
-  local place
-  for place in "${mounted[@]}"; do umount "$place"; done
-  mounted=()
-}
-trap unmount_all EXIT
 
 # try_release RELEASE: a table of one line in FOLDER/RELEASE.txt
 try_release() {
   local release=$1 table=$folder/$1.txt shared=$project/../shared
-  root=$folder/$release
   if [[ -s $table ]]; then
     return
   fi
-  headline "$release: a bare Debian"
-  if [[ ! -e $root.bare ]]; then
-    rm -rf "$root"
-    mkdir -p "$root"
-    logged "$root.log" debootstrap --variant=minbase "$release" "$root" "$mirror"
-    # a mirror may be one of some weeks ago
-    echo 'Acquire::Check-Valid-Until "false";' > "$root/etc/apt/apt.conf.d/90old-mirror"
-    touch "$root.bare"
-  fi
-  # a bare Debian has none, and SUMO's Python client looks for localhost
-  [[ -s $root/etc/hosts ]] || echo "127.0.0.1 localhost" > "$root/etc/hosts"
-  mounted=("$root/proc" "$root/dev")
-  mountpoint -q "$root/proc" || mount -t proc proc "$root/proc"
-  mountpoint -q "$root/dev" || mount --bind /dev "$root/dev"
+  bare_debian "$release" "$folder/$release" "$mirror"
+  mount_inside dev --bind /dev
   if [[ -d $shared ]]; then
-    mkdir -p "$root/srv/shared"
-    mountpoint -q "$root/srv/shared" || mount --bind -o ro "$shared" "$root/srv/shared"
-    mounted+=("$root/srv/shared")
+    mount_inside srv/shared --bind -o ro "$shared"
   fi
   mkdir -p "$root/srv/main"
   git -C "$project" archive HEAD | tar -x -C "$root/srv/main"

@@ -20,7 +20,8 @@ struct RunOptions {
   std::optional<std::string> backend;    ///< traci | libsumo
   std::optional<std::string> preset;     ///< compliant | observed
   std::string connect;                   ///< HOST:PORT of a SUMO that the user started
-  int socket = -1;  ///< not negative: an open TraCI connection whose owner makes SUMO's steps
+  int socket = -1;        ///< not negative: an open TraCI connection whose owner makes SUMO's steps
+  bool own_loop = false;  ///< a Session's, whose owner may talk to libsumo by itself in between
   std::optional<int> client_order;  ///< our place among several TraCI clients
   int clients = 1;                  ///< that a SUMO of ours waits for, us included
   int remote_port = 0;              ///< on which it listens, 0: any

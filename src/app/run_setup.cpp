@@ -126,7 +126,8 @@ std::unique_ptr<SumoBackend> start_backend(const RunPlan& plan, const RoadNetwor
   if (plan.options.clients > 1 && !start.client_order) start.client_order = 1;
   start.clients = plan.options.clients;
   start.port = plan.options.remote_port;
-  start.signals_by_schedule = !plan.inventory.switches_programs && !plan.options.gui;
+  start.signals_by_schedule =
+      !plan.inventory.switches_programs && !plan.options.gui && !plan.options.own_loop;
   start.on_listening = [&](int port) {
     if (plan.options.clients > 1)
       print(stderr, "run: SUMO waits at 127.0.0.1:{} for {} more TraCI client{}\n", port,

@@ -331,7 +331,7 @@ void LibsumoBackend::read_step(SumoStep& result) {
   result.collisions = Simulation::getCollidingVehiclesNumber();
   result.waiting_to_insert = static_cast<int>(Simulation::getPendingVehicles().size());
   for (std::size_t i = 0; i < signal_ids_.size(); ++i) {
-    if (by_schedule_ && !is_due(i)) continue;
+    if (!is_due(i)) continue;
     result.signal_states[i] = libsumo::TrafficLight::getRedYellowGreenState(signal_ids_[i]);
     if (by_schedule_) next_switch_[i] = ask_next_switch(i);
     result.asked_signals.push_back(static_cast<std::uint32_t>(i));

@@ -9,6 +9,13 @@ SteppedBackend::SteppedBackend(const SumoStart& start)
     : by_schedule_(start.signals_by_schedule && start.socket < 0 && start.connect_host.empty() &&
                    !start.client_order && start.clients <= 1) {}
 
+double SteppedBackend::next_switch(std::size_t signal) {
+  if (by_schedule_) return next_switch_[signal];
+  double at = 0.0;
+  talk_to_sumo([&] { at = ask_next_switch(signal); });
+  return at;
+}
+
 void SteppedBackend::send(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons) {
   talk_to_sumo([&] {
     for (const std::span<const SumoPose> poses : {vehicles, persons})

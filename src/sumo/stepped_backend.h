@@ -20,9 +20,7 @@ class SteppedBackend : public SumoBackend {
   const std::vector<std::string>& signal_ids() const final { return signal_ids_; }
   const std::vector<Detector>& detectors() const final { return detectors_; }
   double time() const final { return time_; }
-  double next_switch(std::size_t signal) final {
-    return by_schedule_ ? next_switch_[signal] : ask_next_switch(signal);
-  }
+  double next_switch(std::size_t signal) final;
   void send(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons) final;
   void receive(SumoStep& result) final;
   void watch(const std::string& id, bool is_person) final {
@@ -45,6 +43,7 @@ class SteppedBackend : public SumoBackend {
   virtual void move_and_step(std::span<const SumoPose> vehicles, std::span<const SumoPose> persons,
                              SumoStep& result) = 0;
   virtual std::vector<std::string> route_of(const std::string& vehicle) = 0;
+  /// Infinite where SUMO can't tell [s].
   virtual double ask_next_switch(std::size_t signal) = 0;
   /// Nothing where it has left.
   virtual std::optional<GhostObservation> observe(const std::string& id, bool is_person) = 0;
@@ -56,7 +55,9 @@ class SteppedBackend : public SumoBackend {
 
   /// Does the step that comes ask for a signal? SUMO runs the events of its programs that are due
   /// when a step begins.
-  bool is_due(std::size_t signal) const { return next_switch_[signal] <= time_ + 1e-6; }
+  bool is_due(std::size_t signal) const {
+    return !by_schedule_ || next_switch_[signal] <= time_ + 1e-6;
+  }
 
   GhostMode mode(bool is_person) const { return (is_person ? person_test_ : vehicle_test_).mode(); }
 

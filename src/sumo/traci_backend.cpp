@@ -375,13 +375,11 @@ std::string TraciBackend::option(const std::string& name) {
 }
 
 double TraciBackend::ask_next_switch(std::size_t signal) {
-  return guarded([&] {
-    message_.clear();
-    message_.get(traci::kTrafficLight, traci::kNextSwitch, signal_ids_[signal]);
-    TraciReader reply = exchange(message_);
-    return read_number(reply, traci::kTrafficLight, traci::kNextSwitch,
-                       std::numeric_limits<double>::infinity());
-  });
+  message_.clear();
+  message_.get(traci::kTrafficLight, traci::kNextSwitch, signal_ids_[signal]);
+  TraciReader reply = exchange(message_);
+  return read_number(reply, traci::kTrafficLight, traci::kNextSwitch,
+                     std::numeric_limits<double>::infinity());
 }
 
 void TraciBackend::compose_step(std::span<const SumoPose> vehicles,
@@ -435,7 +433,7 @@ void TraciBackend::ask_step(SumoStep& result) {
 void TraciBackend::ask_signals(SumoStep& result) {
   message_.clear();
   for (std::size_t i = 0; i < signal_ids_.size(); ++i) {
-    if (by_schedule_ && !is_due(i)) continue;
+    if (!is_due(i)) continue;
     result.asked_signals.push_back(static_cast<std::uint32_t>(i));
     message_.get(traci::kTrafficLight, traci::kSignalState, signal_ids_[i]);
     if (by_schedule_) message_.get(traci::kTrafficLight, traci::kNextSwitch, signal_ids_[i]);

@@ -21,6 +21,7 @@ RunRequest request_of(const std::vector<std::string>& words, int socket) {
     RunRequest request = parse_run(words);
     request.common.quiet = true;
     request.run.socket = socket;
+    request.run.own_loop = true;
     return request;
   } catch (const UsageError& error) {
     throw Error("session", error.what());

@@ -509,10 +509,7 @@ TEST_P(BadInput, IsQuoted) {
   files.folder().write("broken.net.xml", "<net><edge id=");
   files.write_config("broken.sumocfg", "broken.net.xml", "routes.rou.xml");
   const std::string broken = message(files.folder().file("broken.sumocfg"));
-  // SUMO 1.18 doesn't survive it; `run` reads the network before SUMO does
-  EXPECT_TRUE(broken.find("broken.net.xml") != std::string::npos ||
-              broken.find("killed by signal") != std::string::npos)
-      << broken;
+  EXPECT_NE(broken.find("broken.net.xml"), std::string::npos) << broken;
   // and none of it spoils the next start
   const auto sumo = start();
   SumoStep step;
