@@ -140,7 +140,7 @@ class Episode {
 
   /// Ticks until it is in the scene.
   bool wait_for_ego() {
-    constexpr double kForRoom = 30.0, kAgain = 5.0;  // [s]
+    constexpr double kForRoom = 60.0, kAgain = 0.5;  // [s]
     const double from = sim_.scene.time;
     const double most = drawn() ? kForRoom : drive_.plan.clock.end - drive_.plan.clock.begin;
     double placed = -1e9;
@@ -175,7 +175,8 @@ class Episode {
     const StartDraw draw(sim_.model.road, type, drive_.settings);
     for (std::uint64_t k = 0; k < kDraws && !is_placed_; ++k) {
       const auto start = draw.draw(seed_, draws_++);
-      if (!start || !is_free(sim_.scene, *start, type, drive_.settings.clearance)) continue;
+      if (!start || !is_free(sim_.scene, sim_.road, *start, type, drive_.settings.clearance))
+        continue;
       SumoBackend::NewVehicle vehicle{ego_id(), kEgoTypeId, {}, 0, start->front};
       for (const EdgeId edge : start->route)
         vehicle.route.push_back(sim_.model.road.edge(edge).name);

@@ -7,6 +7,7 @@
 #include "base/number_text.h"
 #include "base/random.h"
 #include "road/route_search.h"
+#include "scene/extent.h"
 
 namespace sumogamma {
 
@@ -22,6 +23,30 @@ bool is_for_drivers(const Lane& lane, VehicleClassMask vehicle_class) {
 bool is_inside(const std::vector<double>& window, const Vec2& place) {
   return window.empty() || (place.x() >= window[0] && place.x() <= window[2] &&
                             place.y() >= window[1] && place.y() <= window[3]);
+}
+
+/// Does the way of a row lead over a box nearer than it could brake, or past it within its
+/// reaction, in which it may be about to change lanes? `gap`: to it in a line [m]. Who has no way,
+/// on foot, stops within a step.
+bool comes_to(const Scene& scene, const RoadState& road, std::size_t row, const OrientedBox& box,
+              double gap) {
+  constexpr double kBraking = 2.5, kReaction = 1.0;  // [m/s^2], [s]
+  constexpr double kOver = 0.5, kBeside = 3.0;       // between the bodies [m]
+  const Path* path = road.path(scene.path[row]);
+  const double speed = scene.velocity[row].norm();
+  const double reaction = speed * kReaction;
+  const double reach = reaction + 0.5 * speed * speed / kBraking;
+  if (path == nullptr || gap > reach) return false;
+  const double along = path->line.project(scene.position[row]).along;
+  const double end = along + reach + scene.footprint[row].radius + box.half.x();
+  const PolylinePosition nearest = path->line.project(box.center, along, end);
+  if (nearest.along < along || nearest.along > end) return false;  // of a segment that is long
+  const Vec2 across = left_of(path->line.direction_at(nearest.along));
+  const double between = nearest.distance -
+                         half_extent(scene, row, left_of(direction_of(scene.heading[row]))) -
+                         box.half.x() * std::abs(box.forward.dot(across)) -
+                         box.half.y() * std::abs(left_of(box.forward).dot(across));
+  return between < (gap > reaction ? kOver : kBeside);
 }
 
 }  // namespace
@@ -110,17 +135,14 @@ std::optional<EgoStart> StartDraw::draw(std::uint64_t seed, std::uint64_t attemp
   return start;
 }
 
-bool is_free(const Scene& scene, const EgoStart& start, const AgentType& type, double clearance) {
-  constexpr double kBraking = 2.5, kReaction = 1.0;  // [m/s^2], [s]
-  constexpr double kTowards = 0.7;                   // cosine
+bool is_free(const Scene& scene, const RoadState& road, const EgoStart& start,
+             const AgentType& type, double clearance) {
+  const OrientedBox ego{
+      start.position, direction_of(start.heading), {0.5 * type.length, 0.5 * type.width}};
   for (std::size_t row = 0; row < scene.size(); ++row) {
-    const Vec2 way = start.position - scene.position[row];
-    const double speed = scene.velocity[row].norm();
-    double needed = clearance;
-    if (scene.velocity[row].dot(way) > kTowards * speed * way.norm())
-      needed += speed * (kReaction + 0.5 * speed / kBraking);
-    const double extent = 0.5 * type.length + scene.footprint[row].radius;
-    if (way.norm() - extent < needed) return false;
+    const double gap = (start.position - scene.position[row]).norm() - 0.5 * type.length -
+                       scene.footprint[row].radius;
+    if (gap < clearance || comes_to(scene, road, row, ego, gap)) return false;
   }
   return true;
 }

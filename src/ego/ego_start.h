@@ -7,6 +7,7 @@
 
 #include "ego/ego_view.h"
 #include "road/path.h"
+#include "scene/road_state.h"
 
 namespace sumogamma {
 
@@ -42,8 +43,10 @@ class StartDraw {
   std::vector<std::pair<LaneId, double>> places_;
 };
 
-/// Is nobody within `clearance` [m] of an ego that would stand there, nor about to drive into it?
-bool is_free(const Scene& scene, const EgoStart& start, const AgentType& type, double clearance);
+/// Is nobody within `clearance` [m] of an ego that would stand there, nor on a way over it that is
+/// too short to brake on?
+bool is_free(const Scene& scene, const RoadState& road, const EgoStart& start,
+             const AgentType& type, double clearance);
 
 /// The goal of an ego that is `along` its path: so many metres on, the place on the edge wanted, or
 /// where its trip ends. `drawn`: its route was made for it. Throws Error where that is behind it or

@@ -34,5 +34,28 @@ TEST(StartDraw, SaysWhereNoWayLeadsToItsGoal) {
   EXPECT_THAT(refusal_of("WC_0", "NC"), HasSubstr("no way leads to 'NC' from the window"));
 }
 
+TEST(IsFree, AsksForABrakingWayOnlyOnWaysThatLeadOverTheStart) {
+  const RoadNetwork network = testing::read_plain_net(testing::crossroads("priority"));
+  const auto free_beside = [&](const std::string& lane, double along, double speed) {
+    testing::RoadScene here(network);
+    const std::string edge = lane.substr(0, 2);
+    here.add("car", {edge, edge == "WC" ? "CE" : "CW"}, along, speed, 0, -1, lane);
+    const Lane& own = network.lane(network.lane_by_name.at("WC_0"));
+    EgoStart start;
+    start.position = own.centerline.point_at(120);
+    start.heading = heading_of(own.centerline.direction_at(120));
+    const AgentType& car = type_of(here.model.types, find_agent_type(here.model.types, "car"));
+    return is_free(here.scene, here.road, start, car, 9);
+  };
+  EXPECT_FALSE(free_beside("WC_0", 80, 14));  // comes from behind
+  EXPECT_TRUE(free_beside("WC_0", 40, 14));
+  EXPECT_TRUE(free_beside("WC_0", 80, 3));
+  EXPECT_TRUE(free_beside("WC_0", 140, 14));   // has passed
+  EXPECT_TRUE(free_beside("WC_1", 80, 14));    // stays in the lane beside
+  EXPECT_FALSE(free_beside("WC_1", 103, 14));  // may change lanes before it has seen it
+  EXPECT_TRUE(free_beside("EC_1", 90, 14));    // oncoming
+  EXPECT_FALSE(free_beside("WC_1", 118, 0));
+}
+
 }  // namespace
 }  // namespace sumogamma
