@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/number_text.h"
+#include "ego/ego_detour.h"
 #include "io/replay.h"
 #include "io/replay_page.h"
 #include "study/offences/rule_roads.h"
@@ -18,37 +19,40 @@ namespace {
 /// SUMO's world, in which one vehicle is the ego from its first tick on.
 class EgoWorld final : public World {
  public:
-  using Entered = std::function<void(Scene&, const RoadState&, std::size_t row)>;
+  using Seen = std::function<void(Scene&, RoadState&, std::size_t row)>;
 
-  EgoWorld(SumoWorld& world, std::string id, Entered entered)
-      : world_(world), id_(std::move(id)), entered_(std::move(entered)) {}
+  /// `entered`: called once; `seen`: at every tick on which it is there, after that.
+  EgoWorld(SumoWorld& world, std::string id, Seen entered, Seen seen)
+      : world_(world), id_(std::move(id)), entered_(std::move(entered)), seen_(std::move(seen)) {}
 
   void observe(Scene& scene, RoadState& road) override {
     world_.observe(scene, road);
     for (; !ego_ && known_ < world_.names().size(); ++known_)
       if (world_.names()[known_] == id_) ego_ = AgentId{static_cast<std::uint32_t>(known_)};
-    if (ego_ && !std::exchange(seen_, true)) enter(scene, road);
+    if (!ego_) return;
+    const std::size_t row = find_row(scene, *ego_);
+    if (!std::exchange(has_come_, true)) enter(scene, road, row);
+    if (row < scene.size()) seen_(scene, road, row);
   }
   void advance(const Scene& scene) override { world_.advance(scene); }
   bool finished() const override { return world_.finished(); }
 
   /// Its row, or the scene's size where it isn't there.
   std::size_t row(const Scene& scene) const { return ego_ ? find_row(scene, *ego_) : scene.size(); }
-  bool has_come() const { return seen_; }
+  bool has_come() const { return has_come_; }
 
  private:
-  void enter(Scene& scene, const RoadState& road) {
-    const std::size_t row = find_row(scene, *ego_);
+  void enter(Scene& scene, RoadState& road, std::size_t row) {
     if (row == scene.size()) throw Error(id_, "can't be the ego: SUMO shows no place of it");
     entered_(scene, road, row);
   }
 
   SumoWorld& world_;
   std::string id_;
-  Entered entered_;
+  Seen entered_, seen_;
   std::optional<AgentId> ego_;
   std::size_t known_ = 0;
-  bool seen_ = false;
+  bool has_come_ = false;
 };
 
 /// An episode as it goes on.
@@ -60,10 +64,14 @@ class Episode {
         seed_(seed),
         backend_(start(drive, seed)),
         world_(sim_.model, *backend_, world_options()),
-        ego_world_(world_, ego_id(),
-                   [this](Scene& scene, const RoadState& road, std::size_t row) {
-                     enter(scene, road, row);
-                   }),
+        ego_world_(
+            world_, ego_id(),
+            [this](Scene& scene, RoadState& road, std::size_t row) { enter(scene, road, row); },
+            [this](Scene& scene, RoadState& road, std::size_t row) {
+              if (driver_ && driver_->is_due())
+                detour_.look({sim_.model, goal_, row, sim_.rules}, 1.0 / drive_.settings.rate,
+                             scene, road);
+            }),
         locator_(sim_.model.road),
         roads_(sim_.model.road, locator_, sim_.traffic.code),
         recorder_(roads_, sim_.model, sim_.dt),
@@ -291,6 +299,8 @@ class Episode {
     if (driver_) {
       result_.plans = driver_->plans();
       result_.planning_times = driver_->planning_times();
+      result_.detours = detour_.taken();
+      result_.detours_missed = detour_.missed();
     }
     if (replay_) {
       replay_->close();
@@ -312,6 +322,7 @@ class Episode {
   GridlockWatch gridlock_;
   std::unique_ptr<ReplayRecorder> replay_;
   std::optional<EgoDriver> driver_;
+  EgoDetour detour_;
   EgoGoal goal_;
   EpisodeResult result_;
   double progress_ = 0;

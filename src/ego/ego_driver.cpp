@@ -59,10 +59,13 @@ void EgoDriver::plan(const TrafficView& world, std::size_t row) {
   planned_at_ = since();
 }
 
-Vec2 EgoDriver::operator()(const TrafficView& world, std::size_t row) {
+bool EgoDriver::is_due() const {
   constexpr double kRounding = 1e-9;
-  const double due = static_cast<double>(plans_.size()) / task_.settings.rate;
-  if (since() >= due - kRounding) plan(world, row);
+  return since() >= static_cast<double>(plans_.size()) / task_.settings.rate - kRounding;
+}
+
+Vec2 EgoDriver::operator()(const TrafficView& world, std::size_t row) {
+  if (is_due()) plan(world, row);
   const double after = since() - planned_at_;
   ++ticks_;
   const ActionPace pace{task_.settings.max_speed, after, task_.step};

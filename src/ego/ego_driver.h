@@ -39,6 +39,8 @@ class EgoDriver {
 
   Vec2 operator()(const TrafficView& world, std::size_t row);
 
+  /// Does it plan at this tick?
+  bool is_due() const;
   /// Told after every tick: what the ego has made along its way so far [m].
   void set_progress(double progress) { progress_ = progress; }
   const std::vector<PlanRow>& plans() const { return plans_; }

@@ -36,7 +36,8 @@ struct EpisodeResult {
   std::optional<EgoContact> contact;
   std::string contact_type;  ///< of the other
   std::vector<PlanRow> plans;
-  std::int64_t late = 0;  ///< actions of the client that didn't come in time
+  std::int64_t late = 0;                ///< actions of the client that didn't come in time
+  int detours = 0, detours_missed = 0;  ///< round what stood in its way; searches that found none
   bool gridlock = false;
   std::vector<double> planning_times;  ///< [s] on the wall
   double wall = 0;                     ///< of the episode [s]

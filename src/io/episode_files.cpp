@@ -189,6 +189,8 @@ Json to_json(const EpisodeResult& result) {
   row["late"] = result.late;
   row["emergency_brakes"] =
       count_plans(result, [](const PlanRow& plan) { return plan.emergency_ticks > 0; });
+  row["detours"] = result.detours;
+  row["detours_missed"] = result.detours_missed;
   row["cut"] = count_plans(result, [](const PlanRow& plan) {
     return plan.action.search && plan.action.search->stopped;
   });

@@ -77,7 +77,7 @@ class FreeSpace {
 
   /// Of a place, likewise.
   double over_edge(const Vec2& place) const {
-    const PolylinePosition at = space_.lanes->line.project(place);
+    const PolylinePosition at = on_lanes(place);
     const PathStretch& stretch = space_.lanes->stretch_at(at.along);
     const Cut cut = space_.lanes->cut_between(at.along, at.along);
     return std::max(at.offset - (stretch.room_left - cut.left),
@@ -85,7 +85,11 @@ class FreeSpace {
   }
 
   double off_middle(const Vec2& place) const {
-    return space_.lanes == nullptr ? 0.0 : space_.lanes->line.project(place).distance;
+    return space_.lanes == nullptr ? 0.0 : on_lanes(place).distance;
+  }
+
+  PolylinePosition on_lanes(const Vec2& place) const {
+    return space_.lanes->line.project(place, space_.lanes_from, space_.lanes_to);
   }
 
   /// Could the body's middle be there at all, however it points?
@@ -368,45 +372,6 @@ FoundWay find_way(const WheeledShape& shape, const AxlePose& start, const AxlePo
   const WaysRound round(free, start.position, goal.position, parameters.cell, parameters.reach);
   if (round.from(start.position) == kInfinity) return found;
   return Search(shape, goal, free, round, parameters).run(start);
-}
-
-EgoWay way_or_lanes(const WheeledShape& shape, const AxlePose& start, const AxlePose& goal,
-                    const DrivableSpace& space, const HybridAStarParameters& parameters) {
-  EgoWay way;
-  const FoundWay found = find_way(shape, start, goal, space, parameters);
-  std::vector<Vec2> points;
-  if (found.result == WaySearch::Found) {
-    for (const AxlePose& pose : found.poses) points.push_back(pose.position);
-    way.line = Polyline(points);
-    return way;
-  }
-  const Polyline& line = space.lanes->line;
-  const double from = line.project(start.position).along;
-  const double to = std::max(line.project(goal.position).along, from + parameters.spacing);
-  for (double along = from; along < to; along += parameters.spacing)
-    points.push_back(line.point_at(along));
-  points.push_back(line.point_at(to));
-  way.line = Polyline(points);
-  way.by_lanes = way.brake = true;
-  way.why = found.result == WaySearch::StartInContact
-                ? "it is in contact with something that stands"
-            : found.result == WaySearch::GivenUp ? "no way round was found in time"
-                                                 : "there is no way round";
-  return way;
-}
-
-bool is_free(const WheeledShape& shape, const Polyline& line, double along, double ahead,
-             const DrivableSpace& space, double margin) {
-  constexpr double kStep = 0.5;  // [m]
-  DrivableSpace solid = space;
-  solid.lanes = nullptr;
-  const AxlePose here{line.point_at(along), heading_of(line.direction_at(along))};
-  const FreeSpace free(shape, solid, here, margin);
-  const double end = std::min(along + ahead, line.length());
-  for (double at = along; at <= end; at += kStep)
-    if (free.in_contact({line.point_at(at), heading_of(line.direction_at(at))}, margin))
-      return false;
-  return true;
 }
 
 }  // namespace sumogamma

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "planning/wheeled_pose.h"
@@ -19,8 +19,11 @@ struct Wall {
 struct DrivableSpace {
   const Path* lanes = nullptr;  ///< the route's lane path: its room is the carriageway's;
                                 ///< null: an open plane
-  std::span<const OrientedBox> bodies = {};  ///< that stand, and will
-  std::span<const Wall> walls = {};          ///< sides of solid things
+  double lanes_from = 0,
+         lanes_to = std::numeric_limits<double>::infinity();  ///< the piece of that
+                                                              ///< path which may be near [m]
+  std::span<const OrientedBox> bodies = {};                   ///< that stand, and will
+  std::span<const Wall> walls = {};                           ///< sides of solid things
 };
 
 struct HybridAStarParameters {
@@ -63,22 +66,5 @@ struct FoundWay {
 /// Deterministic.
 FoundWay find_way(const WheeledShape& shape, const AxlePose& start, const AxlePose& goal,
                   const DrivableSpace& space, const HybridAStarParameters& parameters = {});
-
-/// What the ego follows: a found way, or the lane path where there is none, with the brakes on.
-struct EgoWay {
-  Polyline line;          ///< of the rear axle [m]
-  bool by_lanes = false;  ///< the lane path as it is
-  bool brake = false;     ///< nothing leads on: stand
-  std::string why;        ///< where it is by the lanes, what was wrong; for the log
-};
-
-/// find_way, and the lane path from the start's place to the goal's where it finds none.
-/// Precondition: space.lanes.
-EgoWay way_or_lanes(const WheeledShape& shape, const AxlePose& start, const AxlePose& goal,
-                    const DrivableSpace& space, const HybridAStarParameters& parameters = {});
-
-/// Is the way from `along` [m] on, for `ahead` [m], off everything that stands (with the margin)?
-bool is_free(const WheeledShape& shape, const Polyline& line, double along, double ahead,
-             const DrivableSpace& space, double margin);
 
 }  // namespace sumogamma

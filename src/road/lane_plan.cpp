@@ -4,15 +4,13 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "road/path_pieces.h"
+
 namespace sumogamma {
 
 namespace {
 
 constexpr double kBeyond = 1000.0;  ///< no lane of the last edge has to be left [m]
-
-bool allows(const Lane& lane, VehicleClassMask vehicle_class) {
-  return (lane.allowed & vehicle_class) != 0;
-}
 
 /// Cost of changing n lanes on an edge: a change needs some 25 m, so short edges cost more.
 double change_cost(int changes, double length) {

@@ -16,10 +16,6 @@ namespace {
 
 constexpr double kAskew = 2.0, kOneLane = 4.5;  // sideways [m]
 
-bool allows(const Lane& lane, VehicleClassMask vehicle_class) {
-  return (lane.allowed & vehicle_class) != 0;
-}
-
 double length_of(const RoadNetwork& network, const Edge& edge, int lane) {
   return network.lane(edge.lanes[static_cast<std::size_t>(lane)]).centerline.length();
 }

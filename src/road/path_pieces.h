@@ -4,6 +4,10 @@
 
 namespace sumogamma {
 
+inline bool allows(const Lane& lane, VehicleClassMask vehicle_class) {
+  return (lane.allowed & vehicle_class) != 0;
+}
+
 /// Width of the lanes beside `lane` on the inner or outer side, as far as `counts(Lane)` holds [m].
 template <typename Counts>
 double width_beside(const RoadNetwork& network, const Lane& lane, bool inner, Counts&& counts) {

@@ -320,6 +320,27 @@ TEST_F(Drive, ADemandsVehicleCanBeTheEgo) {
   EXPECT_GT(std::stod(episode("mine", "1")["way_m"]), 200.0);
 }
 
+TEST_F(Drive, PassesWhoHaltsInItsLane) {
+  grid().folder().write(
+      "halting.rou.xml",
+      "<routes><vType id='car' vClass='passenger' length='4.5' width='1.8' speedDev='0'/>"
+      "<vehicle id='van' type='car' depart='0' departLane='1'><route edges='A0A1 A1B1'/>"
+      "<stop lane='A0A1_1' endPos='60' duration='600'/></vehicle>"
+      "<vehicle id='mine' type='car' depart='20' departLane='1'><route edges='A0A1 A1B1 B1C1'/>"
+      "</vehicle></routes>");
+  grid().write_config("halting.sumocfg", "net.net.xml", "halting.rou.xml");
+  ProcessRequest request;
+  request.arguments = arguments("past", {"--seeds", "1", "--vehicle", "mine", "--planner", "idm",
+                                         "--set", "ego.limit=90", "--goal-edge", "A1B1"});
+  request.arguments[2] = grid().folder().file("halting.sumocfg");
+  const ProcessResult result = run_process(request);
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  const auto row = episode("past", "1");
+  EXPECT_EQ(row.at("outcome"), "goal");
+  EXPECT_GE(std::stoi(row.at("detours")), 1);
+  EXPECT_EQ(row.at("contact"), "0");
+}
+
 TEST_F(Drive, OthersMayBeSumosOwn) {
   const ProcessResult result =
       drive("none", {"--seeds", "1", "--control", "none", "--planner", "idm"});

@@ -87,20 +87,13 @@ TEST(HybridAStar, TakesAGapThatIsWideEnough) {
   EXPECT_NE(through_gap(-0.1).result, WaySearch::Found);
 }
 
-TEST(HybridAStar, BrakesOnTheLanePathWhereThereIsNoWay) {
+TEST(HybridAStar, SaysThatThereIsNoWay) {
   const Path road = straight_road(60, 1.75, 1.75);
   const std::vector<OrientedBox> across = {box(20, 0, 2, 3.4)};
   const DrivableSpace space{.lanes = &road, .bodies = across};
-  const EgoWay way = way_or_lanes(car(), {Vec2(0, 0.2), 0}, {Vec2(40, 0), 0}, space);
-  EXPECT_TRUE(way.by_lanes);
-  EXPECT_TRUE(way.brake);
-  EXPECT_EQ(way.why, "there is no way round");
-  EXPECT_NEAR(way.line.length(), 40, 1e-6);
-  EXPECT_FALSE(is_free(car(), way.line, 0, 40, space, 0.3));
-  EXPECT_TRUE(is_free(car(), way.line, 0, 10, space, 0.3));
-  const EgoWay open = way_or_lanes(car(), {Vec2(0, 0.2), 0}, {Vec2(40, 0), 0}, {.lanes = &road});
-  EXPECT_FALSE(open.by_lanes);
-  EXPECT_FALSE(open.brake);
+  const FoundWay found = find_way(car(), {Vec2(0, 0.2), 0}, {Vec2(40, 0), 0}, space);
+  EXPECT_EQ(found.result, WaySearch::Unreachable);
+  EXPECT_TRUE(found.poses.empty());
 }
 
 TEST(HybridAStar, SaysWhereItBeginsInContact) {
