@@ -88,10 +88,10 @@ std::vector<Vec2> way_past(const Model& model, const Scene& scene, std::size_t r
     walls.push_back({model.obstacles.side(side).from, model.obstacles.side(side).to});
   const HybridAStarParameters search{.margin = care.margin};
   const DrivableSpace space{.lanes = &passed.lanes,
-                            .lanes_from = passed.from - search.reach,
-                            .lanes_to = passed.to + search.reach,
                             .bodies = passed.bodies,
-                            .walls = walls};
+                            .walls = walls,
+                            .lanes_from = passed.from - search.reach,
+                            .lanes_to = passed.to + search.reach};
   const AxlePose goal = pose_on(shape, passed.lanes.line, passed.to);
   std::vector<Vec2> centres;
   for (const AxlePose& pose : find_way(shape, start, goal, space, search).poses)

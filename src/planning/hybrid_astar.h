@@ -19,11 +19,10 @@ struct Wall {
 struct DrivableSpace {
   const Path* lanes = nullptr;  ///< the route's lane path: its room is the carriageway's;
                                 ///< null: an open plane
-  double lanes_from = 0,
-         lanes_to = std::numeric_limits<double>::infinity();  ///< the piece of that
-                                                              ///< path which may be near [m]
-  std::span<const OrientedBox> bodies = {};                   ///< that stand, and will
-  std::span<const Wall> walls = {};                           ///< sides of solid things
+  std::span<const OrientedBox> bodies = {};  ///< that stand, and will
+  std::span<const Wall> walls = {};          ///< sides of solid things
+  /// The piece of the lane path that may be near [m].
+  double lanes_from = 0, lanes_to = std::numeric_limits<double>::infinity();
 };
 
 struct HybridAStarParameters {

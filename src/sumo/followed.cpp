@@ -120,7 +120,7 @@ void SumoWorld::follow(const SumoAgent& seen, AgentId id, std::size_t row, Scene
   }
   if (known.keeps_place) {
     scene.halt[row].left = options_.dt;  // by its plan
-    step_to_kerb(model_.road, scene, row, options_.dt);
+    step_to_kerb(model_, scene, row, options_.dt);
     take_back(seen, id, row, scene, road);
     return;
   }

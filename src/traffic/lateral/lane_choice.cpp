@@ -21,6 +21,16 @@ double way_of_change(const TrafficParameters& parameters, double speed) {
   return std::max(parameters.soon * speed, parameters.soon_way);
 }
 
+/// Does it halt before it would be back in its lane, if it left that? Whoever stands there, another
+/// bus at the stop, is waited for: passing it leads past the stop, or to it askew.
+bool halts_soon(const TrafficView& view, const Path& path, const Surroundings& around,
+                std::size_t row) {
+  const auto next = static_cast<std::size_t>(view.scene.halt[row].next);
+  if (next >= path.stops.size() || waited(view, row) >= Patience::Impatient) return false;
+  const PathStop& stop = path.stops[next];
+  return stop.along - stop.room - around.along < 2.0 * way_of_change(view.parameters, around.speed);
+}
+
 /// As far as a driver looks for others [m]: where there is a lane beside, for those who come from
 /// behind at full speed, too.
 double driver_outlook(const TrafficView& view, const Path& path, std::size_t row) {
@@ -206,7 +216,7 @@ void look_about(const TrafficView& view, const Path& path, std::size_t row, Lane
   intent.entered = free_entry(view, work.queues, path, around);
   wait_for_gap(view, path, around, row, intent);
   if (intent.wanted == kNoLane && scene.halt[row].left <= 0.0 && !std::isfinite(intent.gate) &&
-      !filters(view, around, row))
+      !filters(view, around, row) && !halts_soon(view, path, around, row))
     intent.wanted = better_lane(view, work.queues, path, around, row);
 }
 
