@@ -181,18 +181,19 @@ TEST(BetterLane, TheOneThatATurnNeedsIsKeptFrom150MetresOn) {
 }
 
 // a bus swung round the one at its stop, and halted there askew, its nose over the kerb
-TEST(BetterLane, NobodyPassesWhoStandsAtItsOwnStop) {
+TEST(BetterLane, NobodyPassesWhoIsAtItsOwnStop) {
   PlainNet net;
   net.nodes = "<node id='W' x='0' y='0'/><node id='E' x='800' y='0'/>";
   net.edges = "<edge id='WE' from='W' to='E' numLanes='2' speed='13.89'/>";
   const RoadNetwork network = testing::read_plain_net(net);
-  for (const double stop : {190.0, 500.0}) {
+  for (const double stop : {145.0, 500.0}) {
     RoadScene here{network};
-    const std::size_t own = here.add("bus", {"WE"}, 100, 8, 0, -1, "WE_0");
-    here.add("bus", {"WE"}, 160, 0, 0, -1, "WE_0");
+    const std::size_t own = here.add("bus", {"WE"}, 100, 6, 0, -1, "WE_0");
+    here.add("bus", {"WE"}, 130, 2, 0, -1, "WE_0");
     Path path = here.path(own);
     path.stops = {{stop, 20.0, 15.0, 0}};
     take_path(std::move(path), 100, own, here.road, here.scene);
+    here.scene.halt[own].next = 0;
     here.update();
     let_all_look(here);
     bool leaves = false;
