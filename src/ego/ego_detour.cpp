@@ -24,20 +24,13 @@ AxlePose pose_on(const WheeledShape& shape, const Polyline& line, double along) 
   return {line.point_at(along) - shape.rear_axle_to_center * forward, heading_of(forward)};
 }
 
-bool touches(OrientedBox body, double margin, const std::vector<OrientedBox>& bodies) {
-  body.half += Vec2(margin, margin);
-  return std::any_of(bodies.begin(), bodies.end(),
-                     [&](const OrientedBox& other) { return separation(body, other) < 0.0; });
-}
-
 /// Does a body whose centre moves along the line keep `margin` to everything that stands?
 bool keeps_off(const WheeledShape& shape, const Polyline& line, double from, double to,
                const std::vector<OrientedBox>& bodies, double margin) {
   constexpr double kSpacing = 0.5;  // [m]
   const double end = std::min(to, line.length());
-  for (double along = from; along <= end; along += kSpacing) {
-    if (touches(body_at(shape, pose_on(shape, line, along)), margin, bodies)) return false;
-  }
+  for (double along = from; along <= end; along += kSpacing)
+    if (overlaps_any(body_at(shape, pose_on(shape, line, along), margin), bodies)) return false;
   return true;
 }
 
@@ -141,27 +134,29 @@ void EgoDetour::look(const EgoTrip& trip, double period, Scene& scene, RoadState
   if (path != detour_.get()) lanes_ = road.paths[static_cast<std::size_t>(scene.path[row])];
   const std::vector<OrientedBox> bodies = bodies_in_the_way(trip, scene);
   const WheeledShape shape = wheeled_shape(type_of(model.types, scene.type[row]));
-  const PolylinePosition here = path->line.project(scene.position[row]);
-  const bool is_off = here.distance > kOff;
+  const double off = std::abs(locate_on_path(model.road, road, scene, row));
+  const double here = scene.path_along[row];
+  const bool is_off = off > kOff;
   if (bodies.empty() && !is_off) return;
   const Polyline& lanes = lanes_->line;
-  const double along = lanes.project(scene.position[row]).along;
+  const double along = lanes.project(scene.position[row], here - kFarthest, here + kFarthest).along;
   const double end = std::min(along + kFarthest, lanes.project(goal.position).along);
   for (const Care& care : kCares) {
     const double margin = care.margin;
     if (path == detour_.get() && margin > margin_) continue;
     // who is nearer to somebody than that already may stay so for its own length
-    const bool is_near = touches(box_of(scene, row), margin, bodies);
-    const double first = is_near ? shape.length : 0.0;
-    if (!is_off && keeps_off(shape, path->line, here.along + first, here.along + kAhead, bodies,
-                             margin - kBetween))
+    OrientedBox room = box_of(scene, row);
+    room.half += Vec2(margin, margin);
+    const double first = overlaps_any(room, bodies) ? shape.length : 0.0;
+    if (!is_off &&
+        keeps_off(shape, path->line, here + first, here + kAhead, bodies, margin - kBetween))
       return;
     const auto to = place_beyond(shape, lanes, along + first, end, bodies, margin);
     if (!to || *to <= along + 1.0) continue;
     wait_ = kAgain;
     const auto points = way_past(model, scene, row, {*lanes_, along, *to, bodies}, care);
     if (points.size() < 2) continue;
-    take_path(with_detour(*lanes_, along, *to, points), along + here.distance, row, road, scene);
+    take_path(with_detour(*lanes_, along, *to, points), along + off, row, road, scene);
     detour_ = road.paths[static_cast<std::size_t>(scene.path[row])];
     margin_ = margin;
     ++taken_;

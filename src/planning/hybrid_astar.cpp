@@ -47,11 +47,8 @@ class FreeSpace {
 
   bool in_contact(const AxlePose& pose, double margin) const {
     const OrientedBox body = body_at(shape_, pose, margin);
+    if (overlaps_any(body, space_.bodies)) return true;
     const double reach = body.half.norm();
-    for (const OrientedBox& other : space_.bodies)
-      if ((other.center - body.center).norm() < reach + other.half.norm() &&
-          separation(body, other) < 0)
-        return true;
     return std::any_of(space_.walls.begin(), space_.walls.end(), [&](const Wall& wall) {
       return distance_to_segment(wall.from, wall.to, body.center) < reach &&
              distance_of(body, wall) <= 0;
@@ -99,8 +96,7 @@ class FreeSpace {
       return false;
     const double inner = half * M_SQRT1_2;  // of a square in the circle
     const OrientedBox core{place, Vec2(1, 0), Vec2(inner, inner)};
-    for (const OrientedBox& other : space_.bodies)
-      if (separation(core, other) < 0) return false;
+    if (overlaps_any(core, space_.bodies)) return false;
     return std::none_of(space_.walls.begin(), space_.walls.end(), [&](const Wall& wall) {
       return distance_to_segment(wall.from, wall.to, place) < inner;
     });

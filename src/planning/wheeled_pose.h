@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "geometry/oriented_box.h"
 #include "scene/agent_type.h"
@@ -34,6 +36,15 @@ inline OrientedBox body_at(const WheeledShape& shape, const AxlePose& pose, doub
   const Vec2 forward = direction_of(pose.heading);
   return {pose.position + shape.rear_axle_to_center * forward, forward,
           Vec2(shape.length / 2 + margin, shape.width / 2 + margin)};
+}
+
+/// Does a body overlap one of others?
+inline bool overlaps_any(const OrientedBox& body, std::span<const OrientedBox> others) {
+  const double reach = body.half.norm();
+  return std::any_of(others.begin(), others.end(), [&](const OrientedBox& other) {
+    return (other.center - body.center).norm() < reach + other.half.norm() &&
+           separation(body, other) < 0.0;
+  });
 }
 
 /// The pose after rolling `distance` [m] on an arc of so much curvature [1/m], positive left.

@@ -55,7 +55,6 @@ Path with_detour(const Path& path, double from, double to, std::span<const Vec2>
   };
   carry_places(changed, [&](double& place) { place = carried(place); });
   changed.arrival = carried(path.arrival);
-  changed.stretches.back().to = std::max(changed.stretches.back().to, changed.arrival);
   changed.lane_middle = middles_with(path, changed.line, from, to, end);
   compute_speed_profile(path.trip->request, changed);
   return changed;

@@ -16,4 +16,10 @@ double locate_on_path(const RoadNetwork& network, const RoadState& road, Scene& 
 /// halts ahead are its first ones.
 void take_path(Path path, double along, std::size_t row, RoadState& road, Scene& scene);
 
+/// The planned halt that a row comes to next on its path, or stands at; null behind the last one.
+inline const PathStop* next_stop(const Path& path, const Scene& scene, std::size_t row) {
+  const auto next = static_cast<std::size_t>(scene.halt[row].next);
+  return next < path.stops.size() ? &path.stops[next] : nullptr;
+}
+
 }  // namespace sumogamma

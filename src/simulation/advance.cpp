@@ -1,6 +1,7 @@
 #include "simulation/advance.h"
 
 #include "scene/extent.h"
+#include "scene/locate.h"
 #include "traffic/recovery/reversing.h"
 
 namespace sumogamma {
@@ -20,8 +21,8 @@ TrafficTick traffic_tick(const Advance& world, const AdvanceOptions& options) {
 void update_halt(const Path& path, double dt, Scene& scene, std::size_t row) {
   constexpr double kThere = 0.4;   // SUMO counts a stop as reached half a metre before it [m]
   constexpr double kPassed = 5.0;  // [m]
-  const auto next = static_cast<std::size_t>(scene.halt[row].next);
-  if (next >= path.stops.size()) return;
+  const PathStop* stop = next_stop(path, scene, row);
+  if (stop == nullptr) return;
   if (scene.halt[row].left > 0.0) {
     scene.halt[row].left -= dt;
     if (scene.halt[row].left <= 0.0) {
@@ -32,14 +33,13 @@ void update_halt(const Path& path, double dt, Scene& scene, std::size_t row) {
   }
   const double front = scene.path_along[row] +
                        half_extent(scene, row, path.line.direction_at(scene.path_along[row]));
-  const PathStop& stop = path.stops[next];
   const std::size_t foe = foe_row(scene, row);
   const bool behind_another = foe < scene.size() && scene.halt[foe].left > 0.0;
-  const double there = stop.along - (behind_another ? std::max(stop.room, kThere) : kThere);
-  if (front > stop.along + kPassed)
+  const double there = stop->along - (behind_another ? std::max(stop->room, kThere) : kThere);
+  if (front > stop->along + kPassed)
     ++scene.halt[row].next;  // passed: it began beyond its stop
   else if (front > there && scene.speed[row] < 0.2)
-    scene.halt[row].left = std::max(stop.duration, dt);
+    scene.halt[row].left = std::max(stop->duration, dt);
 }
 
 void apply(const BodyState& next, double dt, Scene& scene, std::size_t row) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/locate.h"
 #include "sumo/sumo_world.h"
 
 namespace sumogamma {
@@ -72,7 +73,7 @@ bool is_at_end(const Path& path, const Scene& scene, std::size_t row, double len
   constexpr double kStood = 2.0;                   // [s]
   const double along = scene.path_along[row];
   if (!path.walking)
-    return static_cast<std::size_t>(scene.halt[row].next) >= path.stops.size() &&
+    return next_stop(path, scene, row) == nullptr &&
            along + 0.5 * length + 0.3 + 2.0 * scene.speed[row] * dt >= path.arrival;
   return along + kOnFoot >= path.arrival ||
          (along + kInCrowd >= path.arrival && scene.held[row].standing > kStood);

@@ -11,7 +11,7 @@ namespace sumogamma {
 
 namespace {
 
-/// How near a vehicle is [m]; no less than that, at an infinite distance from `reach` on.
+/// How near a vehicle is [m]; more than `reach` where that is farther off.
 double distance_to_vehicles(const Model& model, const Scene& scene, std::size_t row, double reach) {
   double nearest = std::numeric_limits<double>::infinity();
   const OrientedBox own = box_of(scene, row);
@@ -22,7 +22,7 @@ double distance_to_vehicles(const Model& model, const Scene& scene, std::size_t 
       continue;
     nearest = std::min(nearest, separation(own, box_of(scene, other)));
   }
-  return nearest < reach ? nearest : std::numeric_limits<double>::infinity();
+  return nearest;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "scene/locate.h"
 #include "traffic/junction/arbitration.h"
 #include "traffic/lateral/exit_lane.h"
 #include "traffic/lateral/gap_acceptance.h"
@@ -25,10 +26,10 @@ double way_of_change(const TrafficParameters& parameters, double speed) {
 /// bus at the stop, is waited for: passing it leads past the stop, or to it askew.
 bool halts_soon(const TrafficView& view, const Path& path, const Surroundings& around,
                 std::size_t row) {
-  const auto next = static_cast<std::size_t>(view.scene.halt[row].next);
-  if (next >= path.stops.size() || waited(view, row) >= Patience::Impatient) return false;
-  const PathStop& stop = path.stops[next];
-  return stop.along - stop.room - around.along < 2.0 * way_of_change(view.parameters, around.speed);
+  const PathStop* stop = next_stop(path, view.scene, row);
+  if (stop == nullptr || waited(view, row) >= Patience::Impatient) return false;
+  return stop->along - stop->room - around.along <
+         2.0 * way_of_change(view.parameters, around.speed);
 }
 
 /// As far as a driver looks for others [m]: where there is a lane beside, for those who come from

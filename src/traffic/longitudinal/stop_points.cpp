@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/locate.h"
 #include "traffic/junction/keep_clear.h"
 #include "traffic/junction/turning_room.h"
 #include "traffic/lateral/passing.h"
@@ -169,9 +170,9 @@ void wait_at_gate(const Driver& driver, StopPoints& found) {
 /// Planned halts: stands for the stop's duration with the front at its end.
 void serve_stop(const Driver& driver, StopPoints& found) {
   const Course& course = driver.course;
-  const auto next = static_cast<std::size_t>(driver.view.scene.halt[course.row].next);
-  if (next >= course.path.stops.size()) return;
-  const double way = course.path.stops[next].along - course.along - course.half_length;
+  const PathStop* stop = next_stop(course.path, driver.view.scene, course.row);
+  if (stop == nullptr) return;
+  const double way = stop->along - course.along - course.half_length;
   found.points.push_back(halt_in(way, course.type, LimitReason::Stop));
 }
 

@@ -138,6 +138,14 @@ TEST(BetterLane, NobodyChangesForALaneThatRunsIntoItsOwn) {
   }
 }
 
+/// Does a row's path come to a lane?
+bool drives_on(const RoadScene& here, std::size_t row, const std::string& lane) {
+  const auto& stretches = here.path(row).stretches;
+  return std::any_of(stretches.begin(), stretches.end(), [&](const PathStretch& stretch) {
+    return here.model.road.lane(stretch.lane).name == lane;
+  });
+}
+
 /// Two lanes over 400 m, of which the left one alone leads on.
 RoadNetwork left_lane_leads_on() {
   PlainNet net;
@@ -173,10 +181,7 @@ TEST(BetterLane, TheOneThatATurnNeedsIsKeptFrom150MetresOn) {
     here.add("bus", {"WM", "ME"}, 422.0 - before, 2, 0, -1, "WM_1");
     here.update();
     let_all_look(here);
-    bool leaves = false;
-    for (const PathStretch& stretch : here.path(own).stretches)
-      leaves = leaves || here.model.road.lane(stretch.lane).name == "WM_0";
-    EXPECT_EQ(leaves, before > 150.0) << before;
+    EXPECT_EQ(drives_on(here, own, "WM_0"), before > 150.0) << before;
   }
 }
 
@@ -196,10 +201,7 @@ TEST(BetterLane, NobodyPassesWhoIsAtItsOwnStop) {
     here.scene.halt[own].next = 0;
     here.update();
     let_all_look(here);
-    bool leaves = false;
-    for (const PathStretch& stretch : here.path(own).stretches)
-      leaves = leaves || here.model.road.lane(stretch.lane).name == "WE_1";
-    EXPECT_EQ(leaves, stop > 300.0) << stop;
+    EXPECT_EQ(drives_on(here, own, "WE_1"), stop > 300.0) << stop;
   }
 }
 
@@ -214,10 +216,7 @@ TEST(BetterLane, WhoPassesAQueueHasToGetBackIntoIt) {
       here.add("car", {"WM", "ME"}, place, their_speed, 0, -1, "WM_1");
     here.update();
     let_all_look(here);
-    bool leaves = false;
-    for (const PathStretch& stretch : here.path(own).stretches)
-      leaves = leaves || here.model.road.lane(stretch.lane).name == "WM_0";
-    EXPECT_EQ(leaves, their_speed > 5.0);
+    EXPECT_EQ(drives_on(here, own, "WM_0"), their_speed > 5.0);
   }
 }
 
