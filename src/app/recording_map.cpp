@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "app/validators.h"
 #include "base/error.h"
 #include "osm/geo_projection.h"
 #include "osm/recorded_signals.h"
@@ -65,13 +66,15 @@ void add_map_options(CLI::App& command, MapArguments& arguments) {
       .add_option("--map-offset", arguments.offset,
                   "X,Y [m]: added to the recording's positions gives the network's")
       ->delimiter(',')
-      ->expected(2);
+      ->expected(2)
+      ->check(finite_number(-1e7, 1e7));
   command
       .add_option("--map-origin", arguments.origin,
                   "LAT,LON of the origin of the recording's axes (x east, y north), on a "
                   "georeferenced network")
       ->delimiter(',')
-      ->expected(2);
+      ->expected(2)
+      ->check(finite_number(-180, 180));
 }
 
 PredictionMap RecordingMap::under(const TrackSet& set) const {

@@ -41,7 +41,7 @@ std::array<double, kExperts> ExpertWeights::weights(std::uint32_t agent, std::si
   prior[static_cast<std::size_t>(Expert::Model)] = rate.model;
   prior[static_cast<std::size_t>(Expert::Walking)] = kind == kWalkerKind ? rate.walking : 0.0;
   for (std::size_t e = kFirstLaneExpert; e < kExperts; ++e)
-    prior[e] = kind == kLanesKind ? rate.lane : 0.0;
+    prior[e] = kind == kLanesKind || kind == kStandingKind ? rate.lane : 0.0;
   return exponential_weights(prior, loss, rate.rate);
 }
 

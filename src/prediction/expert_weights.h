@@ -34,8 +34,9 @@ std::array<double, kExperts> exponential_weights(const std::array<double, kExper
 
 /// Who learns from whom: agents of a kind.
 inline constexpr std::size_t kWalkerKind = 0, kWheelsKind = 1;
-inline constexpr std::size_t kLanesKind = 2;  ///< on wheels, on a lane of a known map
-inline constexpr std::size_t kExpertKinds = 3;
+/// On wheels, on a lane of a known map: who drives, and who stands and tells nothing of those.
+inline constexpr std::size_t kLanesKind = 2, kStandingKind = 3;
+inline constexpr std::size_t kExpertKinds = 4;
 
 /// Keeps what the experts predicted of everybody, scores it when the frames come, and weighs them:
 /// by the agent's own rounds and by those of all agents of its kind. Who isn't of the kind that an

@@ -15,6 +15,8 @@ namespace {
 
 // slower than this an agent has no direction of its own [m/s]
 constexpr double kMoving = 0.2;
+// slower than this a vehicle stands [m/s]
+constexpr double kStanding = 0.5;
 // frames after which a prediction is as good as it gets, and so tells how good that is
 constexpr std::size_t kCalibrated = MotionFilter::kMemory;
 
@@ -306,7 +308,8 @@ void GammaPredictor::estimate_rows(const ObservedScene& scene) {
 
 std::size_t GammaPredictor::expert_kind_of(std::size_t row) const {
   if (walks(type_of(model_.types, seen_.agents[row].type))) return kWalkerKind;
-  return guide_ && guide_->guides(row) ? kLanesKind : kWheelsKind;
+  if (!guide_ || !guide_->guides(row)) return kWheelsKind;
+  return seen_.agents[row].last_velocity(period_).norm() < kStanding ? kStandingKind : kLanesKind;
 }
 
 std::array<double, kExperts> GammaPredictor::expert_weights_of(std::size_t row) const {
@@ -319,7 +322,7 @@ std::array<double, kExperts> GammaPredictor::expert_weights_of(std::size_t row) 
 void GammaPredictor::lane_paths(const Row& row, std::size_t r,
                                 std::array<ExpertPath, kExperts>& paths) const {
   const std::span<ExpertPath, kLaneMotions> lanes(paths.data() + kFirstLaneExpert, kLaneMotions);
-  if (expert_kind_of(r) != kLanesKind) {
+  if (!guide_ || !guide_->guides(r)) {
     // who isn't on a lane goes nowhere by it: as good as one that is there anyway
     std::fill(lanes.begin(), lanes.end(), paths[static_cast<std::size_t>(Expert::Kalman)]);
     return;
@@ -356,7 +359,7 @@ void GammaPredictor::expert_paths(const ObservedAgent& agent, const Row& row, st
 
 void GammaPredictor::weigh_experts(const ObservedScene& scene) {
   walking_features(model_.types, scene, walking_);
-  if (guide_) guide_->look(scene);
+  if (guide_) guide_->look(scene, need_.steps);
   std::array<ExpertPath, kExperts>& paths = expert_paths_;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const ObservedAgent& agent = scene.agents[r];

@@ -18,9 +18,10 @@ constexpr double kDriftTime = 1.0;  // in which a speed across a way dies away [
 constexpr double kMostDrift = 2.0;  // [m]
 constexpr double kSightAhead = 60;  // leaders farther ahead don't count [m]
 constexpr double kSideRoom = 0.2;   // less between two bodies' sides is too little to pass [m]
-constexpr double kDriveStep = 0.1;  // [s]
+constexpr double kDriveStep = 0.2;  // [s]
 constexpr double kOverLine = 1.0;   // whose front is so far over a line has passed it [m]
-constexpr double kPastJunction = 20.0;    // of a way behind its first junction where it is still near [m]
+constexpr double kPastJunction =
+    20.0;  // of a way behind its first junction where it is still near [m]
 
 // what weighs ways
 constexpr double kLaneChange = 0.1, kTurnBack = 0.03;  // beside a way without
@@ -87,8 +88,9 @@ void LaneGuide::place(const ObservedScene& scene) {
   }
 }
 
-void LaneGuide::look(const ObservedScene& scene) {
+void LaneGuide::look(const ObservedScene& scene, std::size_t steps) {
   period_ = scene.period;
+  steps_ = steps;
   place(scene);
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     find_ways(scene.agents[r], rows_[r]);
@@ -237,7 +239,7 @@ void LaneGuide::drive(const ObservedScene& scene) {
   find_drivers();
   const auto parts = static_cast<std::size_t>(std::max(1.0, std::round(period_ / kDriveStep)));
   const double dt = period_ / static_cast<double>(parts);
-  for (std::size_t part = 0; part < parts * FlowMemory::kSteps; ++part) {
+  for (std::size_t part = 0; part < parts * steps_; ++part) {
     for (Driver& driver : drivers_) {
       const AgentType& type = type_of(types_, scene.agents[driver.row].type);
       const double before = driver.speed;
@@ -263,7 +265,7 @@ void LaneGuide::paths(std::size_t r, std::span<const double, FlowMemory::kSteps>
   const double speed = row.velocity.norm();
   for (const LaneWay& way : row.ways) {
     const Polyline& line = way.path->line;
-    for (std::size_t k = 0; k < FlowMemory::kSteps; ++k) {
+    for (std::size_t k = 0; k < steps_; ++k) {
       const double time = period_ * static_cast<double>(k + 1);
       const double drifted = way.drift * kDriftTime * (1.0 - std::exp(-time / kDriftTime));
       const double offset = way.offset + std::clamp(drifted, -kMostDrift, kMostDrift);

@@ -49,7 +49,8 @@ class LaneGuide {
   /// (less where it takes a lane change, less still where it turns back) and of how the agent goes
   /// along it: direction, drift over the last three displacements, and how much faster it is than
   /// the way's bends allow. Signals count as they show in this frame, for as long as anybody asks.
-  void look(const ObservedScene& scene);
+  /// `steps`: of the ways that will be asked for, at most FlowMemory::kSteps.
+  void look(const ObservedScene& scene, std::size_t steps = FlowMemory::kSteps);
 
   /// Does a row of the scene lie on a lane that leads anywhere?
   bool guides(std::size_t row) const { return !rows_[row].ways.empty(); }
@@ -57,7 +58,8 @@ class LaneGuide {
 
   /// Displacements of a row [m] by each motion, the mean over its ways by their weights. It keeps
   /// its distance to the way, after the speed across it has died away within a second or two.
-  /// `changing`: how far its acceleration leads by each step [m]. Precondition: guides(row).
+  /// `changing`: how far its acceleration leads by each step [m]. Of the steps that look() was told
+  /// of; null behind them. Precondition: guides(row).
   void paths(std::size_t row, std::span<const double, FlowMemory::kSteps> changing,
              std::span<ExpertPath, kLaneMotions> paths) const;
 
@@ -90,6 +92,7 @@ class LaneGuide {
   AgentTypeTable types_;
   PredictionMap map_;
   double period_ = 0.4;
+  std::size_t steps_ = FlowMemory::kSteps;
   LaneLocator locator_;
   CandidateWays candidates_;
   std::vector<LaneHit> hits_;
