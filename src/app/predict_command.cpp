@@ -14,6 +14,7 @@
 #include "app/command.h"
 #include "app/prediction_export.h"
 #include "app/reading_options.h"
+#include "app/recording_map.h"
 #include "app/validators.h"
 #include "base/error.h"
 #include "base/hash.h"
@@ -40,6 +41,7 @@ struct PredictOptions {
   bool calibration = false;
   std::string json, plots, walking_rows, spread_rows, exported;
   ReadingArguments reading;
+  MapArguments map;
   bool list_parameters = false;
 };
 
@@ -95,7 +97,9 @@ void write_plots(const std::string& folder, const TrackSet& set, const Protocol&
 
 /// Recordings that can be used, and what is wrong with the others.
 struct Batch {
+  std::unique_ptr<const RecordingMap> map;  ///< under all of them; null: none is known
   std::vector<TrackSet> sets;
+  std::vector<MapFit> fits;  ///< of these on the map; empty without one
   std::vector<std::pair<std::string, std::string>> left_out;  ///< file and why
 };
 
@@ -111,9 +115,24 @@ void say_how_it_was_read(const TrackSet& set) {
           set.split_gaps);
 }
 
-Batch read_batch(const PredictOptions& options, const Protocol& protocol, bool quiet) {
+/// Throws Error where the map is of no use to a recording.
+void put_on_map(const TrackSet& set, bool quiet, Batch& batch) {
+  if (batch.map == nullptr) return;
+  const MapFit fit = check_fit(batch.map->under(set), set);
+  batch.fits.push_back(fit);
+  if (quiet) return;
+  print(stderr, "{}: {} of {} agents on wheels lie on {}'s lanes{}\n", set.name, fit.on_map,
+        fit.wheeled, batch.map->map.name,
+        fit.on_map < fit.wheeled ? "; the others are predicted as without it" : "");
+}
+
+Batch read_batch(const PredictOptions& options, const Protocol& protocol,
+                 const CommonOptions& common) {
+  const bool quiet = common.quiet;
   const ReadOptions read = read_options(options.reading);
   Batch batch;
+  Workers workers(common.threads);
+  batch.map = read_recording_map(options.map, workers);
   for (const std::string& file : options.files) {
     try {
       TrackSet set = read_track_set(file, read);
@@ -123,6 +142,7 @@ Batch read_batch(const PredictOptions& options, const Protocol& protocol, bool q
                     "nobody is there for " + std::to_string(protocol.observed + protocol.steps) +
                         " frames without a gap, as protocol " + std::string(1, protocol.letter) +
                         " needs; check the columns and that frames are a constant step apart");
+      put_on_map(set, quiet, batch);
       batch.sets.push_back(std::move(set));
     } catch (const Error& error) {
       if (options.files.size() == 1) throw;
@@ -149,7 +169,9 @@ int write_training(const PredictOptions& options, const MethodSettings& settings
   return kExitDone;
 }
 
-nlohmann::ordered_json recording_json(const TrackSet& set) {
+nlohmann::ordered_json recording_json(const TrackSet& set, const MapFit* fit) {
+  nlohmann::ordered_json on_map;
+  if (fit != nullptr) on_map = {{"agents_on_wheels", fit->wheeled}, {"on_map", fit->on_map}};
   return {{"set", set.name},
           {"format", set.format},
           {"content", hash_text(content_of(set))},
@@ -158,19 +180,26 @@ nlohmann::ordered_json recording_json(const TrackSet& set) {
           {"filled_gaps", set.filled_gaps},
           {"filled_steps", set.filled_steps},
           {"split_gaps", set.split_gaps},
-          {"notes", set.notes}};
+          {"notes", set.notes},
+          {"map", on_map}};
 }
 
 void write_json(const PredictOptions& options, const CommonOptions& common, const Batch& batch,
                 const std::vector<Evaluation>& evaluations) {
   PredictorParameters parameters = parameters_from(common);
-  nlohmann::ordered_json json = {{"protocol", options.protocol}, {"memory", options.memory},
-                                 {"seed", common.seed},          {"samples", options.samples},
-                                 {"draws", options.draws},       {"added_noise_m", options.noise}};
+  nlohmann::ordered_json json = {{"protocol", options.protocol},
+                                 {"memory", options.memory},
+                                 {"seed", common.seed},
+                                 {"samples", options.samples},
+                                 {"draws", options.draws},
+                                 {"added_noise_m", options.noise},
+                                 {"map", map_json(batch.map.get())}};
   for (const NamedParameter& parameter : named_parameters(parameters))
     json["parameters"][parameter.name] = *parameter.value;
   json["recordings"] = nlohmann::ordered_json::array();
-  for (const TrackSet& set : batch.sets) json["recordings"].push_back(recording_json(set));
+  for (std::size_t k = 0; k < batch.sets.size(); ++k)
+    json["recordings"].push_back(
+        recording_json(batch.sets[k], batch.map ? &batch.fits[k] : nullptr));
   json["left_out"] = nlohmann::ordered_json::array();
   for (const auto& [file, why] : batch.left_out)
     json["left_out"].push_back({{"file", file}, {"why", why}});
@@ -184,6 +213,16 @@ void write_json(const PredictOptions& options, const CommonOptions& common, cons
 ForecastSink export_sink(ExportTable* table, const ExportLabels& labels) {
   if (table == nullptr) return {};
   return [table, labels](const ScoredForecast& told) { table->add(labels, told); };
+}
+
+/// The settings for a recording, on the map that lies under it where there is one.
+MethodSettings settings_for(const MethodSettings& settings, const TrackSet& set, const Batch& batch,
+                            PredictionMap& map) {
+  MethodSettings own = settings;
+  if (batch.map == nullptr) return own;
+  map = batch.map->under(set);
+  own.map = &map;
+  return own;
 }
 
 int run(const PredictOptions& options, const CommonOptions& common) {
@@ -204,8 +243,9 @@ int run(const PredictOptions& options, const CommonOptions& common) {
   const MethodSettings settings{parameters, options.samples, common.seed,
                                 draws_from_name(options.draws)};
   const std::vector<std::string> names =
-      options.methods.empty() ? default_methods(options.ablations, memory) : options.methods;
-  const Batch batch = read_batch(options, protocol, common.quiet);
+      options.methods.empty() ? default_methods(options.ablations, memory, !options.map.map.empty())
+                              : options.methods;
+  const Batch batch = read_batch(options, protocol, common);
   if (!options.walking_rows.empty() || !options.spread_rows.empty())
     return write_training(options, settings, batch);
   const std::unique_ptr<ExportTable> exported =
@@ -213,17 +253,22 @@ int run(const PredictOptions& options, const CommonOptions& common) {
   std::vector<Evaluation> evaluations;
   for (const TrackSet& truth : batch.sets) {
     const TrackSet seen = options.noise > 0 ? with_noise(truth, options.noise, common.seed) : truth;
+    PredictionMap map;
+    const MethodSettings own = settings_for(settings, truth, batch, map);
     for (const std::string& name : names) {
       if (interrupted()) return kExitInterrupted;
       if (!common.quiet) print(stderr, "{}: {}\n", truth.name, name);
       evaluations.push_back(
-          evaluate(make_method(name, settings, truth), seen, truth, protocol, memory,
+          evaluate(make_method(name, own, truth), seen, truth, protocol, memory,
                    export_sink(exported.get(), {truth.name, options.memory, name})));
     }
   }
   if (exported) exported->close();
   if (!options.plots.empty())
-    for (const TrackSet& set : batch.sets) write_plots(options.plots, set, protocol, settings);
+    for (const TrackSet& set : batch.sets) {
+      PredictionMap map;
+      write_plots(options.plots, set, protocol, settings_for(settings, set, batch, map));
+    }
   print(common.out, "{}", to_table(evaluations, protocol, common.seed));
   if (options.calibration) print(common.out, "{}", calibration_table(evaluations));
   if (!options.json.empty()) write_json(options, common, batch, evaluations);
@@ -239,6 +284,7 @@ CommandRunner add_predict_command(CLI::App& parent) {
   command->add_option("FILES", options->files,
                       "recordings; formats are told by looking: " + recording_formats());
   add_reading_options(*command, options->reading);
+  add_map_options(*command, options->map);
   command
       ->add_option(
           "--protocol", options->protocol,

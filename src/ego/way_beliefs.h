@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ego/forward_model.h"
-#include "planning/candidate_ways.h"
+#include "inference/candidate_ways.h"
 
 namespace sumogamma {
 

@@ -15,10 +15,13 @@
 #include "base/error.h"
 #include "osm/geo_projection.h"
 #include "osm/network_file.h"
+#include "road/sumo_net_reader.h"
 
 namespace sumogamma::osm {
 
 namespace {
+
+constexpr std::string_view kReplayed = "recorded";  // programID of what was recorded
 
 constexpr double kAtLane = 2.5;  // of a signal's lane from that of the network [m]
 constexpr double kAtExit =
@@ -264,7 +267,7 @@ SignalReplay replay_signals(const std::filesystem::path& network,
     const std::vector<std::string> responses = responses_at(net, id, groups.size());
     logic.remove_children();
     logic.attribute("type").set_value("static");
-    logic.attribute("programID").set_value("recorded");
+    logic.attribute("programID").set_value(kReplayed.data());
     logic.attribute("offset").set_value("0");
     for (auto time = times.begin(); time != times.end(); ++time) {
       pugi::xml_node phase = logic.append_child("phase");
@@ -277,6 +280,18 @@ SignalReplay replay_signals(const std::filesystem::path& network,
   }
   save_xml(document, network);
   return replay;
+}
+
+std::set<std::string> replayed_signals(const std::filesystem::path& network) {
+  const std::string content = read_maybe_gzip(network);
+  pugi::xml_document document;
+  if (!document.load_buffer(content.data(), content.size()))
+    throw Error(network.string(), "can't be read as XML, expected a SUMO network");
+  std::set<std::string> ids;
+  for (const pugi::xml_node logic : document.child("net").children("tlLogic"))
+    if (logic.attribute("programID").value() == kReplayed)
+      ids.insert(logic.attribute("id").value());
+  return ids;
 }
 
 }  // namespace sumogamma::osm

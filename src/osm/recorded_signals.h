@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -46,5 +47,8 @@ struct SignalReplay {
 SignalReplay replay_signals(const std::filesystem::path& network,
                             const std::vector<SignalledWay>& ways, const SignalChanges& changes,
                             double begin);
+
+/// Ids of a network's signals whose programs replay_signals wrote. Throws Error naming the file.
+std::set<std::string> replayed_signals(const std::filesystem::path& network);
 
 }  // namespace sumogamma::osm

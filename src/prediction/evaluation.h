@@ -26,6 +26,9 @@ struct Method {
   std::string draws = {};  ///< how samples are drawn
 };
 
+/// The method that is gamma but for the map.
+inline constexpr const char* kWithoutMap = "gamma-no-map";
+
 /// Scores of one window.
 struct WindowScore {
   std::size_t track = 0;

@@ -39,7 +39,9 @@ std::array<double, kExperts> ExpertWeights::weights(std::uint32_t agent, std::si
     for (std::size_t e = 0; e < kExperts; ++e) loss[e] += rate.own * found->second.loss[e];
   prior.fill(1);
   prior[static_cast<std::size_t>(Expert::Model)] = rate.model;
-  prior[static_cast<std::size_t>(Expert::Walking)] = kind == 0 ? rate.walking : 0.0;
+  prior[static_cast<std::size_t>(Expert::Walking)] = kind == kWalkerKind ? rate.walking : 0.0;
+  for (std::size_t e = kFirstLaneExpert; e < kExperts; ++e)
+    prior[e] = kind == kLanesKind || kind == kStandingKind ? rate.lane : 0.0;
   return exponential_weights(prior, loss, rate.rate);
 }
 
@@ -79,8 +81,8 @@ void ExpertWeights::remember(std::uint32_t agent, std::size_t kind, const Vec2& 
 void ExpertWeights::end_frame(const ExpertRate& walker, const ExpertRate& wheels) {
   std::erase_if(history_, [](const auto& entry) { return !entry.second.seen; });
   for (auto& entry : history_) entry.second.seen = false;
-  for (std::size_t kind = 0; kind < 2; ++kind) {
-    const double keep = kind == 0 ? walker.keep : wheels.keep;
+  for (std::size_t kind = 0; kind < kExpertKinds; ++kind) {
+    const double keep = kind == kWalkerKind ? walker.keep : wheels.keep;
     for (double& loss : loss_[kind]) loss *= keep;
     rounds_[kind] *= keep;
   }

@@ -15,6 +15,7 @@ struct ExpertRate {
   double own = 3;       ///< weight of an agent's own rounds, against one of others of its kind
   double model = 1;     ///< prior weight of the mean of the intentions; simple experts have 1
   double walking = 1;   ///< likewise of the regression
+  double lane = 1;      ///< likewise of each that follows lanes
   double others = 100;  ///< rounds of others that count at the most, each less where there are more
   double keep = 1;      ///< share of the past losses that counts after a frame
 };
@@ -31,9 +32,16 @@ std::array<double, kExperts> exponential_weights(const std::array<double, kExper
                                                  const std::array<double, kExperts>& loss,
                                                  double rate);
 
+/// Who learns from whom: agents of a kind.
+inline constexpr std::size_t kWalkerKind = 0, kWheelsKind = 1;
+/// On wheels, on a lane of a known map: who drives, and who stands and tells nothing of those.
+inline constexpr std::size_t kLanesKind = 2, kStandingKind = 3;
+inline constexpr std::size_t kExpertKinds = 4;
+
 /// Keeps what the experts predicted of everybody, scores it when the frames come, and weighs them:
-/// by the agent's own rounds and by those of all agents of its kind (0 on foot, 1 on wheels). A
-/// round is a prediction of 1 to 4 steps from 3 frames or more.
+/// by the agent's own rounds and by those of all agents of its kind. Who isn't of the kind that an
+/// expert is for gives it no weight: the regression is for people on foot, the experts of lanes for
+/// who is on them. A round is a prediction of 1 to 4 steps from 3 frames or more.
 class ExpertWeights {
  public:
   /// Weights for an agent now. Experts with a prior of 0 have none.
@@ -72,8 +80,8 @@ class ExpertWeights {
 
   std::unordered_map<std::uint32_t, History>
       history_;  ///< looked up; iterated only to drop entries
-  std::array<double, 2> rounds_{};
-  std::array<Losses, 2> loss_{};  ///< by kind
+  std::array<double, kExpertKinds> rounds_{};
+  std::array<Losses, kExpertKinds> loss_{};  ///< by kind
 };
 
 }  // namespace sumogamma

@@ -13,8 +13,9 @@ constexpr double kTurning = 0.12;  // shorter displacements have no direction [m
 
 std::string_view name_of(Expert expert) {
   constexpr std::array<std::string_view, kExperts> kNames = {
-      "model",        "walking",    "last_displacement", "mean_displacement", "kalman",
-      "acceleration", "brief_turn", "long_turn",         "fresh_turn"};
+      "model",      "walking",      "last_displacement", "mean_displacement",
+      "kalman",     "acceleration", "brief_turn",        "long_turn",
+      "fresh_turn", "lane_steady",  "lane_changing",     "lane_driven"};
   return kNames[static_cast<std::size_t>(expert)];
 }
 

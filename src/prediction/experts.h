@@ -17,11 +17,16 @@ enum class Expert : std::size_t {
   MeanDisplacement,  ///< the mean of the last three displacements goes on
   Kalman,            ///< constant velocity behind the motion filter
   Acceleration,      ///< the mean acceleration of the last two changes goes on
-  BriefTurn,  ///< turn rate and acceleration of the last three displacements, fading over 3 steps
-  LongTurn,   ///< the same over 6 steps
-  FreshTurn,  ///< turn rate and acceleration of the last two displacements, over 8 steps
+  BriefTurn,   ///< turn rate and acceleration of the last three displacements, fading over 3 steps
+  LongTurn,    ///< the same over 6 steps
+  FreshTurn,   ///< turn rate and acceleration of the last two displacements, over 8 steps
+  LaneSteady,  ///< along the ways of the lane under it (lane_guide.h), at one speed
+  LaneChanging,  ///< likewise, as far as its acceleration leads
+  LaneDriven,    ///< likewise, as limits, bends, those ahead and red lights let it
 };
-inline constexpr std::size_t kExperts = 9;
+inline constexpr std::size_t kExperts = 12;
+/// The first of those that need a map, which are the last.
+inline constexpr std::size_t kFirstLaneExpert = static_cast<std::size_t>(Expert::LaneSteady);
 std::string_view name_of(Expert expert);
 
 /// Displacements at the steps to come [m].

@@ -15,6 +15,8 @@ namespace {
 
 // slower than this an agent has no direction of its own [m/s]
 constexpr double kMoving = 0.2;
+// slower than this a vehicle stands [m/s]
+constexpr double kStanding = 0.5;
 // frames after which a prediction is as good as it gets, and so tells how good that is
 constexpr std::size_t kCalibrated = MotionFilter::kMemory;
 
@@ -93,6 +95,10 @@ GammaPredictor::GammaPredictor(const AgentTypeTable& types, const PredictorParam
     prior[kFreeIntentions] = kind->road_ahead;
     prior[kFreeIntentions + 1] = prior[kFreeIntentions + 2] = kind->road_turn;
   }
+}
+
+void GammaPredictor::use_map(const PredictionMap& map) {
+  if (options_.use_map) guide_.emplace(model_.types, map);
 }
 
 const KindParameters& GammaPredictor::kind_of(AgentTypeId type) const {
@@ -300,11 +306,37 @@ void GammaPredictor::estimate_rows(const ObservedScene& scene) {
   go_together(scene);
 }
 
-std::array<double, kExperts> GammaPredictor::expert_weights_of(std::uint32_t id,
-                                                               AgentTypeId type) const {
-  ExpertRate rate = kind_of(type).experts;
+std::size_t GammaPredictor::expert_kind_of(std::size_t row) const {
+  if (walks(type_of(model_.types, seen_.agents[row].type))) return kWalkerKind;
+  if (!guide_ || !guide_->guides(row)) return kWheelsKind;
+  return seen_.agents[row].last_velocity(period_).norm() < kStanding ? kStandingKind : kLanesKind;
+}
+
+std::array<double, kExperts> GammaPredictor::expert_weights_of(std::size_t row) const {
+  const ObservedAgent& agent = seen_.agents[row];
+  ExpertRate rate = kind_of(agent.type).experts;
   if (!options_.use_walking_model || std::abs(period_ - kWalkingPeriod) > 1e-6) rate.walking = 0;
-  return experts_.weights(id, walks(type_of(model_.types, type)) ? 0 : 1, rate);
+  return experts_.weights(agent.id, expert_kind_of(row), rate);
+}
+
+void GammaPredictor::lane_paths(const Row& row, std::size_t r,
+                                std::array<ExpertPath, kExperts>& paths) const {
+  const std::span<ExpertPath, kLaneMotions> lanes(paths.data() + kFirstLaneExpert, kLaneMotions);
+  if (!guide_ || !guide_->guides(r)) {
+    // who isn't on a lane goes nowhere by it: as good as one that is there anyway
+    std::fill(lanes.begin(), lanes.end(), paths[static_cast<std::size_t>(Expert::Kalman)]);
+    return;
+  }
+  const auto& accelerated =
+      row.way[static_cast<std::size_t>(IntentionHypothesis::KeepAcceleration)];
+  const Vec2 forward = forward_of(r);
+  std::array<double, FlowMemory::kSteps> progress{};
+  double most = 0;
+  for (std::size_t k = 0; k < progress.size(); ++k) {
+    if (k < need_.steps) most = std::max(most, accelerated[k].dot(forward));
+    progress[k] = most;
+  }
+  guide_->paths(r, progress, lanes);
 }
 
 void GammaPredictor::expert_paths(const ObservedAgent& agent, const Row& row, std::size_t r,
@@ -322,23 +354,24 @@ void GammaPredictor::expert_paths(const ObservedAgent& agent, const Row& row, st
   turning_path(agent.position, 2, kBrief, path(Expert::BriefTurn));
   turning_path(agent.position, 2, kLong, path(Expert::LongTurn));
   turning_path(agent.position, 1, kFresh, path(Expert::FreshTurn));
+  lane_paths(row, r, paths);
 }
 
 void GammaPredictor::weigh_experts(const ObservedScene& scene) {
   walking_features(model_.types, scene, walking_);
+  if (guide_) guide_->look(scene, need_.steps);
   std::array<ExpertPath, kExperts>& paths = expert_paths_;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const ObservedAgent& agent = scene.agents[r];
     Row& row = rows_[r];
     expert_paths(agent, row, r, paths);
-    const std::array<double, kExperts> weight = expert_weights_of(agent.id, agent.type);
+    const std::array<double, kExperts> weight = expert_weights_of(r);
     for (std::size_t k = 0; k < need_.steps; ++k) {
       for (std::size_t e = 0; e < kExperts; ++e) row.learned[k] += weight[e] * paths[e][k];
       row.learned[k] -= row.mean[k];
     }
     if (!need_.memory) continue;
-    experts_.remember(agent.id, walks(type_of(model_.types, agent.type)) ? 0 : 1, agent.now(),
-                      agent.position.size(), paths);
+    experts_.remember(agent.id, expert_kind_of(r), agent.now(), agent.position.size(), paths);
   }
   if (need_.memory) experts_.end_frame(parameters_.walker.experts, parameters_.wheels.experts);
 }

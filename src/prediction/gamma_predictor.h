@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "prediction/expert_weights.h"
 #include "prediction/flow_memory.h"
 #include "prediction/flow_trust.h"
+#include "prediction/lane_guide.h"
 #include "prediction/observed_scene.h"
 #include "prediction/predictor_parameters.h"
 #include "prediction/road_guess.h"
@@ -33,6 +35,7 @@ struct PredictorOptions {
   bool use_smoothing =
       true;                  ///< false: velocity and acceleration from the last displacements alone
   bool most_likely = false;  ///< the paper's choice: the single likeliest intention, not the mean
+  bool use_map = true;       ///< experts that follow lanes, where a map is known
   bool use_obstacles = true;  ///< hard constraints of solid things
   bool learn_spread = true;  ///< samples spread as wide as past predictions of the recording missed
   std::size_t flow_cell_capacity = 384;  ///< see FlowMemory
@@ -74,6 +77,10 @@ class GammaPredictor {
                  const PredictorOptions& options, double period,
                  const std::vector<Obstacle>& obstacles = {}, const RoadNetwork* road = nullptr);
 
+  /// From now on agents on wheels that lie on a lane of a map have experts that follow it. Its
+  /// network must outlive the predictor.
+  void use_map(const PredictionMap& map);
+
   /// As new: nothing of what was observed remains.
   void forget();
 
@@ -103,8 +110,8 @@ class GammaPredictor {
   /// Every intention alone, for the oracle bound: what the best of them would have predicted.
   Forecast forecast_intention(IntentionHypothesis intention, std::size_t steps);
 
-  /// Weights of the experts for an agent of the last observed scene.
-  std::array<double, kExperts> expert_weights_of(std::uint32_t id, AgentTypeId type) const;
+  /// Weights of the experts for a row of the last observed scene.
+  std::array<double, kExperts> expert_weights_of(std::size_t row) const;
 
   /// Belief of an agent in the last observed scene; null where it is unknown.
   const Belief* belief_of(std::uint32_t id) const;
@@ -144,6 +151,9 @@ class GammaPredictor {
   void mean_path(Row& row) const;
   /// Weighs the ways in which everybody may go on by how they did so far.
   void weigh_experts(const ObservedScene& scene);
+  /// Of a row of the last scene, as ExpertWeights has kinds.
+  std::size_t expert_kind_of(std::size_t row) const;
+  void lane_paths(const Row& row, std::size_t r, std::array<ExpertPath, kExperts>& paths) const;
   void expert_paths(const ObservedAgent& agent, const Row& row, std::size_t r,
                     std::array<ExpertPath, kExperts>& paths) const;
   void predecessors(const ObservedAgent& agent, Row& row) const;
@@ -170,6 +180,7 @@ class GammaPredictor {
   double period_;
   bool has_road_ = false;
   RoadGuess road_;
+  std::optional<LaneGuide> guide_;
   ObservationNoise noise_;
   double walker_noise_ = 0.02, wheels_noise_ = 0.02;  ///< deviations assumed now [m]
   MotionFilter walker_filter_, wheels_filter_;

@@ -20,6 +20,7 @@ struct Variant {
 };
 constexpr Variant kVariants[] = {
     {"gamma", "sumo-gamma", [](PredictorOptions&) {}},
+    {kWithoutMap, "  without the map", [](PredictorOptions& o) { o.use_map = false; }},
     {"gamma-no-kinematics", "  without K and bodies",
      [](PredictorOptions& o) { o.use_kinematics = false; }},
     {"gamma-no-polygons", "  without polygons (discs)",
@@ -103,6 +104,7 @@ Method gamma_method(const Variant& variant, const MethodSettings& settings, cons
   variant.change(options);
   auto predictor = std::make_shared<GammaPredictor>(recorded_agent_types(), settings.parameters,
                                                     options, set.period, set.obstacles);
+  if (settings.map != nullptr) predictor->use_map(*settings.map);
   Method method{variant.name, variant.title, {}, {}, {}, {}};
   method.forget = [predictor] { predictor->forget(); };
   method.observe = [predictor](const ObservedScene& scene) { predictor->observe(scene); };
@@ -175,13 +177,15 @@ Method baseline_method(const Baseline& baseline) {
 
 }  // namespace
 
-std::vector<std::string> default_methods(bool ablations, Memory memory) {
+std::vector<std::string> default_methods(bool ablations, Memory memory, bool map) {
   std::vector<std::string> names;
   if (ablations) {
-    for (const Variant& variant : kVariants) names.emplace_back(variant.name);
+    for (const Variant& variant : kVariants)
+      if (map || variant.name != std::string_view(kWithoutMap)) names.emplace_back(variant.name);
     return names;
   }
   names.emplace_back("gamma");
+  if (map) names.emplace_back(kWithoutMap);
   for (const Baseline& baseline : baselines()) names.emplace_back(baseline.name);
   // who may learn from the recording is compared with those who may as well
   if (memory == Memory::Online)

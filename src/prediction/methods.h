@@ -16,11 +16,12 @@ struct MethodSettings {
   std::size_t samples = 0;  ///< 0: no distribution; else 2 or more
   std::uint64_t seed = 1;
   Draws draws = Draws::Independent;
+  const PredictionMap* map = nullptr;  ///< null: none is known; else it outlives the methods
 };
 
 /// Names for a table: gamma and the baselines (online: the simple ones with flow, too), or
-/// (ablations) gamma and its parts.
-std::vector<std::string> default_methods(bool ablations, Memory memory);
+/// (ablations) gamma and its parts. With a map gamma without it is among them.
+std::vector<std::string> default_methods(bool ablations, Memory memory, bool map = false);
 
 /// Every name that make_method knows, for a help text.
 std::string all_methods();

@@ -94,6 +94,7 @@ void append_kind(const std::string& prefix, KindParameters& kind,
   add("expert_own", kind.experts.own);
   add("expert_prior_model", kind.experts.model);
   add("expert_prior_walking", kind.experts.walking);
+  add("expert_prior_lane", kind.experts.lane);
   add("expert_others", kind.experts.others);
   add("expert_keep", kind.experts.keep);
   add("road_ahead", kind.road_ahead);

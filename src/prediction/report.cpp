@@ -147,6 +147,15 @@ const Evaluation* best_simple(const Evaluation& evaluation,
   return best == &evaluation ? nullptr : best;
 }
 
+/// What gamma with a map is compared with: the same without, where both were run.
+const Evaluation* without_map(const Evaluation& evaluation,
+                              const std::vector<Evaluation>& evaluations) {
+  if (evaluation.method != "gamma") return nullptr;
+  for (const Evaluation& other : evaluations)
+    if (other.set == evaluation.set && other.method == kWithoutMap) return &other;
+  return nullptr;
+}
+
 /// Differences to another evaluation of the same windows, bootstrapped over agents.
 Intervals paired_intervals(const Evaluation& evaluation, const Evaluation& other,
                            std::uint64_t seed) {
@@ -158,6 +167,15 @@ Intervals paired_intervals(const Evaluation& evaluation, const Evaluation& other
     agent.push_back(evaluation.windows[k].track);
   }
   return {bootstrap_mean(average, agent, seed), bootstrap_mean(final, agent, seed)};
+}
+
+Json against_json(const Evaluation& evaluation, const Evaluation& other, std::uint64_t seed) {
+  const Intervals paired = paired_intervals(evaluation, other, seed);
+  return {{"method", other.method},
+          {"ade", paired.average.mean},
+          {"ade_95", to_json(paired.average)},
+          {"fde", paired.final.mean},
+          {"fde_95", to_json(paired.final)}};
 }
 
 /// Windows of a class and a speed band, where there are any.
@@ -222,14 +240,10 @@ nlohmann::ordered_json to_json(const Evaluation& evaluation,
   json["collision_rate"] = evaluation.collisions.rate();
   json["collision_pairs"] = evaluation.collisions.pairs;
   json["true_collision_rate"] = evaluation.true_collisions.rate();
-  if (const Evaluation* other = best_simple(evaluation, evaluations)) {
-    const Intervals paired = paired_intervals(evaluation, *other, seed);
-    json["against"] = {{"method", other->method},
-                       {"ade", paired.average.mean},
-                       {"ade_95", to_json(paired.average)},
-                       {"fde", paired.final.mean},
-                       {"fde_95", to_json(paired.final)}};
-  }
+  if (const Evaluation* other = best_simple(evaluation, evaluations))
+    json["against"] = against_json(evaluation, *other, seed);
+  if (const Evaluation* other = without_map(evaluation, evaluations))
+    json["against_without_map"] = against_json(evaluation, *other, seed);
   if (evaluation.has_samples) {
     json["draws"] = evaluation.draws;
     json["sample_collision_rate"] = evaluation.sample_collisions.rate();
@@ -327,6 +341,16 @@ std::string row_of(const Evaluation& evaluation, const Evaluation* other, std::u
   return text + "\n";
 }
 
+/// What the map is worth.
+std::string map_row(const Evaluation& evaluation, const Evaluation& other, std::uint64_t seed) {
+  const Intervals paired = paired_intervals(evaluation, other, seed);
+  return fmt::format(
+      "  with the map less without it: ADE {:+.3f} [{:+.3f}, {:+.3f}], FDE {:+.3f} [{:+.3f}, "
+      "{:+.3f}]\n",
+      paired.average.mean, paired.average.low, paired.average.high, paired.final.mean,
+      paired.final.low, paired.final.high);
+}
+
 }  // namespace
 
 std::string to_table(const std::vector<Evaluation>& evaluations, const Protocol& protocol,
@@ -343,6 +367,8 @@ std::string to_table(const std::vector<Evaluation>& evaluations, const Protocol&
       text += head_of(evaluation, has_samples);
     }
     text += row_of(evaluation, best_simple(evaluation, evaluations), seed);
+    if (const Evaluation* other = without_map(evaluation, evaluations))
+      text += map_row(evaluation, *other, seed);
   }
   return strict ? text + published_rows(set) : text;
 }

@@ -12,6 +12,7 @@
 #include "base/random.h"
 #include "base/units.h"
 #include "realism/scene_export.h"
+#include "road/signal_program.h"
 #include "scene/behavior_draw.h"
 #include "simulation/advance.h"
 
@@ -48,18 +49,12 @@ void lengthen(const RoadNetwork& network, VehicleClassMask classes, MatchedRoute
 /// What the programs of all signals show, and since when.
 void show_signals(const RoadNetwork& network, double time, RoadState& road) {
   for (std::size_t k = 0; k < network.signals.size(); ++k) {
-    const std::vector<SignalPhase>& phases = network.signals[k].phases;
-    double cycle = 0;
-    for (const SignalPhase& phase : phases) cycle += phase.duration;
-    if (phases.empty() || cycle <= 0.0) continue;
-    const double begin = std::floor(time / cycle) * cycle;
-    double since = begin;
-    std::size_t now = 0;
-    while (now + 1 < phases.size() && since + phases[now].duration <= time + 1e-6)
-      since += phases[now++].duration;
-    road.signal_states[k] = phases[now].state;
-    road.signal_since[k] = since;
-    road.amber_until[k] = since + phases[now].duration;
+    const std::optional<ProgramPlace> at = program_at(network.signals[k], time);
+    if (!at) continue;
+    const SignalPhase& phase = network.signals[k].phases[at->phase];
+    road.signal_states[k] = phase.state;
+    road.signal_since[k] = at->since;
+    road.amber_until[k] = at->since + phase.duration;
   }
 }
 

@@ -10,6 +10,8 @@
 #include <sstream>
 
 #include "base/subprocess.h"
+#include "geometry/vec2.h"
+#include "road/sumo_net_reader.h"
 
 namespace sumogamma {
 namespace {
@@ -285,6 +287,100 @@ TEST(PredictCommand, TakesOneAgentAlone) {
   EXPECT_NE(result.output.find("6 windows"), std::string::npos) << result.output;
   EXPECT_NE(result.output.find("chosen without it"), std::string::npos) << result.output;
   EXPECT_EQ(result.output.find("nan"), std::string::npos) << result.output;
+}
+
+/// Two cars on the east-west road of the signalled crossing's scenario, one in the fields beside
+/// it; `away` from its axes [m].
+std::string recorded_on_crossing(const std::filesystem::path& folder, double away) {
+  const auto path = folder / ("away_" + std::to_string(static_cast<int>(away)) + ".csv");
+  std::ofstream file(path);
+  file << "time_s,agent_id,agent_type,x_m,y_m\n";
+  const RoadNetwork network =
+      read_sumo_net(SUMOGAMMA_SOURCE_DIR "/sumo_scenarios/signalled_crossing/net.net.xml");
+  const Lane* longest = nullptr;
+  for (const Lane& lane : network.lanes)
+    if (lane.kind == LaneKind::Normal && (lane.allowed & vehicle_class::kPassenger) != 0 &&
+        (longest == nullptr || lane.centerline.length() > longest->centerline.length()))
+      longest = &lane;
+  for (int frame = 0; frame < 22; ++frame) {
+    const Vec2 at = longest->centerline.point_at(5 + 1.6 * frame), off(away, away);
+    const Vec2 one = at + off, field = at + off + 300 * left_of(Vec2(1, 0));
+    file << 0.4 * frame << ",1,car," << one.x() << ',' << one.y() << '\n';
+    file << 0.4 * frame << ",2,car," << field.x() << ',' << field.y() << '\n';
+  }
+  return path.string();
+}
+
+TEST(PredictCommand, TakesAMapAndSaysWhoLiesOnIt) {
+  const auto folder = own_folder();
+  const std::string scenario = SUMOGAMMA_SOURCE_DIR "/sumo_scenarios/signalled_crossing";
+  const auto run_on = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--json", (folder / "out.json").string()});
+    const ProcessResult result = predict(more);
+    EXPECT_TRUE(result.ok()) << result.errors;
+    EXPECT_NE(result.output.find("with the map less without it"), std::string::npos);
+    return nlohmann::json::parse(std::ifstream(folder / "out.json"));
+  };
+  const auto here = run_on({recorded_on_crossing(folder, 0), "--map", scenario});
+  EXPECT_EQ(here["map"]["network"], scenario + "/net.net.xml");
+  EXPECT_EQ(here["map"]["recorded_signals"], 0) << "a program of the scenario's own";
+  EXPECT_EQ(here["recordings"][0]["map"]["agents_on_wheels"], 2);
+  EXPECT_EQ(here["recordings"][0]["map"]["on_map"], 1);
+  EXPECT_EQ(here["evaluations"][0]["against_without_map"]["method"], "gamma-no-map");
+  // in other axes, and told so
+  const std::string away = recorded_on_crossing(folder, 2000);
+  const auto there = run_on({away, "--map", scenario + "/net.net.xml", "--map-offset=-2000,-2000"});
+  EXPECT_EQ(there["recordings"][0]["map"]["on_map"], 1);
+  EXPECT_NEAR(there["evaluations"][0]["ade"].get<double>(),
+              here["evaluations"][0]["ade"].get<double>(), 1e-3);
+  // without a map there is none in the JSON
+  ASSERT_TRUE(predict({away, "--method", "gamma", "--json", (folder / "out.json").string()}).ok());
+  EXPECT_TRUE(nlohmann::json::parse(std::ifstream(folder / "out.json"))["map"].is_null());
+}
+
+TEST(PredictCommand, PlacesTheMapByTheOriginOfTheAxes) {
+  const auto folder = own_folder();
+  const std::string scenario = SUMOGAMMA_SOURCE_DIR "/sumo_scenarios/signalled_crossing";
+  std::stringstream net;
+  net << std::ifstream(scenario + "/net.net.xml").rdbuf();
+  std::string text = net.str();
+  const std::size_t begin = text.find("<location"), end = text.find("/>", begin);
+  ASSERT_NE(begin, std::string::npos);
+  text.replace(begin, end - begin,
+               R"(<location netOffset="-2000.00,-2000.00" convBoundary="0,0,1,1" )"
+               R"(origBoundary="0,0,1,1" projParameter="+proj=tmerc +lat_0=48 +lon_0=11 )"
+               R"(+ellps=WGS84 +units=m +no_defs")");
+  const std::string map = (folder / "geo.net.xml").string();
+  std::ofstream(map) << text;
+  const ProcessResult result =
+      predict({recorded_on_crossing(folder, 2000), "--map", map, "--map-origin", "48,11",
+               "--method", "gamma", "--json", (folder / "out.json").string()});
+  ASSERT_TRUE(result.ok()) << result.errors;
+  const auto json = nlohmann::json::parse(std::ifstream(folder / "out.json"));
+  EXPECT_NEAR(json["map"]["offset_m"][0].get<double>(), -2000, 1e-3);
+  EXPECT_NEAR(json["map"]["offset_m"][1].get<double>(), -2000, 1e-3);
+  EXPECT_EQ(json["recordings"][0]["map"]["on_map"], 1);
+}
+
+TEST(PredictCommand, RefusesAMapThatFitsNobody) {
+  const auto folder = own_folder();
+  const std::string scenario = SUMOGAMMA_SOURCE_DIR "/sumo_scenarios/signalled_crossing";
+  const std::string away = recorded_on_crossing(folder, 2000);
+  for (const auto& [arguments, told] :
+       std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{away, "--map", scenario}, "--map-offset"},
+           {{small_recording(), "--map", scenario}, "nobody is on wheels"},
+           {{away, "--map", away}, "is no map"},
+           {{away, "--map", folder.string()}, "has 0 networks"},
+           {{away, "--map-offset", "1,2"}, "--map NAME.net.xml"},
+           {{away, "--map", scenario, "--map-offset", "nan,2"}, "--map-offset"},
+           {{away, "--map", scenario, "--map-offset", "1,2", "--map-origin", "48,11"},
+            "expected one of them"}}) {
+    const ProcessResult result = predict(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.errors.find(told), std::string::npos) << result.errors;
+    EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+  }
 }
 
 TEST(PredictCommand, RefusesBadInputWithOneLine) {

@@ -64,6 +64,7 @@ TEST_F(RecordedSignals, RefusesWhatItDoesntUnderstandByLine) {
 TEST_F(RecordedSignals, ShowsInTheNetworkWhatWasRecorded) {
   const fs::path net = folder_ / "c.net.xml";
   testing::write_plain_net(testing::crossroads("traffic_light"), net);
+  EXPECT_TRUE(replayed_signals(net).empty()) << "a program like any other";
   // group 1 for the ways from the west straight on, 2 from the south straight on
   const std::vector<SignalledWay> ways{{1, {-15, -4.8}, {15, -4.8}}, {2, {1.6, -15}, {1.6, 15}}};
   SignalChanges changes;
@@ -90,6 +91,7 @@ TEST_F(RecordedSignals, ShowsInTheNetworkWhatWasRecorded) {
   EXPECT_EQ(shown("WC", "CE", 2), 'G');
   EXPECT_EQ(shown("WC", "CE", 3), 'y');
   EXPECT_EQ(shown("WC", "CE", 4), 'r');
+  EXPECT_EQ(replayed_signals(net), std::set<std::string>{signal.name});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "planning/candidate_ways.h"
+#include "inference/candidate_ways.h"
 
 #include <algorithm>
 #include <cmath>
