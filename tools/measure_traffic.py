@@ -526,6 +526,17 @@ MEASURES = {f.__name__: f for f in (saturation, two_way_stop, all_way_stop, roun
                                     platoon)}
 
 
+def red_lights(results):
+    """Of those who met a red light, by type: how many went at it, beside the share that the run's behavior asks for."""
+    found = {}
+    for kind in ("motorcycle", "bicycle", "car", "pedestrian"):
+        counts, asked = results["rules"]["by_types"][kind], results["behavior"]["by_type"][kind]
+        asked = asked["jaywalking_rate" if kind == "pedestrian" else "red_light_running"]
+        met, ran = counts["red_lights_met"], counts["red_light_crossings"]
+        found[kind] = {"met": met, "ran": ran, "asked": asked, "excess": ran / met - asked if met else None}
+    return found
+
+
 def common(results, tracks):
     """What every scenario is asked."""
     agents, collisions, flow = results["agents"], results["collisions"], results["flow"]
@@ -551,7 +562,8 @@ def measure(scenario, folder):
     with open(os.path.join(folder, "results.json"), encoding="utf-8") as stream:
         results = json.load(stream)
     tracks = read_tracks(os.path.join(folder, "trajectories.fcd.xml.gz"))
-    return rounded({"scenario": scenario, **common(results, tracks), **MEASURES[scenario](tracks)})
+    own = red_lights(results) if scenario == "red_lights" else MEASURES[scenario](tracks)
+    return rounded({"scenario": scenario, **common(results, tracks), **own})
 
 
 # what docs/micro_scenarios.md shows of each scenario: words, where to find it, decimals
@@ -617,7 +629,7 @@ def table(out):
 
 
 def main(arguments):
-    if len(arguments) == 2 and arguments[0] in MEASURES:
+    if len(arguments) == 2 and arguments[0] in (*MEASURES, "red_lights"):
         print(json.dumps(measure(*arguments), indent=1))
         return 0
     if len(arguments) == 2 and arguments[0] == "--table":

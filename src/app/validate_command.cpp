@@ -85,11 +85,11 @@ json measure(const fs::path& data, const Trial& trial, const std::string& contro
              std::uint64_t seed, const fs::path& folder) {
   const fs::path scenario = data / "sumo_scenarios" / trial.scenario;
   ProcessRequest run;
-  run.arguments = {own_program(), "run",    scenario / (trial.scenario + ".sumocfg"),
-                   "-o",          folder,   "--trajectory-period",
-                   "0.1",         "--seed", std::to_string(seed),
-                   "--control",   control,  "--quiet",
-                   "--force"};
+  run.arguments = {own_program(), "run",      scenario / (trial.scenario + ".sumocfg"),
+                   "-o",          folder,     "--trajectory-period",
+                   "0.1",         "--seed",   std::to_string(seed),
+                   "--control",   control,    "--quiet",
+                   "--force",     "--preset", trial.preset};
   run.should_stop = interrupted;
   outcome_of(run);
   ProcessRequest figures;

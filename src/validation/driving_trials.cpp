@@ -1,3 +1,6 @@
+#include <string>
+#include <utility>
+
 #include "validation/trial.h"
 
 namespace sumogamma {
@@ -124,6 +127,30 @@ Trial platoon() {
   return trial;
 }
 
+Trial red_lights() {
+  Trial trial{"V13",
+              "Do as many go at red as are asked for?",
+              "Two-wheelers, cars and people at a signal where little crosses their way, with the "
+              "rates of --preset observed; of those who meet red, the share that goes less the "
+              "share asked for.",
+              "red_lights",
+              {},
+              {},
+              "observed"};
+  const std::pair<const char*, const char*> kinds[] = {{"motorcycles", "motorcycle"},
+                                                       {"bicycles", "bicycle"},
+                                                       {"cars", "car"},
+                                                       {"people", "pedestrian"}};
+  for (const auto& [words, kind] : kinds)
+    trial.criteria.push_back({std::string(words) + " that go at red, beyond those asked for",
+                              "",
+                              {-0.05, 0.05},
+                              "what the preset asks for",
+                              false,
+                              std::string("/") + kind + "/excess"});
+  return trial;
+}
+
 Trial two_wheelers() {
   return {
       "V14",
@@ -225,10 +252,20 @@ Trial sidewalk() {
 }  // namespace
 
 std::vector<Trial> driving_trials() {
-  std::vector<Trial> trials{
-      queue_at_a_signal(), stop_signs(),   roundabout_entry(), lane_drop(), platoon(),
-      minor_road(),        two_wheelers(), overtaking(),       zebra(),     mid_block(),
-      bus_stop(),          ring(),         sidewalk()};
+  std::vector<Trial> trials{queue_at_a_signal(),
+                            stop_signs(),
+                            roundabout_entry(),
+                            lane_drop(),
+                            platoon(),
+                            minor_road(),
+                            red_lights(),
+                            two_wheelers(),
+                            overtaking(),
+                            zebra(),
+                            mid_block(),
+                            bus_stop(),
+                            ring(),
+                            sidewalk()};
   for (Trial& trial : trials) {
     trial.criteria.push_back(
         {"colliding pairs", "", {0.0, 0.0}, kProject, false, "/colliding_pairs"});

@@ -38,6 +38,7 @@ struct Trial {
   std::vector<Criterion> criteria;
   /// A seed's values, one a criterion; not a number where there was nothing to measure.
   std::function<std::vector<double>(std::uint64_t seed, Workers& workers)> walk;
+  std::string preset = "compliant";  ///< how those behave whom `run` drives
 };
 
 /// Driven through `run` on the small scenarios.

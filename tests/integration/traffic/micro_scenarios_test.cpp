@@ -247,9 +247,9 @@ TEST_P(MicroScenarios, ThePresetSaysHowManyGoAtRed) {
   for (const char* type : {"motorcycle", "bicycle", "car", "pedestrian"})
     EXPECT_LE(red_share(compliant, type), 0.05) << type;
   const json observed = red_lights("observed", GetParam());
-  EXPECT_EQ(observed["behavior"]["by_type"]["motorcycle"]["red_light_running"], 0.345);
-  EXPECT_NEAR(red_share(observed, "motorcycle"), 0.345, 0.15);
-  EXPECT_NEAR(red_share(observed, "bicycle"), 0.26, 0.13);
+  EXPECT_EQ(observed["behavior"]["by_type"]["motorcycle"]["red_light_running"], 0.465);
+  EXPECT_NEAR(red_share(observed, "motorcycle"), 0.465, 0.15);
+  EXPECT_NEAR(red_share(observed, "bicycle"), 0.391, 0.13);
   EXPECT_LE(red_share(observed, "car"), 0.05);
   EXPECT_NEAR(red_share(observed, "pedestrian"), 0.15, 0.12);
 }

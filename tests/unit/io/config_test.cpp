@@ -147,7 +147,7 @@ TEST_F(Config, KeysOfTypesWinOverThePresetWhereverItStands) {
     const ScenarioConfig config = read(content);
     EXPECT_EQ(config.preset, BehaviorPreset::Observed);
     EXPECT_DOUBLE_EQ(type(config, "motorcycle").compliance.red_light_running, 0.1);
-    EXPECT_DOUBLE_EQ(type(config, "bicycle").compliance.red_light_running, 0.26);
+    EXPECT_DOUBLE_EQ(type(config, "bicycle").compliance.red_light_running, 0.391);
   }
   EXPECT_DOUBLE_EQ(type(read(key), "bicycle").compliance.red_light_running, 0.0);
   // in a shell: the last preset counts, and it leaves what the file says of a type
@@ -157,7 +157,7 @@ TEST_F(Config, KeysOfTypesWinOverThePresetWhereverItStands) {
   EXPECT_DOUBLE_EQ(type(config, "motorcycle").compliance.red_light_running, 0.1);
   EXPECT_DOUBLE_EQ(type(config, "car").critical_gap, 2.0);
   EXPECT_DOUBLE_EQ(type(config, "car").compliance.headway_deviation, 0.0);
-  EXPECT_DOUBLE_EQ(type(config, "car").compliance.red_light_running, 0.007);
+  EXPECT_DOUBLE_EQ(type(config, "car").compliance.red_light_running, 0.011);
   EXPECT_EQ(read("").preset, BehaviorPreset::Compliant);
 }
 

@@ -96,10 +96,10 @@ TEST(BehaviorPreset, CompliantIsTheDefaultAndObservedSaysWhatWasMeasured) {
   const auto& of = [&](const char* name) -> const AgentType& {
     return type_of(types, find_agent_type(types, name));
   };
-  EXPECT_EQ(of("car").compliance.red_light_running, 0.007);
-  EXPECT_EQ(of("motorcycle").compliance.red_light_running, 0.345);
-  EXPECT_EQ(of("bicycle").compliance.red_light_running, 0.26);
-  EXPECT_EQ(of("electric_tricycle").compliance.red_light_running, 0.18);
+  EXPECT_EQ(of("car").compliance.red_light_running, 0.011);
+  EXPECT_EQ(of("motorcycle").compliance.red_light_running, 0.465);
+  EXPECT_EQ(of("bicycle").compliance.red_light_running, 0.391);
+  EXPECT_EQ(of("electric_tricycle").compliance.red_light_running, 0.273);
   EXPECT_GT(of("pedestrian").compliance.jaywalking_rate, 0.0);
   apply_preset(BehaviorPreset::Interaction, types);
   EXPECT_EQ(of("car").headway, 1.76);
