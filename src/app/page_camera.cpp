@@ -58,17 +58,6 @@ std::filesystem::path require_program(std::initializer_list<const char*> names,
                                   " is made with: install Debian's package " + package);
 }
 
-ScratchFolder::ScratchFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "sumo-gamma-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw Error(name, std::strerror(errno));
-  path_ = name;
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
 PageCamera::PageCamera(const std::filesystem::path& page, const Shot& shot) {
   const std::filesystem::path program =
       require_program({"chromium", "chromium-browser", "google-chrome"}, "chromium", "a picture");

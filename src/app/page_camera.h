@@ -6,21 +6,9 @@
 #include <string>
 
 #include "base/piped_process.h"
+#include "base/scratch_folder.h"
 
 namespace sumogamma {
-
-/// A folder of our own that is gone with this object.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Looks at a replay page through a headless Chromium, which is talked to by a pipe: nothing
 /// listens at a port.

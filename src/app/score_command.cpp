@@ -17,6 +17,7 @@
 #include "io/config.h"
 #include "io/output_file.h"
 #include "io/output_folder.h"
+#include "realism/score_page.h"
 #include "realism/score_report.h"
 #include "scene/behavior_preset.h"
 
@@ -30,7 +31,7 @@ struct ScoreOptions {
   std::vector<std::string> files;
   fs::path output, map;
   std::vector<std::string> methods;
-  std::size_t rollouts = 32;
+  std::size_t rollouts = 32, free_runs = 0;
   std::optional<std::string> preset;
   bool force = false;
   SceneArguments reading;
@@ -67,11 +68,15 @@ std::optional<Scored> score_file(const std::string& file, const ScoreOptions& op
 
 void write_results(const ScoreOptions& options, const ScoreSettings& settings,
                    const std::vector<Scored>& all, const std::vector<std::string>& left_out) {
-  nlohmann::ordered_json json{
-      {"version", SUMOGAMMA_VERSION},          {"seed", settings.seed},
-      {"rollouts", settings.rollouts},         {"preset", name_of(settings.preset)},
-      {"point", options.reading.point},        {"boxes", options.reading.boxes},
-      {"window_s", kScoreStep * kWindowSteps}, {"left_out", left_out}};
+  nlohmann::ordered_json json{{"version", SUMOGAMMA_VERSION},
+                              {"seed", settings.seed},
+                              {"rollouts", settings.rollouts},
+                              {"free_runs", settings.free_runs},
+                              {"preset", name_of(settings.preset)},
+                              {"point", options.reading.point},
+                              {"boxes", options.reading.boxes},
+                              {"window_s", kScoreStep * kWindowSteps},
+                              {"left_out", left_out}};
   json["weights"] = nlohmann::ordered_json::object();
   for (const ScoreFeatureInfo& info : score_features()) json["weights"][info.name] = info.weight;
   json["recordings"] = nlohmann::ordered_json::array();
@@ -86,6 +91,7 @@ void write_results(const ScoreOptions& options, const ScoreSettings& settings,
     scores.push_back(one.score);
   }
   write_file(options.output / "score.csv", score_csv(scores));
+  write_file(options.output / "score.html", score_page(scores, SUMOGAMMA_VERSION));
   write_file(options.output / "score.json", json.dump(1) + "\n");
 }
 
@@ -101,6 +107,7 @@ void print_results(const std::vector<Scored>& all, std::FILE* out) {
             one.road->file.filename().string(), one.road->people, one.road->beside_lanes,
             one.road->no_route);
     print(out, "\n{}\n", score_table(one.score));
+    if (!one.score.free_scores.empty()) print(out, "{}\n", free_table(one.score));
     scores.push_back(one.score);
   }
   if (scores.size() > 1) print(out, "## All\n\n{}\n", mean_table(scores));
@@ -120,12 +127,16 @@ int score(const ScoreOptions& options, const CommonOptions& common) {
   }
   settings.seed = common.seed;
   settings.rollouts = options.rollouts;
+  settings.free_runs = options.free_runs;
   // the last word counts: --preset, --set behavior.preset, what stands without either
   std::vector<std::string> set = common.set;
-  set.insert(set.begin(), fmt::format("behavior.preset={}", name_of(settings.preset)));
+  if (!options.map.empty())
+    set.insert(set.begin(),
+               fmt::format("behavior.preset={}", name_of(BehaviorPreset::Interaction)));
   if (options.preset) set.push_back("behavior.preset=" + *options.preset);
   const ScenarioConfig config = read_config({}, set);
   settings.model = config.model;
+  settings.behavior = config.types;
   settings.preset = config.preset;
   std::optional<OutputFolder> folder;
   if (!options.output.empty()) {
@@ -161,7 +172,8 @@ CommandRunner add_score_command(CLI::App& parent) {
   for (const ScoreMethodInfo& info : score_methods())
     methods += fmt::format("{}{} ({})", methods.empty() ? "" : ", ", info.name, info.label);
   command->add_option("RECORDINGS", options->files, "as `predict` reads them")->required();
-  command->add_option("-o,--output", options->output, "folder for score.json and score.csv");
+  command->add_option("-o,--output", options->output,
+                      "folder for score.json, score.csv and score.html");
   command->add_option("--map", options->map,
                       "SUMO network of the place in the recording's axes (NAME.net.xml), as "
                       "scene-from --map writes it: GAMMA keeps to the rules of the road there");
@@ -173,8 +185,14 @@ CommandRunner add_score_command(CLI::App& parent) {
       ->check(whole_number(1, 1000))
       ->capture_default_str();
   command
-      ->add_option("--preset", options->preset,
-                   "how GAMMA's drivers behave on a network, as of run; default: interaction")
+      ->add_option("--free", options->free_runs,
+                   "also drive the whole recording, at most five minutes, freely so many times by "
+                   "GAMMA and, with --map, by SUMO's models: distributions, travel times")
+      ->check(whole_number(1, 1000));
+  command
+      ->add_option(
+          "--preset", options->preset,
+          "how GAMMA's drivers behave, as of run; default: interaction with --map, else compliant")
       ->check(CLI::IsMember(preset_names()));
   command->add_flag("--force", options->force, "write into a folder that holds other results");
   add_scene_reading_options(*command, options->reading);

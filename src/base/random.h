@@ -24,6 +24,7 @@ enum class Draw : std::uint32_t {
   Scenario,
   StudyDesign,
   Bootstrap,
+  RollingStop,
 };
 
 /// 64 well-mixed bits: a pure function of its arguments (splitmix64 finaliser, applied a word at a

@@ -155,6 +155,7 @@ Json behavior_json(const RunResults& results) {
     by_type[type.name] = {{"red_light_running", own.red_light_running},
                           {"yielding_rate", own.yielding_rate},
                           {"jaywalking_rate", own.jaywalking_rate},
+                          {"rolling_stops", own.rolling_stops},
                           {"critical_gap", type.critical_gap},
                           {"headway", type.headway},
                           {"headway_deviation", own.headway_deviation},

@@ -44,14 +44,23 @@ double desired_speed(const AgentType& type, double speed, std::uint64_t seed, st
   return std::min(usual * (1.0 + kSpeedSpread * draw), type.max_speed);
 }
 
-ClosedLoop::ClosedLoop(const RecordedScene& scene, const ModelOptions& options, Workers& workers)
+ClosedLoop::ClosedLoop(const RecordedScene& scene, const ModelOptions& options,
+                       const AgentTypeTable& behavior, Workers& workers)
     : scene_(scene), workers_(workers) {
-  model_.types = scene.types;
-  model_.kinematics = build_kinematic_tables(scene.types, workers);
+  model_.types = behaving_as(scene.types, behavior);
+  model_.kinematics = build_kinematic_tables(model_.types, workers);
   model_.options = options;
   model_.options.step = kModelStep;
   model_.road.obstacles = scene.obstacles;
   model_.obstacles = ObstacleIndex(scene.obstacles);
+}
+
+void ClosedLoop::complete(const RecordedAgent& who, const MotionState& state, std::uint64_t seed,
+                          AgentState& row) const {
+  const AgentType& type = type_of(model_.types, who.type);
+  row.preferred_speed = desired_speed(type, state.velocity.norm(), seed, who.id);
+  row.behavior = draw_behavior(type, seed, who.id);
+  row.behavior.intention.kind = IntentionKind::Goal;
 }
 
 Rollout ClosedLoop::drive(const ScoreWindow& window, std::uint64_t seed,
@@ -60,10 +69,7 @@ Rollout ClosedLoop::drive(const ScoreWindow& window, std::uint64_t seed,
   EntryCounts counts;
   WindowCast cast(scene_, window,
                   [&](const RecordedAgent& who, const MotionState& state, AgentState& row) {
-                    const AgentType& type = type_of(model_.types, who.type);
-                    row.preferred_speed = desired_speed(type, state.velocity.norm(), seed, who.id);
-                    row.behavior = draw_behavior(type, seed, who.id);
-                    row.behavior.intention.kind = IntentionKind::Goal;
+                    complete(who, state, seed, row);
                   });
   std::vector<bool> reached;
   OpenSteps steps(model_, workers_);
@@ -79,6 +85,23 @@ Rollout ClosedLoop::drive(const ScoreWindow& window, std::uint64_t seed,
   counts.shut_out = window.entering.size() - counts.entered;
   entries.add(counts);
   return rollout;
+}
+
+FreeRun ClosedLoop::drive_freely(std::uint64_t seed) const {
+  WindowCast cast(scene_, [&](const RecordedAgent& who, const MotionState& state, AgentState& row) {
+    complete(who, state, seed, row);
+  });
+  std::vector<bool> reached;
+  OpenSteps steps(model_, workers_);
+  const auto move = [&] {
+    set_goals(cast, reached);
+    for (int k = 0; k < kModelStepsAPose; ++k) steps.make(cast.scene().size(), cast.scene());
+  };
+  const auto has_come = [&](std::size_t row) {
+    const std::size_t id = cast.scene().id[row].value;
+    return cast.agent(row).last() < scene_.last && id < reached.size() && reached[id];
+  };
+  return sumogamma::drive_freely(scene_, cast, {move, has_come});
 }
 
 }  // namespace sumogamma

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "model/model.h"
+#include "realism/free_run.h"
 #include "realism/window_cast.h"
 
 namespace sumogamma {
@@ -20,12 +21,18 @@ namespace sumogamma {
 /// desired speed, see desired_speed.
 class ClosedLoop {
  public:
-  ClosedLoop(const RecordedScene& scene, const ModelOptions& options, Workers& workers);
+  /// `behavior`: how types drive, by name.
+  ClosedLoop(const RecordedScene& scene, const ModelOptions& options,
+             const AgentTypeTable& behavior, Workers& workers);
 
   /// One rollout of a window.
   Rollout drive(const ScoreWindow& window, std::uint64_t seed, EntryCounts& entries) const;
+  /// All of the recording.
+  FreeRun drive_freely(std::uint64_t seed) const;
 
  private:
+  void complete(const RecordedAgent& who, const MotionState& state, std::uint64_t seed,
+                AgentState& row) const;
   const RecordedScene& scene_;
   Workers& workers_;
   Model model_;

@@ -12,7 +12,8 @@
 
 namespace sumogamma {
 
-/// What the composite is made of: the features of the 2025 challenge that need no map.
+/// What the composite is made of: the features of the 2025 challenge, the last three with a map
+/// alone.
 enum class ScoreFeature : std::uint8_t {
   Speed,
   Acceleration,
@@ -21,15 +22,20 @@ enum class ScoreFeature : std::uint8_t {
   Nearest,
   TimeToCollision,
   Collision,
+  RoadEdge,
+  OffRoad,
+  RedLight,
 };
-inline constexpr std::size_t kScoreFeatures = 7;
+inline constexpr std::size_t kScoreFeatures = 10;
 
 struct ScoreFeatureInfo {
   ScoreFeature feature;
   const char* name;
-  Bins bins;                                    ///< of Collision: none
-  double weight;                                ///< of 1, where the map's features have 0.35
-  std::vector<double> MotionFeatures::*values;  ///< null for Collision
+  Bins bins;                                    ///< none of what happens or doesn't
+  double weight;                                ///< of 1
+  std::vector<double> MotionFeatures::*values;  ///< null for what happens or doesn't
+  /// Whether it happens to a row in the window; null for what has values.
+  bool (*happens)(const MotionFeatures& features, std::size_t row);
 };
 /// In the order of the enumeration. Bins and weights: challenge_2025_sim_agents_config.textproto of
 /// the Waymo Open Dataset.
@@ -41,9 +47,9 @@ const std::array<ScoreFeatureInfo, kScoreFeatures>& score_features();
 double mean_log_likelihood(std::span<const double> log, std::span<const double> rollouts,
                            const Bins& bins);
 
-/// log likelihood of whether somebody collided in the log, by the share of the rollouts in which it
-/// did, with 0.001 added to both counts.
-double collision_log_likelihood(bool in_log, std::size_t collided, std::size_t rollouts);
+/// log likelihood of whether something happened to somebody in the log (a collision), by the share
+/// of the rollouts in which it did, with 0.001 added to both counts.
+double event_log_likelihood(bool in_log, std::size_t happened, std::size_t rollouts);
 
 /// Sums over agents from which a score is made; sums can be added up.
 struct ScoreSums {
@@ -56,6 +62,7 @@ struct ScoreSums {
   double least_error = 0;          ///< of the best rollout of each agent, mean over its steps [m]
   std::size_t scored = 0;          ///< agents
   std::size_t colliding_in_log = 0;
+  std::size_t off_road = 0, at_red = 0;  ///< of the agents' rollouts, with a map alone
 
   void add(const ScoreSums& other);
 };
@@ -69,7 +76,8 @@ struct ScoreFigures {
   double colliding_anew = 0;  ///< likewise, of those who overlap nobody at the beginning
   double colliding_with_entering = 0;  ///< that overlap one who came later
   double progress = 0;                 ///< way of all in the rollouts over that in the log
-  double min_ade = 0;  ///< mean over agents of the least mean error of a rollout [m]
+  double min_ade = 0;               ///< mean over agents of the least mean error of a rollout [m]
+  double off_road = 0, at_red = 0;  ///< shares of agents and rollouts; NaN without a map
 };
 ScoreFigures figures_of(const ScoreSums& sums);
 

@@ -179,7 +179,8 @@ MatchedRoute match_route(const RoadNetwork& network, const RecordedAgent& agent,
       if (way.empty()) continue;
       const std::size_t near = points_near(network, lanes_of(network, way), agent, points);
       if (!best.edges.empty() && near <= best.near) continue;
-      best = {std::move(way), from.lane, from.along, to.along, points.size(), near};
+      const EdgeId last = way.back();
+      best = {std::move(way), from.lane, from.along, to.along, points.size(), near, last};
     }
   return best;
 }

@@ -19,6 +19,7 @@ struct MatchedRoute {
   double from_along = 0;             ///< of its centre, on that lane's centreline [m]
   double to_along = 0;               ///< where it ends, on the last edge [m]
   std::size_t points = 0, near = 0;  ///< looked at, every half second; within kOnRoute of it
+  EdgeId to = kNoEdge;               ///< the edge where it ends; others may follow for later
 };
 
 /// The route that most of the agent's points lie by: of those that lead from an edge at its first

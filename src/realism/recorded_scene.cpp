@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "base/error.h"
@@ -16,10 +17,12 @@ namespace sumogamma {
 
 namespace {
 
-constexpr double kCoarsest = 0.5;  // frames farther apart say nothing of motion at 10 Hz [s]
-constexpr double kMoving = 0.5;    // slower than this a velocity has no direction [m/s]
-constexpr double kKnown = 1.0;     // what is known of somebody at the start of a window [s]
-constexpr double kSame = 1e-6;     // of two times [s]
+constexpr double kCoarsest = 0.5;   // frames farther apart say nothing of motion at 10 Hz [s]
+constexpr double kMoving = 0.5;     // slower than this a velocity has no direction [m/s]
+constexpr double kRolls = 2.0;      // from this speed on wheels roll where they point [m/s]
+constexpr double kMostSlip = 60.0;  // of a heading from that direction [degrees]
+constexpr double kKnown = 1.0;      // what is known of somebody at the start of a window [s]
+constexpr double kSame = 1e-6;      // of two times [s]
 
 /// Headings without jumps by a whole turn.
 std::vector<double> unwrapped(std::vector<double> heading) {
@@ -63,8 +66,28 @@ void bring_to_steps(const SmoothedTrack& track, std::span<const double> heading,
   }
 }
 
+/// Can a body on wheels that moves so point there?
+bool can_point(double heading, const Vec2& velocity) {
+  return velocity.norm() < kRolls ||
+         std::abs(wrap_angle(heading - heading_of(velocity))) < radians(kMostSlip);
+}
+
+/// Annotated headings as far as they can be: wheels don't roll across, and nobody drives that fast
+/// backwards, but detectors guess a direction before they see motion. `mended`: those replaced by
+/// the direction of motion.
+std::vector<double> rolling_headings(const std::vector<double>& annotated,
+                                     std::span<const Vec2> velocity, std::size_t& mended) {
+  std::vector<double> heading = annotated;
+  for (std::size_t k = 0; k < heading.size(); ++k) {
+    if (can_point(heading[k], velocity[k])) continue;
+    heading[k] = heading_of(velocity[k]);
+    ++mended;
+  }
+  return unwrapped(std::move(heading));
+}
+
 RecordedAgent scored_agent(const Track& track, const TrackSet& set, RecordedPoint point,
-                           const AgentTypeTable& types) {
+                           const AgentTypeTable& types, std::size_t& mended) {
   const AgentType& type = type_of(types, track.type);
   RecordedAgent agent;
   agent.id = track.id;
@@ -79,11 +102,20 @@ RecordedAgent scored_agent(const Track& track, const TrackSet& set, RecordedPoin
     for (std::size_t k = 0; k < agent.seen.size(); ++k)
       agent.seen[k] += type.rear_axle_to_center * direction_of(track.heading[k]);
   const SmoothedTrack smooth = smoothed(agent.seen, set.period);
-  std::vector<double> heading =
-      track.annotated ? unwrapped(track.heading) : headings_of(smooth.velocity);
-  if (track.annotated) agent.seen_heading = heading;
+  const bool on_wheels = type.kinematics != Kinematics::Holonomic;
+  std::vector<double> heading = !track.annotated ? headings_of(smooth.velocity)
+                                : on_wheels
+                                    ? rolling_headings(track.heading, smooth.velocity, mended)
+                                    : unwrapped(track.heading);
+  if (track.annotated) agent.seen_heading = unwrapped(track.heading);
+  agent.on_wheels = on_wheels;
   bring_to_steps(smooth, heading, agent.seen_from, set.period, agent);
   return agent;
+}
+
+/// The program's own type that a recorded one drives as.
+std::string_view driving_name(std::string_view recorded) {
+  return recorded == "moped" ? "motorcycle" : recorded;
 }
 
 TrackSet read_tracks(const std::filesystem::path& path, ReadOptions options) {
@@ -130,7 +162,8 @@ MotionState RecordedAgent::known_at(int step) const {
   const int before = std::max(first, step - static_cast<int>(std::lround(kKnown / kScoreStep)));
   state.heading = slope.norm() > kMoving ? heading_of(slope)
                                          : heading[static_cast<std::size_t>(before - first)];
-  if (!seen_heading.empty()) state.heading = seen_heading[latest];
+  const bool told = !seen_heading.empty() && (!on_wheels || can_point(seen_heading[latest], slope));
+  if (told) state.heading = seen_heading[latest];
   return state;
 }
 
@@ -138,15 +171,28 @@ AgentTypeTable scored_agent_types() {
   const AgentTypeTable known = default_agent_types();
   AgentTypeTable types;
   for (const AgentType& recorded : recorded_agent_types()) {
-    const bool moped = recorded.name == "moped";
-    AgentType type = type_of(known, find_agent_type(known, moped ? "motorcycle" : recorded.name));
+    AgentType type = type_of(known, find_agent_type(known, driving_name(recorded.name)));
     type.name = recorded.name;
-    if (moped) {
+    if (type.name == "moped") {
       type.length = 1.74;
       type.width = 0.78;
       type.wheelbase = 1.2;
       type.rear_axle_to_center = 0.55;
     }
+    types.push_back(std::move(type));
+  }
+  return types;
+}
+
+AgentTypeTable behaving_as(const AgentTypeTable& scored, const AgentTypeTable& behavior) {
+  AgentTypeTable types;
+  for (const AgentType& body : scored) {
+    AgentType type = type_of(behavior, find_agent_type(behavior, driving_name(body.name)));
+    type.name = body.name;
+    type.length = body.length;
+    type.width = body.width;
+    type.wheelbase = body.wheelbase;
+    type.rear_axle_to_center = body.rear_axle_to_center;
     types.push_back(std::move(type));
   }
   return types;
@@ -173,14 +219,20 @@ RecordedScene read_recorded_scene(const std::filesystem::path& path, const Scene
   if (set.split_gaps > 0)
     scene.notes.push_back(
         fmt::format("{} gaps are too long to fill: tracks end and begin there", set.split_gaps));
+  std::size_t mended = 0;
   for (const Track& track : set.tracks) {
     if (track.position.size() < kLeastPoints) {
       ++scene.too_short;
       continue;
     }
-    scene.agents.push_back(scored_agent(track, set, reading.point, scene.types));
+    scene.agents.push_back(scored_agent(track, set, reading.point, scene.types, mended));
     scene.default_boxes += scene.agents.back().default_box;
   }
+  if (mended > 0)
+    scene.notes.push_back(fmt::format(
+        "{} annotated headings of who rolls at {} m/s and more are over {} degrees off its motion, "
+        "whose direction is taken instead",
+        mended, kRolls, kMostSlip));
   if (scene.agents.empty())
     throw Error(path.string(), fmt::format("holds nobody for {} frames on end", kLeastPoints));
   scene.first = scene.agents.front().first;

@@ -40,6 +40,7 @@ struct RecordedAgent {
   AgentTypeId type{};
   double length = 0, width = 0;      ///< of its box [m]
   bool default_box = false;          ///< the recording told none: the type's
+  bool on_wheels = false;            ///< it rolls where it points, or walks where it will
   int first = 0;                     ///< step of the first pose
   std::vector<Vec2> position;        ///< of the box's centre, smoothed [m]
   std::vector<Vec2> velocity;        ///< likewise [m/s]
@@ -82,10 +83,15 @@ inline constexpr std::size_t kLeastPoints = 5;
 /// motorcycle with a box of 1.74 m x 0.78 m, as motorcycles of SinD Tianjin measure.
 AgentTypeTable scored_agent_types();
 
+/// Scored types that drive as `behavior` says of their names (of motorcycles for a moped): all but
+/// bodies is taken from there.
+AgentTypeTable behaving_as(const AgentTypeTable& scored, const AgentTypeTable& behavior);
+
 /// Reads a recording in any format of recording_formats.h at 10 Hz, coarser ones at their own
 /// frames, and smooths it by parabolas over 1.0 s, at least five points (Savitzky and Golay 1964);
 /// coarser recordings are then brought to 10 Hz by cubics through places and velocities (Hermite).
-/// Headings are the annotated ones, or else of the smoothed velocity where it is over 0.5 m/s.
+/// Headings are the annotated ones (of who rolls at 2 m/s and more those within 60 degrees of its
+/// motion, else that direction), or else of the smoothed velocity where it is over 0.5 m/s.
 /// Throws Error on a file that can't be read, that tells no rate where the user doesn't either, or
 /// whose frames are more than half a second apart, and on boxes of an unknown type.
 RecordedScene read_recorded_scene(const std::filesystem::path& path,

@@ -24,6 +24,7 @@ constexpr double kFactorSpread = 0.1;   // of SUMO's default speedFactor
 constexpr double kLeastWay = 1.0;       // of a path on its first lane [m]
 constexpr double kMostAside = 1.0;      // liked place beside a path [m]
 constexpr double kRoadsOnward = 400.0;  // roads behind the route's end that somebody may need [m]
+constexpr double kBeforeEnd = 5.0;      // of its path somebody leaves the map [m]
 
 VehicleClassMask classes_of(const RecordedScene& scene, const RecordedAgent& agent) {
   return vehicle_class_from_name(type_of(scene.types, agent.type).sumo_class);
@@ -55,6 +56,14 @@ void show_signals(const RoadNetwork& network, double time, RoadState& road) {
     road.signal_states[k] = phase.state;
     road.signal_since[k] = at->since;
     road.amber_until[k] = at->since + phase.duration;
+  }
+}
+
+/// Everybody, by kScoreStep.
+void move_on(const Advance& world) {
+  for (int k = 0; k < kModelStepsAPose; ++k) {
+    show_signals(world.model.road, world.scene.time, world.road);
+    advance_rows(world, {kModelStep, true, true});
   }
 }
 
@@ -135,10 +144,9 @@ RoutePlace place_on_route(const RoadNetwork& network, const MatchedRoute& route,
 }
 
 RoadLoop::RoadLoop(const RecordedScene& scene, const RecordedRoad& road,
-                   const ModelOptions& options, BehaviorPreset preset, Workers& workers)
+                   const ModelOptions& options, const AgentTypeTable& behavior, Workers& workers)
     : scene_(scene), road_(road), workers_(workers) {
-  model_.types = scene.types;
-  apply_preset(preset, model_.types);
+  model_.types = behaving_as(scene.types, behavior);
   model_.kinematics = build_kinematic_tables(model_.types, workers);
   model_.road = road.road.network;
   model_.conflicts = road.road.conflicts;
@@ -178,49 +186,78 @@ std::shared_ptr<const Path> RoadLoop::path_of(const RecordedAgent& who, const Mo
   return std::make_shared<const Path>(std::move(*path));
 }
 
-Rollout RoadLoop::drive(const ScoreWindow& window, std::uint64_t seed, EntryCounts& entries) const {
-  Rollout rollout{Poses(window.agents.size()), std::vector<bool>(window.agents.size(), false)};
-  EntryCounts counts;
+RoadState RoadLoop::unlit_road() const {
   RoadState road;
   road.signal_states.resize(model_.road.signals.size());
   road.signal_since.resize(model_.road.signals.size());
   road.amber_until.resize(model_.road.signals.size());
-  const auto complete = [&](const RecordedAgent& who, const MotionState& state, AgentState& row) {
-    const AgentType& type = type_of(model_.types, who.type);
-    const auto at = static_cast<std::size_t>(&who - scene_.agents.data());
-    const double limit = model_.road.lane(road_.routes[at].from).speed_limit;
-    const double factor = limit_factor(row.speed, limit, seed, who.id);
-    auto path = path_of(who, state, factor);
-    row.preferred_speed = type.sumo_class == "bicycle"
-                              ? std::max(row.speed, type.preferred_speed * factor)
-                              : type.max_speed;
-    row.behavior = draw_behavior(type, seed, who.id);
-    row.behavior.intention.kind = IntentionKind::Path;
-    row.manners = draw_manners(type.compliance, seed, who.id);
-    // whoever is beside the middle likes to be there
-    row.manners.path_offset =
-        std::clamp(path->line.project(row.position).offset, -kMostAside, kMostAside);
-    row.path = static_cast<PathId>(road.paths.size());
-    road.paths.push_back(std::move(path));
-  };
-  WindowCast cast(scene_, window, complete);
+  return road;
+}
+
+void RoadLoop::complete(const RecordedAgent& who, const MotionState& state, std::uint64_t seed,
+                        RoadState& road, AgentState& row) const {
+  const AgentType& type = type_of(model_.types, who.type);
+  const auto at = static_cast<std::size_t>(&who - scene_.agents.data());
+  const double limit = model_.road.lane(road_.routes[at].from).speed_limit;
+  const double factor = limit_factor(row.speed, limit, seed, who.id);
+  auto path = path_of(who, state, factor);
+  row.preferred_speed = type.sumo_class == "bicycle"
+                            ? std::max(row.speed, type.preferred_speed * factor)
+                            : type.max_speed;
+  row.behavior = draw_behavior(type, seed, who.id);
+  row.behavior.intention.kind = IntentionKind::Path;
+  row.manners = draw_manners(type.compliance, seed, who.id);
+  // whoever is beside the middle likes to be there
+  row.manners.path_offset =
+      std::clamp(path->line.project(row.position).offset, -kMostAside, kMostAside);
+  row.path = static_cast<PathId>(road.paths.size());
+  road.paths.push_back(std::move(path));
+}
+
+Rollout RoadLoop::drive(const ScoreWindow& window, std::uint64_t seed, EntryCounts& entries) const {
+  Rollout rollout{Poses(window.agents.size()), std::vector<bool>(window.agents.size(), false)};
+  EntryCounts counts;
+  RoadState road = unlit_road();
+  WindowCast cast(scene_, window,
+                  [&](const RecordedAgent& who, const MotionState& state, AgentState& row) {
+                    complete(who, state, seed, road, row);
+                  });
   Traffic traffic;
   AdvanceWork work;
   cast.scene().time = kScoreStep * (window.start - scene_.first);
+  const Advance world{model_, workers_, road, cast.scene(), traffic, work};
   for (std::size_t step = 0; step < Poses::kSteps; ++step) {
     const int now = window.start + static_cast<int>(step);
     cast.let_leave(now);
     cast.let_enter(now, counts);
     cast.note(step, rollout);
-    if (step + 1 == Poses::kSteps) break;
-    for (int k = 0; k < kModelStepsAPose; ++k) {
-      show_signals(model_.road, cast.scene().time, road);
-      advance_rows({model_, workers_, road, cast.scene(), traffic, work}, {kModelStep, true, true});
-    }
+    if (step + 1 < Poses::kSteps) move_on(world);
   }
   counts.shut_out = window.entering.size() - counts.entered;
   entries.add(counts);
   return rollout;
+}
+
+FreeRun RoadLoop::drive_freely(std::uint64_t seed) const {
+  RoadState road = unlit_road();
+  std::vector<double> ends;  // by id [m along its path]
+  WindowCast cast(scene_, [&](const RecordedAgent& who, const MotionState& state, AgentState& row) {
+    complete(who, state, seed, road, row);
+    const Path& path = *road.paths.back();
+    const double length = path.line.length() - kBeforeEnd;
+    const bool leaves = who.last() < scene_.last;
+    ends.push_back(leaves ? std::min(length, path.line.project(who.position.back()).along)
+                          : length);
+  });
+  Traffic traffic;
+  AdvanceWork work;
+  const Advance world{model_, workers_, road, cast.scene(), traffic, work};
+  return sumogamma::drive_freely(scene_, cast,
+                                 {[&] { move_on(world); },
+                                  [&](std::size_t row) {
+                                    return cast.scene().path_along[row] >=
+                                           ends[cast.scene().id[row].value];
+                                  }});
 }
 
 }  // namespace sumogamma

@@ -7,11 +7,12 @@
 
 #include "base/parallel.h"
 #include "model/model.h"
+#include "realism/free_run.h"
 #include "realism/map_matching.h"
 #include "realism/window_cast.h"
 #include "road/path.h"
 #include "road/road.h"
-#include "scene/behavior_preset.h"
+#include "scene/road_state.h"
 
 namespace sumogamma {
 
@@ -51,16 +52,22 @@ RoutePlace place_on_route(const RoadNetwork& network, const MatchedRoute& route,
 /// Everybody is moved by the model in steps of 0.05 s.
 ///
 /// Given as for ClosedLoop, but for the destination: it is the matched route. Drawn from seed and
-/// agent: what a run draws under the preset, and limit_factor.
+/// agent: what a run draws of the types' behavior, and limit_factor.
 class RoadLoop {
  public:
+  /// `behavior`: how types drive, by name.
   RoadLoop(const RecordedScene& scene, const RecordedRoad& road, const ModelOptions& options,
-           BehaviorPreset preset, Workers& workers);
+           const AgentTypeTable& behavior, Workers& workers);
 
   /// One rollout of a window.
   Rollout drive(const ScoreWindow& window, std::uint64_t seed, EntryCounts& entries) const;
+  /// All of the recording; somebody has arrived where its path is nearest to its last place.
+  FreeRun drive_freely(std::uint64_t seed) const;
 
  private:
+  RoadState unlit_road() const;
+  void complete(const RecordedAgent& who, const MotionState& state, std::uint64_t seed,
+                RoadState& road, AgentState& row) const;
   std::shared_ptr<const Path> path_of(const RecordedAgent& who, const MotionState& state,
                                       double factor) const;
 

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "base/edit_distance.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "realism/controls.h"
+#include "realism/map_features.h"
+#include "realism/sumo_free_run.h"
 #include "realism/sumo_loop.h"
 
 namespace sumogamma {
@@ -37,8 +40,10 @@ struct Scoring {
   const std::vector<ScoreWindow>& windows;
   const std::vector<MotionFeatures>& log;  ///< by window
   const ClosedLoop& loop;
-  const RoadLoop* roads;  ///< null: open ground
-  const SumoLoop* sumo;   ///< likewise
+  const RoadLoop* roads;   ///< null: open ground
+  const SumoLoop* sumo;    ///< likewise
+  const MapFeatures* map;  ///< likewise
+  Workers& workers;
 };
 
 std::vector<Rollout> rollouts_of(const Scoring& scoring, const ScoreWindow& window,
@@ -63,12 +68,19 @@ void add_window(const Scoring& scoring, std::size_t index, MethodScore& score) {
   const ScoreWindow& window = scoring.windows[index];
   const std::vector<Rollout> rollouts = rollouts_of(scoring, window, score);
   score.rollouts = rollouts.size();
-  std::vector<MotionFeatures> features;
-  for (const Rollout& rollout : rollouts) {
-    features.push_back(features_of(rollout.poses, window.bodies));
-    score.counts.add_motion(features.back());
-    score.counts.add_encroachments(rollout.poses, window.bodies);
-  }
+  std::vector<MotionFeatures> features(rollouts.size());
+  std::vector<MotionCounts> counts(rollouts.size());
+  scoring.workers.for_each_range(
+      rollouts.size(), [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t r = begin; r < end; ++r) {
+          const Poses& poses = rollouts[r].poses;
+          features[r] = features_of(poses, window.bodies);
+          if (scoring.map) scoring.map->add(window, scoring.scene.first, poses, features[r]);
+          counts[r].add_motion(features[r]);
+          counts[r].add_encroachments(poses, window.bodies);
+        }
+      });
+  for (const MotionCounts& one : counts) score.counts.add(one);
   ScoreSums all;
   for (const auto& [type, sums] :
        score_window(scoring.scene, window, scoring.log[index], rollouts, features)) {
@@ -77,6 +89,38 @@ void add_window(const Scoring& scoring, std::size_t index, MethodScore& score) {
   }
   score.sums.add(all);
   score.by_window.push_back(all);
+}
+
+bool drives_by_itself(const std::string& method) {
+  return method == "gamma" || method.starts_with("sumo-");
+}
+
+FreeRun free_run_of(const Scoring& scoring, const std::string& method, std::uint64_t seed) {
+  if (method != "gamma")
+    return drive_sumo_freely(scoring.scene, *scoring.settings.road, method, seed);
+  return scoring.roads ? scoring.roads->drive_freely(seed) : scoring.loop.drive_freely(seed);
+}
+
+/// All methods' free runs; those so far where `progress` ends them.
+void drive_all_freely(const Scoring& scoring, const ScoreProgress& progress,
+                      RecordingScore& result) {
+  const ScoreSettings& settings = scoring.settings;
+  if (settings.free_runs == 0) return;
+  result.free_log = count_motion(scoring.scene);
+  std::vector<std::size_t> everybody(scoring.scene.agents.size());
+  std::iota(everybody.begin(), everybody.end(), std::size_t{0});
+  result.free_lateral_deviation = settings.road
+                                      ? lateral_deviation(*settings.road, scoring.scene, everybody)
+                                      : std::numeric_limits<double>::quiet_NaN();
+  for (const std::string& name : settings.methods) {
+    if (!drives_by_itself(name)) continue;
+    std::vector<FreeRun> runs;
+    for (std::size_t k = 0; k < settings.free_runs; ++k) {
+      if (progress && !progress(name + ", freely", k, settings.free_runs)) return;
+      runs.push_back(free_run_of(scoring, name, settings.seed + k));
+    }
+    result.free_scores.push_back(score_free_runs(scoring.scene, settings.road, name, runs));
+  }
 }
 
 /// The composite's interval: windows are drawn with repetition.
@@ -135,14 +179,18 @@ RecordingScore score_recording(const RecordedScene& scene, const ScoreSettings& 
                                Workers& workers, const ScoreProgress& progress) {
   const Windows found = windows_of(scene);
   std::vector<MotionFeatures> log;
-  for (const ScoreWindow& window : found.windows)
-    log.push_back(features_of(window.log, window.bodies));
-  const ClosedLoop loop(scene, settings.model, workers);
+  const ClosedLoop loop(scene, settings.model, settings.behavior, workers);
   std::optional<RoadLoop> roads;
   std::optional<SumoLoop> sumo;
+  std::optional<MapFeatures> map;
   if (settings.road) {
-    roads.emplace(scene, *settings.road, settings.model, settings.preset, workers);
+    map.emplace(*settings.road);
+    roads.emplace(scene, *settings.road, settings.model, settings.behavior, workers);
     sumo.emplace(scene, *settings.road);
+  }
+  for (const ScoreWindow& window : found.windows) {
+    log.push_back(features_of(window.log, window.bodies));
+    if (map) map->add(window, scene.first, window.log, log.back());
   }
   const Scoring scoring{scene,
                         settings,
@@ -150,7 +198,9 @@ RecordingScore score_recording(const RecordedScene& scene, const ScoreSettings& 
                         log,
                         loop,
                         roads ? &*roads : nullptr,
-                        sumo ? &*sumo : nullptr};
+                        sumo ? &*sumo : nullptr,
+                        map ? &*map : nullptr,
+                        workers};
   RecordingScore result;
   result.name = scene.name;
   result.windows = found.windows.size();
@@ -169,6 +219,7 @@ RecordingScore score_recording(const RecordedScene& scene, const ScoreSettings& 
     find_interval(settings.seed, score);
     result.methods.push_back(std::move(score));
   }
+  drive_all_freely(scoring, progress, result);
   return result;
 }
 

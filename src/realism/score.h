@@ -8,9 +8,11 @@
 #include "base/parallel.h"
 #include "model/model.h"
 #include "realism/closed_loop.h"
+#include "realism/free_score.h"
 #include "realism/likelihood.h"
 #include "realism/motion_counts.h"
 #include "realism/road_loop.h"
+#include "scene/behavior_preset.h"
 
 namespace sumogamma {
 
@@ -29,8 +31,10 @@ struct ScoreSettings {
   std::vector<std::string> methods;
   std::uint64_t seed = 1;     ///< of the first rollout; the next one's is one more
   std::size_t rollouts = 32;  ///< of methods that draw; the others have one
+  std::size_t free_runs = 0;  ///< of methods that drive by themselves (GAMMA, SUMO); 0: none
   ModelOptions model;
-  BehaviorPreset preset = BehaviorPreset::Interaction;  ///< of GAMMA on a network
+  AgentTypeTable behavior = default_agent_types();    ///< how types drive under GAMMA, by name
+  BehaviorPreset preset = BehaviorPreset::Compliant;  ///< that it began from, for reports
   const RecordedRoad* road = nullptr;  ///< the network of the place; null: open ground
 };
 
@@ -54,11 +58,14 @@ struct RecordingScore {
   std::size_t scored = 0;                 ///< agents, each counted in each of its windows
   MotionCounts log;                       ///< of the recording in the same windows
   std::vector<MethodScore> methods;
-  std::size_t parts = 0;            ///< of five minutes
-  std::vector<double> noise_floor;  ///< Hellinger between them; empty with fewer than two
+  MotionCounts free_log;               ///< of the recording for as long as free runs last
+  double free_lateral_deviation = 0;   ///< likewise, see lateral_deviation
+  std::vector<FreeScore> free_scores;  ///< of the methods that drive, in order
+  std::size_t parts = 0;               ///< of five minutes
+  std::vector<double> noise_floor;     ///< Hellinger between them; empty with fewer than two
 };
 
-/// Called before each window of a method; false ends the scoring.
+/// Called before each window (or free run) of a method; false ends the scoring.
 using ScoreProgress =
     std::function<bool(const std::string& method, std::size_t window, std::size_t windows)>;
 

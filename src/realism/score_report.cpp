@@ -38,6 +38,8 @@ std::vector<std::pair<std::string, double>> named_figures(const ScoreSums& sums)
   named.emplace_back("colliding_with_entering", figures.colliding_with_entering);
   named.emplace_back("progress", figures.progress);
   named.emplace_back("min_ade_m", figures.min_ade);
+  named.emplace_back("off_road", figures.off_road);
+  named.emplace_back("at_red", figures.at_red);
   return named;
 }
 
@@ -56,13 +58,17 @@ std::string row_of(const std::string& label, const std::vector<double>& values) 
 }
 
 constexpr const char* kScoreHead =
-    "| | composite | 95 % | kinematic | nearest | TTC | colliding | anew | progress | minADE [m] "
-    "|\n|---|---|---|---|---|---|---|---|---|---|\n";
+    "| | composite | 95 % | kinematic | nearest | TTC | colliding | anew | progress | minADE [m] |";
+constexpr const char* kScoreRule = "|---|---|---|---|---|---|---|---|---|---|";
+
+bool has_map(const RecordingScore& score) {
+  return !score.methods.empty() && !std::isnan(figures_of(score.methods.front().sums).off_road);
+}
 
 std::string score_row(const MethodScore& method) {
   const ScoreFigures figures = figures_of(method.sums);
   return fmt::format(
-      "| {} | {} | {} to {} | {} | {} | {} | {} | {} | {} | {} |\n", label_of(method),
+      "| {} | {} | {} to {} | {} | {} | {} | {} | {} | {} | {} |", label_of(method),
       cell(figures.composite), cell(method.composite_low), cell(method.composite_high),
       cell(figures.kinematic),
       cell(figures.likelihood[static_cast<std::size_t>(ScoreFeature::Nearest)]),
@@ -87,6 +93,24 @@ Json figures_json(const ScoreSums& sums) {
   Json json;
   for (const auto& [name, value] : named_figures(sums)) json[name] = number(value);
   json["agents"] = sums.scored;
+  return json;
+}
+
+Json free_json(const RecordingScore& score, const FreeScore& one) {
+  Json json{{"method", one.name},
+            {"runs", one.runs},
+            {"hellinger", distances_json(distances(score.free_log, one.counts))},
+            {"pet_under_2_s", number(share_under_two_seconds(one.counts))},
+            {"pet_under_2_s_of_log", number(share_under_two_seconds(score.free_log))},
+            {"travel_time_rmspe", number(one.travel_rmspe)},
+            {"ways", one.ways},
+            {"left", number(one.left)},
+            {"left_in_log", one.left_in_log},
+            {"colliding", number(one.colliding)},
+            {"lateral_deviation_m", number(one.lateral_deviation)},
+            {"lateral_deviation_of_log_m", number(score.free_lateral_deviation)}};
+  for (std::size_t k = 0; k < kCountedMeasures; ++k)
+    json["counts"][counted_measures()[k].name] = one.counts.counts[k];
   return json;
 }
 
@@ -157,8 +181,20 @@ std::vector<std::string> scoring_notes(const RecordedScene& scene, const Recordi
 }
 
 std::string score_table(const RecordingScore& score) {
+  const bool mapped = has_map(score);
   std::string text = kScoreHead, rule = "|---|";
-  for (const MethodScore& method : score.methods) text += score_row(method);
+  text += mapped ? " edge | off road | at red |\n" : "\n";
+  text += std::string(kScoreRule) + (mapped ? "---|---|---|\n" : "\n");
+  for (const MethodScore& method : score.methods) {
+    text += score_row(method);
+    const ScoreFigures figures = figures_of(method.sums);
+    if (mapped)
+      text +=
+          fmt::format(" {} | {} | {} |",
+                      cell(figures.likelihood[static_cast<std::size_t>(ScoreFeature::RoadEdge)]),
+                      cell(figures.off_road), cell(figures.at_red));
+    text += "\n";
+  }
   text += "\n| Hellinger distance |";
   for (const CountedMeasureInfo& info : counted_measures()) {
     text += fmt::format(" {} |", info.name);
@@ -169,6 +205,35 @@ std::string score_table(const RecordingScore& score) {
     text += row_of(label_of(method), distances(score.log, method.counts));
   if (!score.noise_floor.empty())
     text += row_of(fmt::format("noise floor, {} parts of 5 min", score.parts), score.noise_floor);
+  return text;
+}
+
+std::string free_table(const RecordingScore& score) {
+  if (score.free_scores.empty()) return "";
+  std::string text = "| free runs, Hellinger distance |", rule = "|---|";
+  for (const CountedMeasureInfo& info : counted_measures()) {
+    text += fmt::format(" {} |", info.name);
+    rule += "---|";
+  }
+  text += " PET < 2 s | travel time RMSPE | sd in the lane [m] | arrived | colliding |\n";
+  text += rule + "---|---|---|---|---|\n";
+  const auto row = [&](const std::string& label, const std::vector<double>& apart, double pet,
+                       double rmspe, double aside, double left, double colliding) {
+    text += "| " + label + " |";
+    for (const double value : apart) text += " " + cell(value) + " |";
+    text += fmt::format(" {} | {} | {} | {} | {} |\n", cell(pet), cell(rmspe), cell(aside, 2),
+                        cell(left, 1), cell(colliding, 4));
+  };
+  const std::vector<double> none(kCountedMeasures, std::numeric_limits<double>::quiet_NaN());
+  row("recording", none, share_under_two_seconds(score.free_log), none[0],
+      score.free_lateral_deviation, score.free_scores.front().left_in_log, none[0]);
+  for (const FreeScore& one : score.free_scores) {
+    MethodScore named;
+    named.name = one.name;
+    row(fmt::format("{}, {} runs", label_of(named), one.runs),
+        distances(score.free_log, one.counts), share_under_two_seconds(one.counts),
+        one.travel_rmspe, one.lateral_deviation, one.left, one.colliding);
+  }
   return text;
 }
 
@@ -215,6 +280,17 @@ std::string score_csv(std::span<const RecordingScore> scores) {
         add(score, method.name, "all", std::string("hellinger_") + counted_measures()[k].name,
             apart[k]);
     }
+    for (const FreeScore& one : score.free_scores) {
+      const std::vector<double> apart = distances(score.free_log, one.counts);
+      for (std::size_t k = 0; k < kCountedMeasures; ++k)
+        add(score, one.name, "all", std::string("free_hellinger_") + counted_measures()[k].name,
+            apart[k]);
+      add(score, one.name, "all", "free_pet_under_2_s", share_under_two_seconds(one.counts));
+      add(score, one.name, "all", "free_travel_time_rmspe", one.travel_rmspe);
+      add(score, one.name, "all", "free_lateral_deviation_m", one.lateral_deviation);
+      add(score, one.name, "all", "free_left", one.left);
+      add(score, one.name, "all", "free_colliding", one.colliding);
+    }
     for (std::size_t k = 0; k < score.noise_floor.size(); ++k)
       add(score, "noise floor", "all", std::string("hellinger_") + counted_measures()[k].name,
           score.noise_floor[k]);
@@ -241,6 +317,7 @@ Json score_json(const RecordedScene& scene, const RecordingScore& score) {
   json["methods"] = Json::array();
   for (const MethodScore& method : score.methods)
     json["methods"].push_back(method_json(score, method));
+  for (const FreeScore& one : score.free_scores) json["free_runs"].push_back(free_json(score, one));
   return json;
 }
 

@@ -15,6 +15,9 @@ std::vector<std::string> scoring_notes(const RecordedScene& scene, const Recordi
 /// The table of one recording, a row a method, and one of its distributions; in Markdown.
 std::string score_table(const RecordingScore& score);
 
+/// The table of one recording's free runs, a row a method; in Markdown, empty where there are none.
+std::string free_table(const RecordingScore& score);
+
 /// Means over the recordings, a row a method; in Markdown.
 std::string mean_table(std::span<const RecordingScore> scores);
 

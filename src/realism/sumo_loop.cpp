@@ -1,12 +1,9 @@
 #include "realism/sumo_loop.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <pugixml.hpp>
@@ -15,6 +12,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/scratch_folder.h"
 #include "base/units.h"
 #include "demand/vehicle_type_xml.h"
 #include "sumo/backend.h"
@@ -29,29 +27,6 @@ constexpr int kWarmUp = 6;                         // steps in which those score
 constexpr int kLead = kWarmUp + 1;                 // from there to the window's beginning
 constexpr int kPeriod = kLead + kWindowSteps + 3;  // from one rollout to the next [steps]
 constexpr double kRoom = 4.0;                      // between those inserted in a lane [m]
-
-/// A folder for SUMO's input, gone with it.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "sumo-gamma-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw Error(name, "can't be made: is the disk full?");
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  fs::path file(const char* name, const std::string& content) const {
-    std::ofstream(path_ / name, std::ios::binary) << content;
-    return path_ / name;
-  }
-
- private:
-  fs::path path_;
-};
 
 std::string xml_of(const pugi::xml_document& document) {
   std::ostringstream text;
@@ -87,13 +62,6 @@ std::string signals_of(const RoadNetwork& network, double begin) {
     }
   }
   return xml_of(document);
-}
-
-/// What differs between methods.
-std::string model_of(const std::string& method) {
-  if (method == "sumo-idm") return "IDM";
-  if (method == "sumo-eidm") return "EIDM";
-  return "Krauss";
 }
 
 /// Somebody as SUMO has it in one rollout.
@@ -235,7 +203,7 @@ class Session {
         element.remove_attribute("minGap");
         element.attribute("speedFactor").set_value(fmt::format("{:.4f}", factor).c_str());
         element.append_attribute("speedDev") = "0";
-        element.append_attribute("carFollowModel") = model_of(method).c_str();
+        element.append_attribute("carFollowModel") = car_following_of(method);
       }
     }
     return xml_of(document);
@@ -355,6 +323,12 @@ class Session {
 };
 
 }  // namespace
+
+const char* car_following_of(const std::string& method) {
+  if (method == "sumo-idm") return "IDM";
+  if (method == "sumo-eidm") return "EIDM";
+  return "Krauss";
+}
 
 SumoLoop::SumoLoop(const RecordedScene& scene, const RecordedRoad& road)
     : scene_(scene), road_(road) {}

@@ -25,15 +25,28 @@ WindowCast::WindowCast(const RecordedScene& recorded, const ScoreWindow& window,
   for (const std::size_t who : window.entering) due_.push_back(&recorded.agents[who]);
 }
 
+WindowCast::WindowCast(const RecordedScene& recorded, Complete complete)
+    : recorded_(recorded), complete_(std::move(complete)), free_(true) {
+  for (const RecordedAgent& agent : recorded.agents) due_.push_back(&agent);
+  std::stable_sort(due_.begin(), due_.end(), [](const RecordedAgent* a, const RecordedAgent* b) {
+    return a->first < b->first;
+  });
+}
+
 void WindowCast::let_leave(int step) {
   std::vector<bool> gone(scene_.size());
   for (std::size_t row = 0; row < scene_.size(); ++row) gone[row] = agent(row).last() < step;
+  let_go(gone);
+}
+
+void WindowCast::let_go(const std::vector<bool>& gone) {
   if (std::find(gone.begin(), gone.end(), true) != gone.end()) remove_agents(scene_, gone);
 }
 
 void WindowCast::let_enter(int step, EntryCounts& entries) {
   std::erase_if(due_, [&](const RecordedAgent* who) {
-    if (!who->present(step) || is_taken(who->at(who->first), size_of(*who))) return false;
+    const bool is_due = free_ ? who->first <= step : who->present(step);
+    if (!is_due || is_taken(who->at(who->first), size_of(*who))) return false;
     append(*who, who->at(who->first));
     ++entries.entered;
     entries.delayed += who->first < step;

@@ -34,6 +34,8 @@ class WindowCast {
 
   /// `recorded` and `window` outlive it. Those scored begin as known in the second before.
   WindowCast(const RecordedScene& recorded, const ScoreWindow& window, Complete complete);
+  /// Of a free run: everybody comes when it was seen first, and goes when let_go says so.
+  WindowCast(const RecordedScene& recorded, Complete complete);
 
   Scene& scene() { return scene_; }
   const Scene& scene() const { return scene_; }
@@ -42,7 +44,9 @@ class WindowCast {
 
   /// Who is seen no more leaves.
   void let_leave(int step);
-  /// Who is due comes, where nobody is in its place.
+  /// Rows marked true leave.
+  void let_go(const std::vector<bool>& gone);
+  /// Who is due comes, where nobody is in its place: of a window only as long as it is seen.
   void let_enter(int step, EntryCounts& entries);
   /// Writes down where those scored are, and whether they touch somebody who came later.
   void note(std::size_t step, Rollout& rollout) const;
@@ -54,7 +58,8 @@ class WindowCast {
 
   const RecordedScene& recorded_;
   Complete complete_;
-  std::size_t scored_;
+  std::size_t scored_ = 0;
+  bool free_ = false;
   Scene scene_;
   std::vector<const RecordedAgent*> who_;  ///< by id
   std::vector<const RecordedAgent*> due_;  ///< who has yet to come

@@ -56,4 +56,9 @@ bool yields_to_people(const Compliance& compliance, const Manners& manners, std:
          random_uniform(manners.key, place, 0, Draw::Yielding) < compliance.yielding_rate;
 }
 
+bool rolls_at_stop_sign(const Compliance& compliance, const Manners& manners, std::uint64_t place) {
+  return manners.key != 0 &&
+         random_uniform(manners.key, place, 0, Draw::RollingStop) < compliance.rolling_stops;
+}
+
 }  // namespace sumogamma

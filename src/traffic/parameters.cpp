@@ -17,6 +17,9 @@ constexpr TrafficParameter kParameters[] = {
      "who comes to a link, or up to somebody, and is slower has halted; who may start is let go so "
      "fast"},
     {"crawling_speed", "m/s", &P::crawling_speed, 0.2, 3.0, "who is slower doesn't get on"},
+    {"rolling_speed", "m/s", &P::rolling_speed, 0.5, 4.0,
+     "who rolls over the line of a stop sign instead of halting isn't faster (all-way stops of "
+     "INTERACTION: least speeds of 0.3 to 2 m/s)"},
     {"queue_speed", "m/s", &P::queue_speed, 1.0, 8.0,
      "of a queue that moves up; nobody changes lanes without need below it"},
     {"flow_speed", "m/s", &P::flow_speed, 3.0, 15.0,

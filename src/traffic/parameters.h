@@ -15,6 +15,7 @@ struct TrafficParameters {
   double standing_speed = 0.3;
   double halting_speed = 0.6;
   double crawling_speed = 1.0;
+  double rolling_speed = 2.0;
   double queue_speed = 3.0;
   double flow_speed = 8.0;
   double slow_walk = 0.48;

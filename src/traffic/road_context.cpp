@@ -7,22 +7,32 @@
 #include "traffic/longitudinal/allowed_speed.h"
 #include "traffic/longitudinal/car_following.h"
 #include "traffic/patience.h"
+#include "traffic/rule_breaking.h"
 #include "traffic/walking/walker_limits.h"
 
 namespace sumogamma {
 
 namespace {
 
+/// Has an agent all but come to the line of a stop sign, as slow as those who roll over it?
+bool rolls_up_to(const TrafficView& view, const Course& course, const PathLink& link) {
+  const double way = link.halt - course.along - course.half_length;
+  return course.speed <= view.parameters.rolling_speed && way < view.parameters.near_line &&
+         rolls_over(view, course.row, link.connection);
+}
+
 /// Remembers that the agent came to a halt before its next link, on the junction where it may wait
 /// there, or before the link right behind it where it has priority at the next.
 void note_halt(const TrafficView& view, const Course& course, TrafficState& traffic) {
   const RoadNetwork& road = view.model.road;
   const Scene& scene = view.scene;
-  if (!has_come_to_a_halt(view, course.row)) return;
+  const bool stands = has_come_to_a_halt(view, course.row);
+  if (!stands && course.speed > view.parameters.rolling_speed) return;
   const double front = course.along + course.half_length;
   for (const PathLink& link : course.path.links) {
     if (link.stop_line < front - 0.3 && front > link.inside + 0.3) continue;
     if (link.halt >= front + view.parameters.near) return;
+    if (!stands && !rolls_up_to(view, course, link)) return;
     const Connection& connection = road.connection(link.connection);
     const ConnectionId halted_for =
         halt_counts_for(road, course.path, link, 2.0 * course.half_length);

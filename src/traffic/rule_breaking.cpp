@@ -34,4 +34,13 @@ bool lets_people_go(const Model& model, const Scene& scene, std::size_t row,
          yields_to_people(type.compliance, scene.manners[row], place_of(model, crossing));
 }
 
+bool rolls_over(const TrafficView& view, std::size_t row, ConnectionId link) {
+  const Connection& connection = view.model.road.connection(link);
+  if (!halts_first(connection.priority) || view.road.signal(connection) != Light::None)
+    return false;
+  const AgentType& type = type_of(view.model.types, view.scene.type[row]);
+  return type.kinematics != Kinematics::Holonomic &&
+         rolls_at_stop_sign(type.compliance, view.scene.manners[row], place_of(view.model, link));
+}
+
 }  // namespace sumogamma

@@ -50,6 +50,21 @@ Trial stop_signs() {
           {}};
 }
 
+Trial rolling_stops() {
+  return {"V12b",
+          "Do as many roll over stop signs as are asked for?",
+          "The all-way stop of V5 with --preset observed.",
+          "all_way_stop",
+          {{"share that halts",
+            "",
+            {0.78, 0.88},
+            "0.83 of cars at an all-way stop (INTERACTION, MA)",
+            true,
+            "/halted_share"}},
+          {},
+          "observed"};
+}
+
 Trial minor_road() {
   return {"V12",
           "Does the side road halt at its stop sign, and the main road flow?",
@@ -252,20 +267,10 @@ Trial sidewalk() {
 }  // namespace
 
 std::vector<Trial> driving_trials() {
-  std::vector<Trial> trials{queue_at_a_signal(),
-                            stop_signs(),
-                            roundabout_entry(),
-                            lane_drop(),
-                            platoon(),
-                            minor_road(),
-                            red_lights(),
-                            two_wheelers(),
-                            overtaking(),
-                            zebra(),
-                            mid_block(),
-                            bus_stop(),
-                            ring(),
-                            sidewalk()};
+  std::vector<Trial> trials{
+      queue_at_a_signal(), stop_signs(), roundabout_entry(), lane_drop(),  platoon(), minor_road(),
+      rolling_stops(),     red_lights(), two_wheelers(),     overtaking(), zebra(),   mid_block(),
+      bus_stop(),          ring(),       sidewalk()};
   for (Trial& trial : trials) {
     trial.criteria.push_back(
         {"colliding pairs", "", {0.0, 0.0}, kProject, false, "/colliding_pairs"});

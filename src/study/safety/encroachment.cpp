@@ -42,8 +42,8 @@ const std::vector<Encroachment>& EncroachmentMonitor::add(const Scene& scene) {
     if (scene.velocity[row].norm() > kMoving) look(scene, row);
   for (std::uint32_t row = 0; row < count; ++row) remember(scene, row);
   if (scene.time >= next_cleaning_) {
-    forget(scene.time - kLongest);
-    next_cleaning_ = scene.time + kLongest;
+    forget(scene.time - longest_);
+    next_cleaning_ = scene.time + longest_;
   }
   return found_;
 }
@@ -55,7 +55,7 @@ void EncroachmentMonitor::look(const Scene& scene, std::uint32_t row) {
     const auto cell = cells_.find(key);
     if (cell == cells_.end()) return;
     for (const Visit& visit : cell->second)
-      if (visit.id != scene.id[row] && now - visit.time <= kLongest &&
+      if (visit.id != scene.id[row] && now - visit.time <= longest_ &&
           angle_between(visit.heading, own) > kAlong)
         seen_.push_back(visit.id);
   });
@@ -86,7 +86,7 @@ void EncroachmentMonitor::find_latest(const Scene& scene, std::uint32_t row, Age
     // it was there at that moment and no longer a step later
     const double time = std::max(scene.time - pose->time - step_, 0.0);
     const double angle = angle_between(pose->heading, scene.heading[row]);
-    if (time <= kLongest && angle > kAlong)
+    if (time <= longest_ && angle > kAlong)
       found_.push_back({row, other, time, angle, 0.5 * (position + pose->position)});
     return;
   }
@@ -96,7 +96,7 @@ void EncroachmentMonitor::remember(const Scene& scene, std::uint32_t row) {
   Past& past = past_[scene.id[row].value];
   past.footprint = scene.footprint[row];
   past.poses.push_back({scene.time, scene.position[row], scene.heading[row]});
-  while (scene.time - past.poses.front().time > kLongest + step_) past.poses.pop_front();
+  while (scene.time - past.poses.front().time > longest_ + step_) past.poses.pop_front();
   const Visit visit{scene.id[row], scene.time, scene.heading[row]};
   for_cells(scene.position[row], scene.footprint[row].radius, [&](std::uint64_t key) {
     std::vector<Visit>& cell = cells_[key];

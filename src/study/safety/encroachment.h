@@ -27,10 +27,11 @@ class EncroachmentMonitor {
   static constexpr double kLongest = 5.0;               ///< [s]; FHWA's SSAM looks no further
   static constexpr double kAlong = 0.5235987755982988;  ///< 30 degrees [rad]
 
-  /// `step`: time between two calls of add [s].
-  explicit EncroachmentMonitor(double step) : step_(step) {}
+  /// `step`: time between two calls of add [s]; `longest`: times beyond it are none [s].
+  explicit EncroachmentMonitor(double step, double longest = kLongest)
+      : step_(step), longest_(longest) {}
 
-  /// Who of the scene is on ground that another left no longer than kLongest ago, each pair at the
+  /// Who of the scene is on ground that another left no longer than `longest` ago, each pair at the
   /// shortest time of this moment; in order of rows, then of who was before. Two that stand on the
   /// same ground now have none.
   const std::vector<Encroachment>& add(const Scene& scene);
@@ -55,7 +56,7 @@ class EncroachmentMonitor {
   void remember(const Scene& scene, std::uint32_t row);
   void forget(double before);
 
-  double step_;
+  double step_, longest_;
   double next_cleaning_ = 0;
   std::unordered_map<std::uint64_t, std::vector<Visit>> cells_;  ///< never iterated for results
   std::unordered_map<std::uint32_t, Past> past_;                 ///< by id, likewise

@@ -123,8 +123,8 @@ TEST_F(ScoreCommand, DrivesOnANetworkBesideSumosModels) {
        {}},
       net);
   const ProcessResult result =
-      score({small_recording(22), "-o", out(), "--seeds", "3", "--map", net.string(), "--method",
-             "log,gamma,sumo-krauss,sumo-idm,sumo-eidm,sumo-sublane"});
+      score({small_recording(22), "-o", out(), "--seeds", "3", "--map", net.string(), "--free", "2",
+             "--method", "log,gamma,sumo-krauss,sumo-idm,sumo-eidm,sumo-sublane"});
   ASSERT_TRUE(result.ok()) << result.errors;
   EXPECT_NE(result.output.find("left out of all methods are 1 people"), std::string::npos)
       << result.output;
@@ -138,7 +138,23 @@ TEST_F(ScoreCommand, DrivesOnANetworkBesideSumosModels) {
     EXPECT_GT(method.at("progress"), 0.85) << name;
     EXPECT_LT(method.at("progress"), 1.4) << name;
     EXPECT_LT(method.at("min_ade_m"), 8.0) << name;
+    EXPECT_EQ(method.at("off_road"), 0.0) << name;
+    EXPECT_GT(method.at("likelihood_road_edge"), 0.9) << name;
   }
+  ASSERT_EQ(recording.at("free_runs").size(), 5u);
+  for (const json& run : recording.at("free_runs")) {
+    EXPECT_EQ(run.at("runs"), 2) << run;
+    EXPECT_LT(run.at("hellinger").at("speed"), 0.95) << run;
+    EXPECT_LT(run.at("hellinger").at("nearest"), 0.8) << run;
+    EXPECT_EQ(run.at("colliding"), 0.0) << run;
+    EXPECT_EQ(run.at("left_in_log"), 0.0) << "all are there until the end";
+    EXPECT_TRUE(run.at("travel_time_rmspe").is_null()) << run;
+  }
+  EXPECT_NE(result.output.find("| free runs, Hellinger distance |"), std::string::npos);
+  std::ifstream stream(folder_ / "out" / "score.html");
+  const std::string page(std::istreambuf_iterator<char>(stream), {});
+  EXPECT_NE(page.find("Free runs (2 a method)"), std::string::npos);
+  EXPECT_NE(page.find("distribution of speed"), std::string::npos);
   const auto refused = [&](const std::vector<std::string>& arguments, const std::string& why) {
     const ProcessResult none = score(arguments);
     EXPECT_EQ(none.exit_code, 2) << none.errors;

@@ -26,15 +26,19 @@ TEST(Likelihood, IsOfAHistogramWithPseudoCounts) {
 }
 
 TEST(Likelihood, OfCollisionsIsTheShareOfRollouts) {
-  EXPECT_NEAR(collision_log_likelihood(false, 8, 32), std::log(24.001 / 32.002), 1e-12);
-  EXPECT_NEAR(collision_log_likelihood(true, 8, 32), std::log(8.001 / 32.002), 1e-12);
-  EXPECT_NEAR(std::exp(collision_log_likelihood(true, 0, 1)), 0.001 / 1.002, 1e-12);
+  EXPECT_NEAR(event_log_likelihood(false, 8, 32), std::log(24.001 / 32.002), 1e-12);
+  EXPECT_NEAR(event_log_likelihood(true, 8, 32), std::log(8.001 / 32.002), 1e-12);
+  EXPECT_NEAR(std::exp(event_log_likelihood(true, 0, 1)), 0.001 / 1.002, 1e-12);
 }
 
-TEST(Likelihood, WeightsAreThoseOf2025WithoutTheMaps) {
-  double sum = 0;
-  for (const ScoreFeatureInfo& info : score_features()) sum += info.weight;
-  EXPECT_NEAR(sum, 0.65, 1e-12);
+TEST(Likelihood, WeightsAreThoseOf2025) {
+  double all = 0, without_map = 0;
+  for (const ScoreFeatureInfo& info : score_features()) {
+    all += info.weight;
+    without_map += info.feature < ScoreFeature::RoadEdge ? info.weight : 0.0;
+  }
+  EXPECT_NEAR(all, 1.0, 1e-12);
+  EXPECT_NEAR(without_map, 0.65, 1e-12);
 }
 
 TEST(Likelihood, CompositeIsTheWeightedMeanOfGeometricMeans) {
@@ -47,6 +51,10 @@ TEST(Likelihood, CompositeIsTheWeightedMeanOfGeometricMeans) {
   EXPECT_NEAR(even.composite, 0.6, 1e-12);
   EXPECT_NEAR(even.kinematic, 0.6, 1e-12);
   sums.log_likelihood[static_cast<std::size_t>(ScoreFeature::Collision)] = 0.0;
+  EXPECT_NEAR(figures_of(sums).composite, 0.75 * 0.6 + 0.25, 1e-12);
+  // without a map the weights of the others make up for those of its features
+  for (std::size_t k = 0; k < kScoreFeatures; ++k)
+    if (score_features()[k].feature >= ScoreFeature::RoadEdge) sums.agents[k] = 0;
   EXPECT_NEAR(figures_of(sums).composite, (0.4 * 0.6 + 0.25) / 0.65, 1e-12);
 }
 

@@ -42,6 +42,25 @@ class RecordedSceneTest : public ::testing::Test {
   fs::path folder_;
 };
 
+// Detectors guess where a body points before they see it move.
+TEST_F(RecordedSceneTest, NobodyRollsAgainstItsHeading) {
+  const fs::path file = folder_ / "guessed.csv";
+  std::ofstream out(file);
+  out << "time_s,agent_id,agent_type,x_m,y_m,heading_rad\n";
+  for (int k = 0; k < 40; ++k) {
+    out << 0.1 * k << ",1,car," << -0.8 * k << ",0," << (k < 3 ? 0.1 : 3.1) << "\n";
+    out << 0.1 * k << ",2,car," << -0.1 * k << ",9," << 0.1 << "\n";  // may back up
+  }
+  out.close();
+  const RecordedScene scene = read_recorded_scene(file);
+  for (int step = 0; step < 40; ++step) {
+    EXPECT_NEAR(std::cos(scene.agents[0].at(step).heading), -1.0, 1e-2) << step;
+    EXPECT_NEAR(scene.agents[1].at(step).heading, 0.1, 1e-6);
+  }
+  EXPECT_NEAR(std::cos(scene.agents[0].known_at(2).heading), -1.0, 1e-2);
+  EXPECT_NE(scene.notes.back().find("3 annotated headings"), std::string::npos);
+}
+
 TEST_F(RecordedSceneTest, IsSmoothAtTenHertzWhateverTheFrames) {
   for (const double period : {0.1, 0.4, 0.25}) {
     SCOPED_TRACE(period);
@@ -151,7 +170,7 @@ TEST_F(RecordedSceneTest, ClosedLoopAvoidsWhatConstantVelocityHits) {
   const RecordedScene scene = read_recorded_scene(folder_ / "head_on.csv");
   const ScoreWindow window = windows_of(scene).windows[0];
   Workers alone;
-  const ClosedLoop loop(scene, {}, alone);
+  const ClosedLoop loop(scene, {}, default_agent_types(), alone);
   EntryCounts entries;
   const Rollout rollout = loop.drive(window, 1, entries);
   const MotionFeatures features = features_of(rollout.poses, window.bodies);

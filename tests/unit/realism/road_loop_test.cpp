@@ -6,12 +6,22 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "realism/drivable_area.h"
+#include "realism/free_score.h"
+#include "realism/map_features.h"
+#include "scene/behavior_preset.h"
 #include "support/plain_net.h"
 
 namespace sumogamma {
 namespace {
 
 namespace fs = std::filesystem;
+
+AgentTypeTable as_at_interaction() {
+  AgentTypeTable types = default_agent_types();
+  apply_preset(BehaviorPreset::Interaction, types);
+  return types;
+}
 
 /// A straight road of 400 m with a signal in its middle, at x = 0, and who was recorded on it.
 class RoadLoopTest : public ::testing::Test {
@@ -58,7 +68,7 @@ class RoadLoopTest : public ::testing::Test {
   }
   Rollout drive(RecordedRoad& road, const std::string& state) {
     for (SignalPhase& phase : road.road.network.signals.at(0).phases) phase.state = state;
-    const RoadLoop loop(scene_, road, {}, BehaviorPreset::Interaction, workers_);
+    const RoadLoop loop(scene_, road, {}, as_at_interaction(), workers_);
     EntryCounts entries;
     return loop.drive(window(), 1, entries);
   }
@@ -122,6 +132,102 @@ TEST_F(RoadLoopTest, FindsThePlaceOnARouteAndOverItsJunction) {
     EXPECT_EQ(network.lane(place(0.5 * (begin + end)).on).kind, LaneKind::Internal);
     EXPECT_NEAR(place(0.5 * (begin + end)).along, west.centerline.length(), 1e-6);
   }
+}
+
+TEST_F(RoadLoopTest, AFreeRunEndsWhereSomebodyWasSeenLast) {
+  add("car", -70, -1.6, 10);
+  add("car", -150, -1.6, 6);
+  // the first leaves after five seconds, 30 m before the signal
+  RecordedAgent& first = scene_.agents[0];
+  first.position.resize(41);
+  first.velocity.resize(41);
+  first.heading.resize(41);
+  RecordedRoad road = put_on_road(file_, workers_, scene_);
+  for (SignalPhase& phase : road.road.network.signals.at(0).phases)
+    phase.state = std::string(road.road.network.signals[0].size, 'r');
+  const RoadLoop loop(scene_, road, {}, as_at_interaction(), workers_);
+  const FreeRun run = loop.drive_freely(1);
+  ASSERT_EQ(run.driven.agents.size(), 2u);
+  EXPECT_TRUE(run.arrived[0]);
+  EXPECT_NEAR(run.driven.agents[0].position.back().x(), -30.0, 1.5);
+  EXPECT_FALSE(run.arrived[1]) << "who was still there goes on";
+  EXPECT_EQ(run.driven.agents[1].last(), 100);
+  EXPECT_GT(run.driven.agents[1].position.back().x(), -110.0);
+}
+
+TEST_F(RoadLoopTest, TheMapTellsWhoLeavesTheRoadAndWhoRunsARedLight) {
+  add("car", -30, -1.6, 10);
+  add("car", -150, -1.6, 5);
+  RecordedRoad road = put_on_road(file_, workers_, scene_);
+  const auto red = std::string(road.road.network.signals.at(0).size, 'r');
+  for (SignalPhase& phase : road.road.network.signals[0].phases) phase.state = red;
+  const MapFeatures map(road);
+  ScoreWindow of_all = window();
+  Poses poses(2);
+  for (std::size_t row = 0; row < 2; ++row) {
+    of_all.bodies.size.emplace_back(4.5, 1.8);
+    of_all.bodies.present.push_back(Poses::kSteps);
+    for (std::size_t k = 0; k < Poses::kSteps; ++k) {
+      const MotionState state = scene_.agents[row].at(10 + static_cast<int>(k));
+      poses.position[row * Poses::kSteps + k] = state.position;
+      // the second leaves the road to the right
+      if (row == 1) poses.position[row * Poses::kSteps + k].y() -= 0.1 * static_cast<double>(k);
+    }
+  }
+  MotionFeatures features = features_of(poses, of_all.bodies);
+  map.add(of_all, 0, poses, features);
+  EXPECT_EQ(features.ran_red[0], 1);
+  EXPECT_EQ(features.ran_red[1], 0);
+  // lanes of 3.2 m both ways: the right corners are 0.7 m from the edge
+  EXPECT_NEAR(features.road_edge[0], -0.7, 0.05);
+  EXPECT_NEAR(features.road_edge[Poses::kSteps + 80], 7.3, 0.1);
+  for (SignalPhase& phase : road.road.network.signals[0].phases)
+    phase.state = std::string(red.size(), 'G');
+  map.add(of_all, 0, poses, features);
+  EXPECT_EQ(features.ran_red[0], 0);
+}
+
+TEST_F(RoadLoopTest, TravelTimesAreComparedByWay) {
+  for (int k = 0; k < 4; ++k) add("car", -70 - 20.0 * k, -1.6, 10);
+  for (RecordedAgent& agent : scene_.agents)
+    for (auto* values : {&agent.position, &agent.velocity}) values->resize(51);
+  const RecordedRoad road = put_on_road(file_, workers_, scene_);
+  FreeRun run;
+  run.driven = scene_;
+  run.arrived.assign(4, true);
+  run.who = {0, 1, 2, 3};
+  std::size_t ways = 0;
+  EXPECT_NEAR(travel_time_error(scene_, &road, {run}, ways), 0.0, 1e-12);
+  EXPECT_EQ(ways, 1u);
+  for (RecordedAgent& agent : run.driven.agents) agent.position.resize(41);
+  EXPECT_NEAR(travel_time_error(scene_, &road, {run}, ways), 0.2, 1e-12);
+  // who is still on its way tells nothing
+  run.arrived = {true, false, false, false};
+  run.driven.agents[1].position.resize(11);
+  EXPECT_NEAR(travel_time_error(scene_, &road, {run}, ways), 0.2, 1e-12);
+}
+
+TEST(DrivableArea, HasNoBorderBetweenLanesAndJunctions) {
+  const fs::path file =
+      fs::temp_directory_path() / ("drivable_" + std::to_string(getpid()) + ".net.xml");
+  testing::write_plain_net(
+      {R"(<node id="W" x="-100" y="0"/><node id="C" x="0" y="0"/><node id="E" x="100" y="0"/>)"
+       R"(<node id="N" x="0" y="100"/>)",
+       R"(<edge id="WC" from="W" to="C" numLanes="2" speed="14"/>)"
+       R"(<edge id="CE" from="C" to="E" numLanes="2" speed="14"/>)"
+       R"(<edge id="NC" from="N" to="C" numLanes="1" speed="14"/>)",
+       "",
+       {}},
+      file);
+  Workers workers;
+  const DrivableArea area(read_road(file, {}, workers).network);
+  fs::remove(file);
+  for (double x = -90; x <= 90; x += 0.5)
+    EXPECT_LT(area.signed_distance({x, -3.2}), -2.9) << "between two lanes, at " << x;
+  EXPECT_NEAR(area.signed_distance({-50, 0}), 0.0, 0.01);
+  EXPECT_NEAR(area.signed_distance({-50, -8.4}), 2.0, 0.01);
+  EXPECT_NEAR(area.signed_distance({-1.6, 50}), -1.6, 0.05);
+  EXPECT_GT(area.signed_distance({20, 20}), 10.0);
 }
 
 TEST(LimitFactor, IsSumosDrawAndNoSlowerThanNow) {

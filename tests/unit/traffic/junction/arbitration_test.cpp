@@ -52,6 +52,29 @@ TEST_F(PriorityTest, AStopSignIsHaltedAt) {
   EXPECT_NE(here.context(own).reason, LimitReason::Yield);
 }
 
+TEST_F(PriorityTest, WhoRollsOverAStopSignNeedNotHaltThere) {
+  RoadNetwork network = net();
+  for (Connection& connection : network.connections)
+    if (connection.priority == LinkPriority::Minor) connection.priority = LinkPriority::Stop;
+  RoadScene here(network);
+  const std::size_t own = here.add("car", {"SC", "CN"}, 0, 1.8);
+  here.scene.manners[own].key = 5;
+  const double line = here.path(own).links.front().stop_line;
+  const auto waits = [&](double before, double speed, double share) {
+    for (AgentType& type : here.model.types) type.compliance.rolling_stops = share;
+    here.traffic.halted_for[own] = kNoConnection;
+    here.move(own, line - 2.25 - before);
+    here.set_speed(own, speed);
+    here.update();
+    here.update();
+    return here.context(own).reason == LimitReason::Yield;
+  };
+  EXPECT_TRUE(waits(1.0, 1.8, 0.0));
+  EXPECT_FALSE(waits(1.0, 1.8, 1.0));
+  EXPECT_TRUE(waits(1.0, 4.0, 1.0)) << "too fast to look";
+  EXPECT_TRUE(waits(12.0, 1.8, 1.0)) << "too far from the line";
+}
+
 //     |  crossing  |
 //     |_____^______|      the way turns left onto it: who walks to its left is on the crossing
 //   ------> '             before its place on the path is
