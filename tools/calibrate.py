@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 """Fits how types drive to recordings, by SciPy's differential evolution, and says what each recording left out gains.
 
-usage: calibrate.py PROGRAM TYPE FIELD=LOW..HIGH[,...] [--runs N] [--evaluations N] [--seed N] -o STATE.json -- RECORDING...
+usage: calibrate.py PROGRAM TYPE FIELD=LOW..HIGH[,...] [--runs N] [--evaluations N] [--seed N]
+                    [--ignore MEASURE[,...]] -o STATE.json -- RECORDING...
   TYPE       car, or several with commas: types of scenario.toml whose [types.TYPE] fields are fitted together
   FIELD      headway, max_acceleration, comfortable_deceleration, critical_gap, horizon, ... (docs/scenario.md)
   RECORDING  FILE[;OPTION[;OPTION...]] with the options that `score` wants for it: "k733.csv;--period;0.1;--map;k733.net.xml"
 
 The loss of a recording is the mean of: what the kinematic likelihoods and that of the nearest distance lack of the log's
 own, the Hellinger distances of speed, acceleration, yaw rate, nearest distance and time gap in windows of 8 s, each at most
-1, the relative error of progress, and 10 times the share of agents that collide anew. Rollouts have the same seeds for
-all parameters. The loss of several recordings is the mean.
+1 (--ignore leaves out what a recording's noise spoils), and the relative error of progress; plus 10 times the share of
+agents that collide anew. Rollouts have the same seeds for all parameters. The loss of several recordings is the mean.
 
 With two recordings and more each is left out once: fitted on the others, and scored on it with other seeds, beside the
 program's own values. Keep a parameter only where it gains there. Every evaluation is kept in STATE.json: a run that was
@@ -37,7 +38,9 @@ def parsed(arguments):
     parser.add_argument("--runs", type=int, default=8, help="rollouts of a window")
     parser.add_argument("--evaluations", type=int, default=150, help="of each fit")
     parser.add_argument("--seed", type=int, default=1, help="of the optimiser")
+    parser.add_argument("--ignore", default="", help="measures whose distributions don't count")
     options = parser.parse_args(arguments)
+    options.ignore = options.ignore.split(",")
     options.bounds = {}
     for part in options.fields.split(","):
         name, _, span = part.partition("=")
@@ -62,10 +65,11 @@ def score(options, recording, values, seed):
             return json.load(stream)["recordings"][0]
 
 
-def loss_of(recording):
+def loss_of(recording, ignored):
     log, gamma = recording["methods"]
     parts = [max(0.0, log[name] - gamma[name]) for name in ("kinematic", "likelihood_nearest")]
-    parts += [min(1.0, gamma["hellinger"][name]) for name in HELLINGER if gamma["hellinger"][name] is not None]
+    parts += [min(1.0, gamma["hellinger"][name]) for name in HELLINGER
+              if name not in ignored and gamma["hellinger"][name] is not None]
     return sum(parts) / len(parts) + abs(gamma["progress"] - 1.0) / len(parts) + 10.0 * gamma["colliding_anew"]
 
 
@@ -79,9 +83,9 @@ class Losses:
                 self.known = json.load(stream)
 
     def __call__(self, recording, values, seed=1):
-        key = json.dumps([recording, self.options.types, self.options.runs, seed, sorted(values.items())])
+        key = json.dumps([recording, self.options.types, self.options.runs, self.options.ignore, seed, sorted(values.items())])
         if key not in self.known:
-            self.known[key] = loss_of(score(self.options, recording, values, seed))
+            self.known[key] = loss_of(score(self.options, recording, values, seed), self.options.ignore)
             part = self.options.state + ".part"
             with open(part, "w", encoding="utf-8") as stream:
                 json.dump(self.known, stream)

@@ -1,5 +1,7 @@
 #include "app/drive_episode.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -8,6 +10,8 @@
 #include "base/error.h"
 #include "base/number_text.h"
 #include "ego/ego_detour.h"
+#include "ego/plan_tree.h"
+#include "io/output_file.h"
 #include "io/replay.h"
 #include "io/replay_page.h"
 #include "study/offences/rule_roads.h"
@@ -228,7 +232,11 @@ class Episode {
             ? Planner([this](const EgoView& view) { return drive_.external->decide(view); })
             : make_planner(settings.planner);
     EgoTask task{settings, goal_, seed_, sim_.dt, sim_.rules};
-    if (replay_) task.look_on = [this](const PlanTrace& trace) { replay_->add_plan(trace); };
+    if (replay_)
+      task.look_on = [this](const PlanTrace& trace) {
+        replay_->add_plan(trace);
+        if (trace.tree.size() > largest_.tree.size()) largest_ = trace;
+      };
     driver_.emplace(std::move(task), *sim_.workers, std::move(planner));
     sim_.planned = [this](const TrafficView& view, std::size_t ego) {
       return (*driver_)(view, ego);
@@ -305,6 +313,8 @@ class Episode {
     if (replay_) {
       replay_->close();
       write_replay_page(replay_page(drive_.replay, seed_), drive_.replay / "replay.bin");
+      if (!largest_.tree.empty())
+        write_file(drive_.replay / fmt::format("plan_tree_{}.svg", seed_), plan_tree_svg(largest_));
       std::filesystem::remove(drive_.replay / "replay.bin");
     }
     backend_->close();
@@ -321,6 +331,7 @@ class Episode {
   EgoRecorder recorder_;
   GridlockWatch gridlock_;
   std::unique_ptr<ReplayRecorder> replay_;
+  PlanTrace largest_;  ///< of the plans that somebody looks on, the one with the largest tree
   std::optional<EgoDriver> driver_;
   EgoDetour detour_;
   EgoGoal goal_;

@@ -50,6 +50,16 @@ struct PlanTrace {
     double lower = 0, upper = 0;  ///< lower: minus infinity where it wasn't looked at
   };
   std::vector<Choice> choices;
+
+  /// A belief node of the search, or of the first of two trees.
+  struct TreeNode {
+    std::int32_t parent = -1;     ///< the root: -1
+    double acceleration = 0;      ///< that leads to it [m/s^2]
+    int depth = 0;                ///< steps from the root
+    double weight = 0;            ///< share of the scenarios
+    double lower = 0, upper = 0;  ///< on their values, discounted to the root and weighted
+  };
+  std::vector<TreeNode> tree;  ///< the root first, parents before children; empty: no search
 };
 
 /// Notes what is believed of those whom a plan begins with, `horizon` [s] on: as far as each comes

@@ -88,6 +88,17 @@ void DrivingSearch::note(const EgoView& view, const PlanRoot& root, std::uint64_
     const NodeBounds bounds = is_paired(count) ? trees_.bounds_of(action) : tree_.bounds_of(action);
     trace.choices.push_back({problem.acceleration_of(action), bounds.lower, bounds.upper});
   }
+  const BeliefTree<DrivingProblem>& tree = is_paired(count) ? trees_.tree(0) : tree_;
+  for (const BeliefNode& node : tree.beliefs()) {
+    PlanTrace::TreeNode traced{
+        -1, 0, node.depth, node.weight, node.bounds.lower, node.bounds.upper};
+    if (node.parent != kNoNode) {
+      const ActionNode& action = tree.action_nodes()[node.parent];
+      traced.parent = static_cast<std::int32_t>(action.parent);
+      traced.acceleration = problem.acceleration_of(action.action);
+    }
+    trace.tree.push_back(traced);
+  }
 }
 
 Planner make_search_planner(SearchPlanner kind) {

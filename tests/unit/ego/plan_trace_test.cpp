@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "ego/ego_driver.h"
+#include "ego/plan_tree.h"
 #include "ego/search_planners.h"
 #include "support/ego_scene.h"
 
@@ -84,6 +87,23 @@ TEST_F(PlanTraceTest, OfASearchHasWaysScenariosAndWhatActionsAreWorth) {
       if (choice.acceleration == action.acceleration) chosen = choice.lower;
     }
     EXPECT_EQ(chosen, best);
+    EXPECT_EQ(static_cast<std::int64_t>(trace.tree.size()), action.search->nodes);
+    std::vector<double> weights(trace.tree.size());
+    for (std::size_t k = 1; k < trace.tree.size(); ++k) {
+      const PlanTrace::TreeNode& node = trace.tree[k];
+      ASSERT_GE(node.parent, 0);
+      ASSERT_LT(node.parent, static_cast<std::int32_t>(k)) << "parents before children";
+      const PlanTrace::TreeNode& parent = trace.tree[static_cast<std::size_t>(node.parent)];
+      EXPECT_EQ(node.depth, parent.depth + 1);
+      if (node.acceleration == 3.0) weights[static_cast<std::size_t>(node.parent)] += node.weight;
+    }
+    EXPECT_NEAR(weights.front(), 1.0, 1e-12) << "under an action all scenarios are somewhere";
+    const std::string svg = plan_tree_svg(trace);
+    std::size_t circles = 0;
+    for (std::size_t at = svg.find("<circle"); at != std::string::npos;
+         at = svg.find("<circle", at + 1))
+      ++circles;
+    EXPECT_EQ(circles, trace.tree.size());
   }
 }
 
