@@ -54,7 +54,7 @@ std::vector<Rollout> rollouts_of(const Scoring& scoring, const ScoreWindow& wind
   if (score.name == "cv") return keep_velocity(scoring.scene, window);
   if (score.name == "cv-fan")
     return fan_out(scoring.scene, window, settings.seed, settings.rollouts);
-  if (score.name != "gamma")
+  if (score.name != "gamma" && scoring.sumo)
     return scoring.sumo->drive(window, score.name, settings.seed, settings.rollouts, score.entries);
   std::vector<Rollout> rollouts;
   for (std::size_t r = 0; r < settings.rollouts; ++r)

@@ -32,6 +32,7 @@ using Line = std::pair<const Look*, const MotionCounts*>;
 std::vector<double> shares(const std::vector<double>& counts) {
   const double all = std::accumulate(counts.begin(), counts.end(), 0.0);
   std::vector<double> result;
+  result.reserve(counts.size());
   for (const double count : counts) result.push_back(all > 0 ? count / all : 0.0);
   return result;
 }
