@@ -108,6 +108,10 @@ TEST_F(ScoreCommand, IsTheSameForAnyNumberOfThreads) {
   const ProcessResult other =
       score({recording, "--seeds", "3", "--method", "cv-fan,gamma", "--seed", "7"});
   EXPECT_NE(one.output, other.output);
+  const ProcessResult slow = score(
+      {recording, "--seeds", "3", "--method", "cv-fan,gamma", "--set", "types.car.max_speed=3"});
+  ASSERT_TRUE(slow.ok()) << slow.errors;
+  EXPECT_NE(one.output, slow.output) << "how types drive is the user's to say";
 }
 
 /// On the network of the place GAMMA and SUMO's models drive what the recording's cars did.
