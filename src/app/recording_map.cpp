@@ -15,15 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_network(const fs::path& file) {
-  const std::string name = file.filename().string();
-  return name.ends_with(".net.xml") || name.ends_with(".net.xml.gz");
-}
-
 /// The network that a user means by a file or a scenario folder.
 fs::path network_of(const fs::path& map) {
   if (!fs::is_directory(map)) {
-    if (!is_network(map))
+    if (!is_sumo_network(map))
       throw Error(map.string(),
                   "is no map, expected NAME.net.xml, NAME.net.xml.gz or a scenario folder; "
                   "`sumo-gamma scene-from RECORDING --map NAME.osm -o FOLDER` makes one of a "
@@ -33,7 +28,7 @@ fs::path network_of(const fs::path& map) {
   if (fs::exists(map / "net.net.xml")) return map / "net.net.xml";
   std::set<fs::path> found;
   for (const fs::directory_entry& entry : fs::directory_iterator(map))
-    if (is_network(entry.path())) found.insert(entry.path());
+    if (is_sumo_network(entry.path())) found.insert(entry.path());
   if (found.size() != 1)
     throw Error(map.string(), "has " + std::to_string(found.size()) +
                                   " networks (*.net.xml), expected net.net.xml or one other: name "
@@ -56,6 +51,11 @@ Vec2 offset_of(const MapArguments& arguments, const fs::path& file, const RoadNe
 }
 
 }  // namespace
+
+bool is_sumo_network(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.ends_with(".net.xml") || name.ends_with(".net.xml.gz");
+}
 
 void add_map_options(CLI::App& command, MapArguments& arguments) {
   command.add_option("--map", arguments.map,

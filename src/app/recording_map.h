@@ -19,6 +19,9 @@ struct MapArguments {
   std::vector<double> origin;  ///< latitude, longitude, or empty
 };
 
+/// Is a file one of SUMO's networks, by its name?
+bool is_sumo_network(const std::filesystem::path& file);
+
 /// Adds --map, --map-offset and --map-origin.
 void add_map_options(CLI::App& command, MapArguments& arguments);
 

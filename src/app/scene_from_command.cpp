@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/recording_map.h"
 #include "app/scene_reading.h"
 #include "app/validators.h"
 #include "base/error.h"
@@ -226,7 +227,7 @@ void write_road_scene(const RecordedScene& scene, const SceneFromOptions& option
 
 int make_scene(const SceneFromOptions& options, const CommonOptions& common) {
   const std::string map = options.map.filename().string();
-  const bool is_net = map.ends_with(".net.xml") || map.ends_with(".net.xml.gz");
+  const bool is_net = is_sumo_network(options.map);
   if (!map.empty() && !is_net && !map.ends_with(".osm"))
     throw Error("--map " + options.map.string(),
                 "is no map, expected NAME.net.xml, NAME.net.xml.gz or a Lanelet2 map NAME.osm");

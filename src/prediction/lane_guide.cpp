@@ -186,15 +186,12 @@ void LaneGuide::find_red(const ObservedScene& scene, const AgentType& type, cons
     const Connection& connection = map_.network->connection(link->connection);
     if (connection.signal == kNoSignal || !map_.recorded[index_of(connection.signal)]) continue;
     if (front > link->stop_line + kOverLine) continue;
-    const Signal& signal = map_.network->signals[index_of(connection.signal)];
-    const auto at = program_at(signal, scene.period * (scene.frame - map_.first_frame));
-    if (!at) continue;
-    const char shown =
-        signal.phases[at->phase].state[static_cast<std::size_t>(connection.signal_link)];
-    const bool amber = shown == 'y' || shown == 'Y';
-    if (shown != 'r' && shown != 'u' && !amber) continue;
+    const Light light = light_by_program(*map_.network, connection,
+                                         scene.period * (scene.frame - map_.first_frame));
+    if (light != Light::Red && light != Light::Amber) continue;
     const double left = link->halt - front;
-    const double most = amber ? type.comfortable_deceleration : type.max_deceleration;
+    const double most =
+        light == Light::Amber ? type.comfortable_deceleration : type.max_deceleration;
     if (deceleration_to_stop(speed, left + kOverLine) > most) continue;
     way.to_red = std::max(left, 0.0);
     return;

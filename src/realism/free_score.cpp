@@ -5,11 +5,8 @@
 #include <limits>
 #include <map>
 #include <string>
-#include <utility>
 
-#include "base/error.h"
 #include "scene/scene.h"
-#include "study/safety/encroachment.h"
 
 namespace sumogamma {
 
@@ -28,47 +25,10 @@ Scene scene_at(const RecordedScene& recorded, int step) {
   scene.time = kScoreStep * (step - recorded.first);
   for (std::size_t row = 0; row < recorded.agents.size(); ++row) {
     const RecordedAgent& agent = recorded.agents[row];
-    if (!agent.present(step)) continue;
-    const MotionState at = agent.at(step);
-    AgentState state;
-    state.id = {static_cast<std::uint32_t>(row)};
-    state.footprint = box_footprint(agent.length, agent.width);
-    state.position = at.position;
-    state.heading = at.heading;
-    append_agent(scene, state);
-    scene.velocity.back() = at.velocity;
+    if (agent.present(step))
+      append_body(scene, row, agent.at(step), Vec2(agent.length, agent.width));
   }
   return scene;
-}
-
-/// The least time of each pair over all of a recording.
-void count_encroachments(const RecordedScene& recorded, MotionCounts& counts) {
-  EncroachmentMonitor monitor(kScoreStep, kLongestEncroachment);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> least;
-  for (int step = recorded.first; step <= recorded.first + free_steps(recorded); ++step) {
-    const Scene scene = scene_at(recorded, step);
-    for (const Encroachment& found : monitor.add(scene)) {
-      const auto [pair, first] =
-          least.try_emplace({scene.id[found.row].value, found.before.value}, found.time);
-      pair->second = std::min(pair->second, found.time);
-    }
-  }
-  constexpr auto kPet = static_cast<std::size_t>(CountedMeasure::PostEncroachment);
-  for (const auto& [pair, time] : least)
-    counts.counts[kPet][counted_measures()[kPet].bins.index(time)] += 1.0;
-}
-
-/// Windows of a recording within the time of a free run.
-std::vector<ScoreWindow> windows_within(const RecordedScene& recorded) {
-  try {
-    std::vector<ScoreWindow> windows = windows_of(recorded).windows;
-    std::erase_if(windows, [&](const ScoreWindow& window) {
-      return window.start + kWindowSteps > recorded.first + free_steps(recorded);
-    });
-    return windows;
-  } catch (const Error&) {
-    return {};  // too short, or hardly anybody
-  }
 }
 
 /// What somebody's way is called.
@@ -89,19 +49,20 @@ struct Mean {
   double value() const { return count > 0 ? sum / static_cast<double>(count) : kNone; }
 };
 
-double colliding_share(const std::vector<FreeRun>& runs) {
-  Mean share;
-  for (const FreeRun& run : runs)
-    for (const ScoreWindow& window : windows_within(run.driven)) {
-      const MotionFeatures features = features_of(window.log, window.bodies);
-      for (std::size_t row = 0; row < window.agents.size(); ++row) {
-        const auto from =
-            features.nearest.begin() + static_cast<std::ptrdiff_t>(row * Poses::kSteps);
-        share.add(std::any_of(from, from + static_cast<std::ptrdiff_t>(Poses::kSteps),
-                              [](double gap) { return gap < 0.0; }));
-      }
-    }
-  return share.value();
+/// Counts a recording, or a free run, and notes of each agent and window whether it collides.
+void count(const RecordedScene& recorded, MotionCounts& counts, Mean& colliding) {
+  const int steps = free_steps(recorded);
+  for (const ScoreWindow& window : find_windows(recorded).windows) {
+    if (window.start + kWindowSteps > recorded.first + steps) continue;
+    const MotionFeatures features = features_of(window.log, window.bodies);
+    counts.add_motion(features);
+    for (std::size_t row = 0; row < window.agents.size(); ++row)
+      colliding.add(collides(features, row));
+  }
+  counts.add_encroachments(
+      static_cast<std::size_t>(steps) + 1,
+      [&](std::size_t step) { return scene_at(recorded, recorded.first + static_cast<int>(step)); },
+      kLongestEncroachment);
 }
 
 std::size_t left_by_end(const RecordedScene& scene) {
@@ -115,9 +76,8 @@ std::size_t left_by_end(const RecordedScene& scene) {
 
 MotionCounts count_motion(const RecordedScene& scene) {
   MotionCounts counts;
-  for (const ScoreWindow& window : windows_within(scene))
-    counts.add_motion(features_of(window.log, window.bodies));
-  count_encroachments(scene, counts);
+  Mean colliding;
+  count(scene, counts, colliding);
   return counts;
 }
 
@@ -182,16 +142,16 @@ FreeScore score_free_runs(const RecordedScene& scene, const RecordedRoad* road,
   FreeScore score;
   score.name = method;
   score.runs = runs.size();
-  Mean left, aside;
+  Mean left, aside, colliding;
   for (const FreeRun& run : runs) {
-    score.counts.add(count_motion(run.driven));
+    count(run.driven, score.counts, colliding);
     left.add(static_cast<double>(std::count(run.arrived.begin(), run.arrived.end(), true)));
     if (road) aside.add(lateral_deviation(*road, run.driven, run.who));
   }
   score.left = left.value();
   score.left_in_log = static_cast<double>(left_by_end(scene));
   score.lateral_deviation = aside.value();
-  score.colliding = colliding_share(runs);
+  score.colliding = colliding.value();
   score.travel_rmspe = travel_time_error(scene, road, runs, score.ways);
   return score;
 }

@@ -25,11 +25,6 @@ std::span<const double> values_of(const std::vector<double>& values, std::size_t
   return std::span(values).subspan(row * Poses::kSteps, Poses::kSteps);
 }
 
-bool collides(const MotionFeatures& features, std::size_t row) {
-  const std::span<const double> gaps = values_of(features.nearest, row);
-  return std::any_of(gaps.begin(), gaps.end(), [](double gap) { return gap < 0.0; });
-}
-
 bool leaves_road(const MotionFeatures& features, std::size_t row) {
   const std::span<const double> out = values_of(features.road_edge, row);
   return std::any_of(out.begin(), out.end(), [](double distance) { return distance > 0.0; });

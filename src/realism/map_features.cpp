@@ -39,12 +39,7 @@ bool MapFeatures::runs_red(const std::vector<StopLine>& lines, double time, cons
     if (cross(Vec2(now - before), across) <= 0.0 ||
         distance_of_segments(before, now, line.left, line.right) > 0.0)
       return false;
-    const Connection& link = network.connection(line.link);
-    const Signal& signal = network.signals[index_of(link.signal)];
-    const auto place = program_at(signal, time);
-    const auto k = static_cast<std::size_t>(link.signal_link);
-    return place && k < signal.phases[place->phase].state.size() &&
-           is_red(light_from_letter(signal.phases[place->phase].state[k]));
+    return is_red(light_by_program(network, network.connection(line.link), time));
   });
 }
 

@@ -26,15 +26,10 @@ Scene scene_at(const Poses& poses, const Bodies& bodies, std::size_t step) {
   for (std::size_t row = 0; row < poses.rows(); ++row) {
     if (step >= bodies.present[row]) continue;
     const std::size_t at = row * Poses::kSteps + step;
-    AgentState agent;
-    agent.id = {static_cast<std::uint32_t>(row)};
-    agent.footprint = box_footprint(bodies.size[row].x(), bodies.size[row].y());
-    agent.position = poses.position[at];
-    agent.heading = poses.heading[at];
-    append_agent(scene, agent);
-    scene.velocity.back() = step == 0
-                                ? Vec2(Vec2::Zero())
-                                : Vec2((poses.position[at] - poses.position[at - 1]) / kScoreStep);
+    const Vec2 velocity = step == 0
+                              ? Vec2(Vec2::Zero())
+                              : Vec2((poses.position[at] - poses.position[at - 1]) / kScoreStep);
+    append_body(scene, row, {poses.position[at], velocity, poses.heading[at]}, bodies.size[row]);
   }
   return scene;
 }
@@ -89,10 +84,18 @@ void MotionCounts::add_motion(const MotionFeatures& features) {
 }
 
 void MotionCounts::add_encroachments(const Poses& poses, const Bodies& bodies) {
-  EncroachmentMonitor monitor(kScoreStep);
+  add_encroachments(
+      Poses::kSteps, [&](std::size_t step) { return scene_at(poses, bodies, step); },
+      EncroachmentMonitor::kLongest);
+}
+
+void MotionCounts::add_encroachments(std::size_t steps,
+                                     const std::function<Scene(std::size_t step)>& scene_at,
+                                     double longest) {
+  EncroachmentMonitor monitor(kScoreStep, longest);
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> least;
-  for (std::size_t step = 0; step < Poses::kSteps; ++step) {
-    const Scene scene = scene_at(poses, bodies, step);
+  for (std::size_t step = 0; step < steps; ++step) {
+    const Scene scene = scene_at(step);
     for (const Encroachment& found : monitor.add(scene)) {
       const auto [pair, first] =
           least.try_emplace({scene.id[found.row].value, found.before.value}, found.time);
@@ -102,6 +105,16 @@ void MotionCounts::add_encroachments(const Poses& poses, const Bodies& bodies) {
   constexpr auto kPet = static_cast<std::size_t>(CountedMeasure::PostEncroachment);
   for (const auto& [pair, time] : least)
     counts[kPet][counted_measures()[kPet].bins.index(time)] += 1.0;
+}
+
+void append_body(Scene& scene, std::size_t row, const MotionState& state, const Vec2& size) {
+  AgentState agent;
+  agent.id = {static_cast<std::uint32_t>(row)};
+  agent.footprint = box_footprint(size.x(), size.y());
+  agent.position = state.position;
+  agent.heading = state.heading;
+  append_agent(scene, agent);
+  scene.velocity.back() = state.velocity;
 }
 
 std::array<double, kCountedMeasures> hellinger(const MotionCounts& a, const MotionCounts& b) {

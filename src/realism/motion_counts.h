@@ -2,10 +2,12 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "realism/motion_features.h"
+#include "scene/scene.h"
 #include "study/distribution_distance.h"
 
 namespace sumogamma {
@@ -40,7 +42,14 @@ struct MotionCounts {
   void add_motion(const MotionFeatures& features);
   /// Counts the pairs of a window of which one crosses where the other was.
   void add_encroachments(const Poses& poses, const Bodies& bodies);
+  /// The same of scenes that follow each other, kScoreStep apart, whose ids stay the same bodies;
+  /// up to `longest` [s].
+  void add_encroachments(std::size_t steps, const std::function<Scene(std::size_t step)>& scene_at,
+                         double longest);
 };
+
+/// Appends a box to a scene, by its row and as it moves. Precondition: as append_agent has.
+void append_body(Scene& scene, std::size_t row, const MotionState& state, const Vec2& size);
 
 /// Hellinger distances by measure; NaN where either side has no value.
 std::array<double, kCountedMeasures> hellinger(const MotionCounts& a, const MotionCounts& b);

@@ -137,4 +137,10 @@ MotionFeatures features_of(const Poses& poses, const Bodies& bodies) {
   return features;
 }
 
+bool collides(const MotionFeatures& features, std::size_t row) {
+  const auto from = features.nearest.begin() + static_cast<std::ptrdiff_t>(row * Poses::kSteps);
+  return std::any_of(from, from + static_cast<std::ptrdiff_t>(Poses::kSteps),
+                     [](double gap) { return gap < 0.0; });
+}
+
 }  // namespace sumogamma

@@ -35,4 +35,7 @@ double signed_distance(const MotionState& a, const Vec2& size_a, const MotionSta
 /// 0.5 m; the time to collision is the gap over the speed at which it closes along the own heading.
 MotionFeatures features_of(const Poses& poses, const Bodies& bodies);
 
+/// Does a row's box overlap another at any step?
+bool collides(const MotionFeatures& features, std::size_t row);
+
 }  // namespace sumogamma

@@ -75,10 +75,8 @@ class RouteFile {
     const Lane& last = network_.lane(network_.edge(route.edges.back()).lanes.front());
     vehicle.append_attribute("arrivalPos") =
         fixed(front(last, route.to_along, agent.length)).c_str();
-    std::string edges;
-    for (const EdgeId edge : route.edges)
-      edges += (edges.empty() ? "" : " ") + network_.edge(edge).name;
-    vehicle.append_child("route").append_attribute("edges") = edges.c_str();
+    vehicle.append_child("route").append_attribute("edges") =
+        edge_names(network_, route.edges).c_str();
   }
 
   void add_person(const RecordedAgent& agent, const MatchedWalk& walk) {
@@ -163,6 +161,12 @@ OpenScene open_scene_of(const RecordedScene& scene, int start) {
   open.arriving = later.size();
   if (!scene.obstacles.empty()) open.obstacles = obstacles_json(scene.obstacles);
   return open;
+}
+
+std::string edge_names(const RoadNetwork& network, const std::vector<EdgeId>& edges) {
+  std::string names;
+  for (const EdgeId edge : edges) names += (names.empty() ? "" : " ") + network.edge(edge).name;
+  return names;
 }
 
 RoadScene road_scene_of(const RecordedScene& scene, const RoadNetwork& network) {

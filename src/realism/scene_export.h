@@ -38,4 +38,7 @@ inline constexpr double kLeastOnRoutes = 0.95;
 
 RoadScene road_scene_of(const RecordedScene& scene, const RoadNetwork& network);
 
+/// A route as SUMO's files have it.
+std::string edge_names(const RoadNetwork& network, const std::vector<EdgeId>& edges);
+
 }  // namespace sumogamma

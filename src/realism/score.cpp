@@ -91,13 +91,9 @@ void add_window(const Scoring& scoring, std::size_t index, MethodScore& score) {
   score.by_window.push_back(all);
 }
 
-bool drives_by_itself(const std::string& method) {
-  return method == "gamma" || method.starts_with("sumo-");
-}
-
-FreeRun free_run_of(const Scoring& scoring, const std::string& method, std::uint64_t seed) {
-  if (method != "gamma")
-    return drive_sumo_freely(scoring.scene, *scoring.settings.road, method, seed);
+FreeRun free_run_of(const Scoring& scoring, const SumoFreeRuns* sumo, const std::string& method,
+                    std::uint64_t seed) {
+  if (method != "gamma" && sumo) return sumo->drive(method, seed);
   return scoring.roads ? scoring.roads->drive_freely(seed) : scoring.loop.drive_freely(seed);
 }
 
@@ -112,12 +108,14 @@ void drive_all_freely(const Scoring& scoring, const ScoreProgress& progress,
   result.free_lateral_deviation = settings.road
                                       ? lateral_deviation(*settings.road, scoring.scene, everybody)
                                       : std::numeric_limits<double>::quiet_NaN();
+  std::optional<SumoFreeRuns> sumo;
+  if (settings.road) sumo.emplace(scoring.scene, *settings.road);
   for (const std::string& name : settings.methods) {
     if (!drives_by_itself(name)) continue;
     std::vector<FreeRun> runs;
     for (std::size_t k = 0; k < settings.free_runs; ++k) {
       if (progress && !progress(name + ", freely", k, settings.free_runs)) return;
-      runs.push_back(free_run_of(scoring, name, settings.seed + k));
+      runs.push_back(free_run_of(scoring, sumo ? &*sumo : nullptr, name, settings.seed + k));
     }
     result.free_scores.push_back(score_free_runs(scoring.scene, settings.road, name, runs));
   }
@@ -162,6 +160,10 @@ std::vector<MotionCounts> count_log(const Scoring& scoring, MotionCounts& all) {
 }  // namespace
 
 std::vector<ScoreMethodInfo> score_methods() { return {kMethods.begin(), kMethods.end()}; }
+
+bool drives_by_itself(const std::string& method) {
+  return method == "gamma" || method.starts_with("sumo-");
+}
 
 void require_score_method(const std::string& name) {
   std::string known;

@@ -24,6 +24,9 @@ struct ScoreMethodInfo {
 /// log, stand, cv, cv-fan, gamma, and on a network SUMO's own models: the order of tables.
 std::vector<ScoreMethodInfo> score_methods();
 
+/// Does a method move everybody by a model, GAMMA or SUMO's?
+bool drives_by_itself(const std::string& method);
+
 /// Throws Error on a name that isn't one of score_methods(), with the one that is nearest to it.
 void require_score_method(const std::string& name);
 

@@ -43,12 +43,25 @@ std::vector<std::pair<std::string, double>> named_figures(const ScoreSums& sums)
   return named;
 }
 
-std::string label_of(const MethodScore& method) {
+std::string label_of(const std::string& method) {
   for (const ScoreMethodInfo& info : score_methods())
-    if (method.name == info.name)
-      return method.rollouts > 1 ? fmt::format("{}, {} rollouts", info.label, method.rollouts)
-                                 : info.label;
-  return method.name;
+    if (method == info.name) return info.label;
+  return method;
+}
+
+std::string label_of(const MethodScore& method) {
+  return method.rollouts > 1
+             ? fmt::format("{}, {} rollouts", label_of(method.name), method.rollouts)
+             : label_of(method.name);
+}
+
+/// Figures of free runs by name, in the order of files.
+std::vector<std::pair<std::string, double>> named_figures(const FreeScore& score) {
+  return {{"pet_under_2_s", share_under_two_seconds(score.counts)},
+          {"travel_time_rmspe", score.travel_rmspe},
+          {"lateral_deviation_m", score.lateral_deviation},
+          {"left", score.left},
+          {"colliding", score.colliding}};
 }
 
 std::string row_of(const std::string& label, const std::vector<double>& values) {
@@ -99,16 +112,12 @@ Json figures_json(const ScoreSums& sums) {
 Json free_json(const RecordingScore& score, const FreeScore& one) {
   Json json{{"method", one.name},
             {"runs", one.runs},
-            {"hellinger", distances_json(distances(score.free_log, one.counts))},
-            {"pet_under_2_s", number(share_under_two_seconds(one.counts))},
-            {"pet_under_2_s_of_log", number(share_under_two_seconds(score.free_log))},
-            {"travel_time_rmspe", number(one.travel_rmspe)},
-            {"ways", one.ways},
-            {"left", number(one.left)},
-            {"left_in_log", one.left_in_log},
-            {"colliding", number(one.colliding)},
-            {"lateral_deviation_m", number(one.lateral_deviation)},
-            {"lateral_deviation_of_log_m", number(score.free_lateral_deviation)}};
+            {"hellinger", distances_json(distances(score.free_log, one.counts))}};
+  for (const auto& [name, value] : named_figures(one)) json[name] = number(value);
+  json["ways"] = one.ways;
+  json["pet_under_2_s_of_log"] = number(share_under_two_seconds(score.free_log));
+  json["lateral_deviation_of_log_m"] = number(score.free_lateral_deviation);
+  json["left_in_log"] = one.left_in_log;
   for (std::size_t k = 0; k < kCountedMeasures; ++k)
     json["counts"][counted_measures()[k].name] = one.counts.counts[k];
   return json;
@@ -119,7 +128,7 @@ Json method_json(const RecordingScore& score, const MethodScore& method) {
   json.update(figures_json(method.sums));
   json["composite_95"] = {number(method.composite_low), number(method.composite_high)};
   json["hellinger"] = distances_json(distances(score.log, method.counts));
-  if (method.name == "gamma" || method.name.starts_with("sumo-"))
+  if (drives_by_itself(method.name))
     json["entering"] = {{"entered", method.entries.entered},
                         {"delayed", method.entries.delayed},
                         {"shut_out", method.entries.shut_out},
@@ -227,13 +236,10 @@ std::string free_table(const RecordingScore& score) {
   const std::vector<double> none(kCountedMeasures, std::numeric_limits<double>::quiet_NaN());
   row("recording", none, share_under_two_seconds(score.free_log), none[0],
       score.free_lateral_deviation, score.free_scores.front().left_in_log, none[0]);
-  for (const FreeScore& one : score.free_scores) {
-    MethodScore named;
-    named.name = one.name;
-    row(fmt::format("{}, {} runs", label_of(named), one.runs),
+  for (const FreeScore& one : score.free_scores)
+    row(fmt::format("{}, {} runs", label_of(one.name), one.runs),
         distances(score.free_log, one.counts), share_under_two_seconds(one.counts),
         one.travel_rmspe, one.lateral_deviation, one.left, one.colliding);
-  }
   return text;
 }
 
@@ -285,11 +291,8 @@ std::string score_csv(std::span<const RecordingScore> scores) {
       for (std::size_t k = 0; k < kCountedMeasures; ++k)
         add(score, one.name, "all", std::string("free_hellinger_") + counted_measures()[k].name,
             apart[k]);
-      add(score, one.name, "all", "free_pet_under_2_s", share_under_two_seconds(one.counts));
-      add(score, one.name, "all", "free_travel_time_rmspe", one.travel_rmspe);
-      add(score, one.name, "all", "free_lateral_deviation_m", one.lateral_deviation);
-      add(score, one.name, "all", "free_left", one.left);
-      add(score, one.name, "all", "free_colliding", one.colliding);
+      for (const auto& [name, value] : named_figures(one))
+        add(score, one.name, "all", "free_" + name, value);
     }
     for (std::size_t k = 0; k < score.noise_floor.size(); ++k)
       add(score, "noise floor", "all", std::string("hellinger_") + counted_measures()[k].name,

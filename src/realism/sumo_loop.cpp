@@ -7,32 +7,23 @@
 #include <map>
 #include <memory>
 #include <pugixml.hpp>
-#include <set>
-#include <sstream>
 #include <utility>
 
 #include "base/error.h"
 #include "base/scratch_folder.h"
 #include "base/units.h"
 #include "demand/vehicle_type_xml.h"
+#include "realism/sumo_drivers.h"
 #include "sumo/backend.h"
 
 namespace sumogamma {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int kWarmUp = 6;                         // steps in which those scored are inserted
 constexpr int kLead = kWarmUp + 1;                 // from there to the window's beginning
 constexpr int kPeriod = kLead + kWindowSteps + 3;  // from one rollout to the next [steps]
 constexpr double kRoom = 4.0;                      // between those inserted in a lane [m]
-
-std::string xml_of(const pugi::xml_document& document) {
-  std::ostringstream text;
-  document.save(text);
-  return text.str();
-}
 
 /// Programs that show again and again, a rollout each, what signals show in a window.
 std::string signals_of(const RoadNetwork& network, double begin) {
@@ -61,7 +52,7 @@ std::string signals_of(const RoadNetwork& network, double begin) {
       shown += part;
     }
   }
-  return xml_of(document);
+  return xml_text(document);
 }
 
 /// Somebody as SUMO has it in one rollout.
@@ -86,25 +77,11 @@ class Session {
     for (const std::size_t who : window.entering) everybody_.push_back(who);
     const double begin = kScoreStep * (window.start - scene.first - kLead);
     SumoStart start;
-    start.arguments = {
-        "-n",
-        fs::absolute(road.file).string(),
-        "-r",
-        folder_.file("types.rou.xml", types(method, count)).string(),
-        "-a",
-        folder_.file("signals.add.xml", signals_of(road.road.network, begin)).string(),
-        "--step-length",
-        "0.1",
-        "--seed",
-        std::to_string(seed % 2147483647u),
-        "--no-step-log",
-        "--no-warnings",
-        "--time-to-teleport",
-        "-1",
-        "--collision.action",
-        "none"};
-    if (method == "sumo-sublane")
-      start.arguments.insert(start.arguments.end(), {"--lateral-resolution", "0.64"});
+    start.arguments = sumo_arguments(road.file, folder_.file("types.rou.xml", types(method, count)),
+                                     method, seed);
+    start.arguments.insert(
+        start.arguments.end(),
+        {"-a", folder_.file("signals.add.xml", signals_of(road.road.network, begin)).string()});
     backend_ = start_traci_backend(start);
   }
 
@@ -200,13 +177,11 @@ class Session {
         append_vehicle_type(root, type);
         pugi::xml_node element = root.last_child();
         const double factor = limit_factor(speed_of(state), limit, seed_ + number, who.id);
-        element.remove_attribute("minGap");
-        element.attribute("speedFactor").set_value(fmt::format("{:.4f}", factor).c_str());
+        set_driver(element, method, fmt::format("{:.4f}", factor));
         element.append_attribute("speedDev") = "0";
-        element.append_attribute("carFollowModel") = car_following_of(method);
       }
     }
-    return xml_of(document);
+    return xml_text(document);
   }
 
   /// Asks SUMO for somebody ahead of time, and puts it in its place when it is due.
@@ -323,12 +298,6 @@ class Session {
 };
 
 }  // namespace
-
-const char* car_following_of(const std::string& method) {
-  if (method == "sumo-idm") return "IDM";
-  if (method == "sumo-eidm") return "EIDM";
-  return "Krauss";
-}
 
 SumoLoop::SumoLoop(const RecordedScene& scene, const RecordedRoad& road)
     : scene_(scene), road_(road) {}

@@ -8,9 +8,6 @@
 
 namespace sumogamma {
 
-/// SUMO's name of a method's carFollowModel.
-const char* car_following_of(const std::string& method);
-
 /// SUMO's own drivers in closed loop on a network, from the same places and speeds as RoadLoop, on
 /// the same routes, with the same factors on speed limits (limit_factor) and the network's signals.
 class SumoLoop {

@@ -42,7 +42,7 @@ ScoreWindow window_at(const RecordedScene& scene, int start) {
 
 }  // namespace
 
-Windows windows_of(const RecordedScene& scene) {
+Windows find_windows(const RecordedScene& scene) {
   Windows found;
   for (int start = scene.first + kLeadIn; start < scene.last - kWindowSteps; start += kEvery) {
     ScoreWindow window = window_at(scene, start);
@@ -51,6 +51,11 @@ Windows windows_of(const RecordedScene& scene) {
     else
       found.windows.push_back(std::move(window));
   }
+  return found;
+}
+
+Windows windows_of(const RecordedScene& scene) {
+  Windows found = find_windows(scene);
   if (found.windows.empty() && found.left_out == 0)
     throw Error(scene.file, fmt::format("lasts {:.1f} s, expected 9.2 s at the least: a window is "
                                         "8 s and begins after one second",

@@ -47,4 +47,7 @@ struct Windows {
 /// Throws Error naming the recording where there is no window.
 Windows windows_of(const RecordedScene& scene);
 
+/// The same, none where there is none.
+Windows find_windows(const RecordedScene& scene);
+
 }  // namespace sumogamma

@@ -24,6 +24,13 @@ class PriorityTest : public ::testing::Test {
     static const RoadNetwork network = read_plain_net(crossroads("priority"));
     return network;
   }
+  /// The same with stop signs on its minor roads.
+  static RoadNetwork net_with_stop_signs() {
+    RoadNetwork network = net();
+    for (Connection& connection : network.connections)
+      if (connection.priority == LinkPriority::Minor) connection.priority = LinkPriority::Stop;
+    return network;
+  }
   /// A car that stands before the line of its first link.
   std::size_t add_at_line(const std::vector<std::string>& edges, const std::string& lane = "") {
     const std::size_t row = here_.add("car", edges, 0, 0, 0, -1, lane);

@@ -29,5 +29,20 @@ TEST(SignalProgram, IsNowhereWithoutTime) {
   EXPECT_FALSE(program_at({"S", 1, {{0, "G"}}}, 5).has_value());
 }
 
+TEST(SignalProgram, ShowsALinkItsLight) {
+  RoadNetwork network;
+  network.signals = {{"S", 2, {{30, "Gr"}, {3, "yr"}, {27, "r"}}}};
+  Connection first, second, free;
+  first.signal = second.signal = static_cast<SignalId>(0);
+  first.signal_link = 0;
+  second.signal_link = 1;
+  EXPECT_EQ(light_by_program(network, first, 10), Light::GreenFirst);
+  EXPECT_EQ(light_by_program(network, second, 10), Light::Red);
+  EXPECT_EQ(light_by_program(network, first, 31), Light::Amber);
+  EXPECT_EQ(light_by_program(network, first, 40), Light::Red);
+  EXPECT_EQ(light_by_program(network, second, 40), Light::None) << "the program is too short";
+  EXPECT_EQ(light_by_program(network, free, 40), Light::None);
+}
+
 }  // namespace
 }  // namespace sumogamma

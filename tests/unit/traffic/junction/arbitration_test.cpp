@@ -35,10 +35,7 @@ TEST_F(PriorityTest, WhoHasComeToRestAtAZonesEdgeWaitsThereForWhoIsInItsWay) {
 }
 
 TEST_F(PriorityTest, AStopSignIsHaltedAt) {
-  RoadNetwork network = net();
-  for (Connection& connection : network.connections)
-    if (connection.priority == LinkPriority::Minor) connection.priority = LinkPriority::Stop;
-  RoadScene here(network);
+  RoadScene here(net_with_stop_signs());
   const std::size_t own = here.add("car", {"SC", "CN"}, 0, 8);
   const double line = here.path(own).links.front().stop_line;
   here.move(own, line - 20);
@@ -53,10 +50,7 @@ TEST_F(PriorityTest, AStopSignIsHaltedAt) {
 }
 
 TEST_F(PriorityTest, WhoRollsOverAStopSignNeedNotHaltThere) {
-  RoadNetwork network = net();
-  for (Connection& connection : network.connections)
-    if (connection.priority == LinkPriority::Minor) connection.priority = LinkPriority::Stop;
-  RoadScene here(network);
+  RoadScene here(net_with_stop_signs());
   const std::size_t own = here.add("car", {"SC", "CN"}, 0, 1.8);
   here.scene.manners[own].key = 5;
   const double line = here.path(own).links.front().stop_line;
