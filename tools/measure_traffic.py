@@ -6,105 +6,16 @@ usage: measure_traffic.py SCENARIO RUN_FOLDER     prints one JSON object (SI uni
 
 Reads results.json, trajectories.fcd.xml.gz and the scenario's net; standard library only.
 """
-import gzip
 import json
 import math
 import os
-import re
 import sys
 import xml.etree.ElementTree as ElementTree
-from bisect import bisect_left
-from collections import namedtuple
 
-SCENARIOS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "sumo_scenarios")
-SIZES = {"pedestrian": (0.40, 0.48), "bicycle": (1.65, 0.65), "motorcycle": (2.2, 0.9), "car": (4.5, 1.8),
-         "bus": (12.0, 2.5)}  # length, width [m] as in the scenarios' vTypes
-
-# front bumper of vehicles, centre of people [m]; angle in degrees clockwise from north; speed [m/s]
-Sample = namedtuple("Sample", "time x y angle speed")
-
-
-class Track:
-    """What one agent did: samples in order of time."""
-
-    def __init__(self, name, kind):
-        self.name, self.kind, self.samples, self._times = name, kind, [], None
-
-    def __getitem__(self, key):
-        return self.samples[key]
-
-    @property
-    def length(self):
-        return SIZES[self.kind][0]
-
-    @property
-    def width(self):
-        return SIZES[self.kind][1]
-
-    def at(self, time):
-        """Sample at `time` or the next one after; None where the agent was not there."""
-        if self._times is None:
-            self._times = [s.time for s in self.samples]
-        place = bisect_left(self._times, time - 1e-6)
-        return self.samples[place] if place < len(self.samples) and self.samples[0].time <= time + 1e-6 else None
-
-    def passes(self, condition):
-        """Time of the first sample that meets `condition`, or None."""
-        return next((s.time for s in self.samples if condition(s)), None)
-
-    def duration(self):
-        return self.samples[-1].time - self.samples[0].time
-
-
-def read_tracks(path):
-    """All tracks by id from SUMO's floating car data."""
-    tracks = {}
-    wanted = re.compile(r'(id|x|y|angle|type|speed)="([^"]*)"')
-    time = 0.0
-    with gzip.open(path, "rt", encoding="utf-8") as lines:
-        for line in lines:
-            line = line.lstrip()
-            if line.startswith("<timestep"):
-                time = float(re.search(r'time="([^"]*)"', line)[1])
-            elif line.startswith(("<vehicle", "<person")):
-                v = dict(wanted.findall(line))
-                track = tracks.get(v["id"])
-                if track is None:
-                    track = tracks[v["id"]] = Track(v["id"], v["type"])
-                track.samples.append(Sample(time, float(v["x"]), float(v["y"]), float(v["angle"]), float(v["speed"])))
-    return tracks
-
-
-def lane_points(scenario, lane):
-    """Points of a lane's shape in the scenario's net."""
-    net = ElementTree.parse(os.path.join(SCENARIOS, scenario, scenario + ".net.xml"))
-    shape = next(e.get("shape") for e in net.iter("lane") if e.get("id") == lane)
-    return [tuple(float(c) for c in point.split(",")[:2]) for point in shape.split()]
-
-
-def mean(values):
-    values = list(values)
-    return sum(values) / len(values) if values else None
-
-
-def share(flags):
-    return mean(1.0 if flag else 0.0 for flag in flags)
-
-
-def decelerations(track, window=0.5):
-    """(time, mean deceleration over `window`) along a track [m/s^2]: single ticks of rounded speeds are no measure."""
-    step = max(1, round(window / (track[1].time - track[0].time))) if len(track.samples) > 1 else 1
-    return [(a.time, (a.speed - b.speed) / (b.time - a.time))
-            for a, b in zip(track.samples, track.samples[step:])]
-
-
-def hardest(track):
-    return max((d for _, d in decelerations(track)), default=0.0)
-
-
-def vehicles(tracks):
-    return [t for t in tracks.values() if t.kind != "pedestrian"]
-
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
+from flow_measures import arterial, gap_acceptance, grid, ring_road, zebras  # noqa: E402
+from tracks import (SCENARIOS, SIZES, decelerations, hardest, lane_points, mean, people, read_tracks, share,  # noqa: E402
+                    vehicles)
 
 # ---- one function a scenario: tracks -> figures ---------------------------------------------------------------------
 
@@ -271,11 +182,11 @@ def roundabout_entry(tracks):
     return {"stages": stages}
 
 
-def over_road(people, road):
+def over_road(walkers, road):
     """Of each who steps on the carriageway of the road along y = 0, `road` [m] wide to either side: wait at the kerb
     before that [s], where [m], whether it was on both sides."""
     found = []
-    for track in people:
+    for track in walkers:
         # the last stay at the kerb before the carriageway was stepped on
         step = next((i for i, s in enumerate(track.samples) if abs(s.y) < road), None)
         if step is None:
@@ -288,8 +199,7 @@ def over_road(people, road):
 
 
 def mid_block(tracks):
-    people = [t for t in tracks.values() if t.kind == "pedestrian"]
-    found = over_road(people, 3.2)
+    found = over_road(people(tracks), 3.2)
     waits = [wait for wait, _, _ in found]
     return {"people_crossed": sum(crossed for _, _, crossed in found),
             "on_the_crossing": sum(abs(x) < 10.0 for _, x, _ in found),
@@ -299,10 +209,9 @@ def mid_block(tracks):
 
 
 def zebra(tracks):
-    people = [t for t in tracks.values() if t.kind == "pedestrian"]
-    cars = vehicles(tracks)
+    walkers, cars = people(tracks), vehicles(tracks)
     road = 3.2  # half width of the carriageway [m]
-    found = over_road(people, road)
+    found = over_road(walkers, road)
     waits, crossed = [wait for wait, _, _ in found], sum(crossed for _, _, crossed in found)
     cut_off, passed = 0, 0
     for car in cars:
@@ -312,7 +221,7 @@ def zebra(tracks):
             continue
         passed += 1
         front = car.at(time)
-        for walker in people:
+        for walker in walkers:
             s = walker.at(time)
             # on the stripes in the car's way, or within a step of it
             if s and abs(s.x) < 2.5 and abs(s.y) < road and abs(s.y - front.y) < 0.9 + 0.24 + 0.5:
@@ -524,6 +433,8 @@ def platoon(tracks):
 MEASURES = {f.__name__: f for f in (saturation, two_way_stop, all_way_stop, roundabout, roundabout_entry, zebra,
                                     mid_block, bicycle_overtaken, bus_stop, mixed_queue, sidewalk_counterflow, lane_drop,
                                     platoon)}
+# what only `sumo-gamma validate` asks for
+FLOWS = {f.__name__: f for f in (gap_acceptance, ring_road, zebras, arterial, grid)}
 
 
 def red_lights(results):
@@ -562,7 +473,9 @@ def measure(scenario, folder):
     with open(os.path.join(folder, "results.json"), encoding="utf-8") as stream:
         results = json.load(stream)
     tracks = read_tracks(os.path.join(folder, "trajectories.fcd.xml.gz"))
-    own = red_lights(results) if scenario == "red_lights" else MEASURES[scenario](tracks)
+    own = red_lights(results) if scenario == "red_lights" else {**MEASURES, **FLOWS}[scenario](tracks)
+    if scenario == "zebras" and own["met"]:
+        own["excess"] = own["let_go_share"] - results["behavior"]["by_type"]["car"]["yielding_rate"]
     return rounded({"scenario": scenario, **common(results, tracks), **own})
 
 
@@ -629,7 +542,7 @@ def table(out):
 
 
 def main(arguments):
-    if len(arguments) == 2 and arguments[0] in (*MEASURES, "red_lights"):
+    if len(arguments) == 2 and arguments[0] in (*MEASURES, *FLOWS, "red_lights"):
         print(json.dumps(measure(*arguments), indent=1))
         return 0
     if len(arguments) == 2 and arguments[0] == "--table":

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds and tests sumo-gamma; installs what that takes.
-#   tools/test.sh          every test and every lint, the golden bits with clang, some seconds of each fuzz target
+#   tools/test.sh          every test and every lint, the golden bits with clang, some seconds of each fuzz target, clang-tidy on what changed
 #   tools/test.sh quick    build, unit and property tests
-#   tools/test.sh deep     the same under the sanitizers, more of it with clang, a minute of each fuzz target, clang-tidy on what changed
+#   tools/test.sh deep     the same under the sanitizers, more of it with clang, a minute of each fuzz target
 #   tools/test.sh tidy     clang-tidy on every source (slow)
 # The last line adds it all up; the exit code is 0 only where nothing failed.
 set -euo pipefail
@@ -77,6 +77,7 @@ case "$mode" in
     test_stage dev '.'
     # the other compiler must give the same bits; fuzz targets are clang's alone
     test_stage clang '^(golden|fuzz)$' tests_golden tests_fuzz
+    tidy_stage changed
     ;;
   deep)
     test_stage dev '.'

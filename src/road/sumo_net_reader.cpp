@@ -135,6 +135,7 @@ class NetBuilder {
     for (const pugi::xml_node node : root_.children("tlLogic")) add_signal(node);
     for (const pugi::xml_node node : root_.children("connection")) add_connection(node);
     for (const pugi::xml_node node : root_.children("junction")) add_right_of_way(node);
+    leave_main_roads_without_stop_signs();
     for (const pugi::xml_node node : root_.children("roundabout"))
       for_each_word(node.attribute("nodes").value(), [&](std::string_view name) {
         const auto found = net_.junction_by_name.find(std::string(name));
@@ -388,6 +389,24 @@ class NetBuilder {
     net_.lanes[index_of(connection.from)].outgoing.push_back(id);
     net_.lanes[index_of(connection.to)].incoming.push_back(id);
     net_.connections.push_back(connection);
+  }
+
+  /// A stop sign stands on an approach, but netconvert gives its letter to every link of such a
+  /// junction that yields: also to who turns off the main road across those who come towards it.
+  void leave_main_roads_without_stop_signs() {
+    std::vector<bool> is_main(net_.edges.size());
+    const auto goes_on = [](TurnDirection direction) {
+      return direction == TurnDirection::Straight || direction == TurnDirection::PartlyLeft ||
+             direction == TurnDirection::PartlyRight;
+    };
+    for (const Connection& link : net_.connections)
+      if (net_.lane(link.from).kind == LaneKind::Normal && link.signal == kNoSignal &&
+          link.priority == LinkPriority::Major && goes_on(link.direction))
+        is_main[index_of(net_.lane(link.from).edge)] = true;
+    for (Connection& link : net_.connections)
+      if (net_.lane(link.from).kind == LaneKind::Normal && link.priority == LinkPriority::Stop &&
+          is_main[index_of(net_.lane(link.from).edge)])
+        link.priority = LinkPriority::Minor;
   }
 
   static std::vector<bool> parse_bits(std::string_view text) {

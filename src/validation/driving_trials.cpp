@@ -264,13 +264,152 @@ Trial sidewalk() {
           {}};
 }
 
+Trial following() {
+  return {"V3",
+          "How far behind each other do drivers follow, and how unlike are they?",
+          "A single file on rings of 20 and 30 cars a km; each driver's median time gap at equal "
+          "speed, with --preset interaction.",
+          "ring_road",
+          {{"mean over drivers",
+            "s",
+            {1.63, 1.97},
+            "INTERACTION, four places: means of 1.63 to 1.97 s",
+            true,
+            "/time_gap"},
+           {"coefficient of variation", "", {0.34, 0.50}, "the same", true, "/time_gap_variation"}},
+          {},
+          "interaction"};
+}
+
+Trial gap_acceptance() {
+  Trial trial{
+      "V4",
+      "How many leave a queue through the gaps of a main road?",
+      "Twelve junctions: four movements, each beside 200, 600 and 1,000 vehicles an hour at "
+      "random; over the capacity at a two-way stop with the manual's critical headways and "
+      "follow-up times, and over that with those of the run itself (Siegloch's regression).",
+      "gap_acceptance",
+      {},
+      {}};
+  const std::pair<const char*, const char*> movements[] = {{"right", "right off the side road"},
+                                                           {"through", "across"},
+                                                           {"left", "left off the side road"},
+                                                           {"major", "left off the main road"}};
+  for (const auto& [name, words] : movements) {
+    for (const char* flow : {"200", "600", "1000"})
+      trial.criteria.push_back({std::string(words) + " beside " + flow + " vehicles/h, over HCM",
+                                "",
+                                {0.8, 1.2},
+                                kHcm,
+                                false,
+                                std::string("/") + name + "/flows/" + flow + "/over_hcm"});
+    trial.criteria.push_back({std::string(words) + ", over what its own headways ask for",
+                              "",
+                              {0.85, 1.15},
+                              "consistency with Siegloch's formula",
+                              false,
+                              std::string("/") + name + "/over_own"});
+  }
+  return trial;
+}
+
+Trial lane_capacity() {
+  return {"V10",
+          "What does a lane carry?",
+          "A single file on rings of 1 km with 10 to 80 cars, limit 50 km/h: the largest flow.",
+          "ring_road",
+          {{"largest flow",
+            "vehicles/h",
+            {1800, 2200},
+            "usual capacity of a lane without junctions",
+            true,
+            "/capacity"}},
+          {}};
+}
+
+Trial network_diagram() {
+  return {"V11",
+          "Is production of a network a function of how many are in it?",
+          "Five by five signalled junctions, a demand that rises and falls within 750 s; vehicle "
+          "kilometres an hour beside vehicles, a minute each.",
+          "grid",
+          {{"scatter at equal accumulation, of the largest production",
+            "",
+            {0.0, 0.1},
+            "macroscopic fundamental diagram (Geroliminis, Daganzo 2008)",
+            true,
+            "/scatter"},
+           {"lost while it empties, of the largest production",
+            "",
+            {0.0, 0.1},
+            "hysteresis of such diagrams is clockwise",
+            true,
+            "/hysteresis"}},
+          {}};
+}
+
+Trial yielding_drivers() {
+  constexpr const char* kCqut = "CQUT: 0.68 of 209 meetings, 0.63 of 543";
+  return {
+      "V13b",
+      "Do as many drivers let people go first as are asked for?",
+      "Five zebra crossings in a row, --preset observed: of drivers to whose way somebody comes "
+      "while they are 55 to 30 m before it, the share that lets these go first, less the share "
+      "asked for. People and cars less than 5 s apart.",
+      "zebras",
+      {{"drivers who let people go, beyond those asked for",
+        "",
+        {-0.05, 0.05},
+        "what the preset asks for",
+        false,
+        "/excess"},
+       {"people who are first", "", {0.58, 0.73}, kCqut, true, "/person_first"},
+       {"least speed of a car behind people",
+        "m/s",
+        {0.5, 1.5},
+        "CQUT: medians of 0.5 and 1.4 m/s",
+        true,
+        "/least_speed_behind_people"},
+       {"less than 1 s apart",
+        "",
+        {0.0, 0.12},
+        "DUT, shared space and a junction: 0.083, 0.119",
+        true,
+        "/encroachment_below_1_s"}},
+      {},
+      "observed"};
+}
+
+Trial congested_two_wheelers() {
+  return {"V16",
+          "Are motorcycles faster than cars in the same congestion?",
+          "Two lanes, three signals, more demand than they let through, 37 of 100 are motorcycles, "
+          "--preset observed; mean speeds over the road.",
+          "arterial",
+          {{"speed of motorcycles over that of cars",
+            "",
+            {1.1, 1.3},
+            "pNEUMA: 1.23",
+            true,
+            "/motorcycles_over_cars"}},
+          {},
+          "observed"};
+}
+
 }  // namespace
 
 std::vector<Trial> driving_trials() {
-  std::vector<Trial> trials{
-      queue_at_a_signal(), stop_signs(), roundabout_entry(), lane_drop(),  platoon(), minor_road(),
-      rolling_stops(),     red_lights(), two_wheelers(),     overtaking(), zebra(),   mid_block(),
-      bus_stop(),          ring(),       sidewalk()};
+  std::vector<Trial> trials{queue_at_a_signal(), following(),
+                            gap_acceptance(),    stop_signs(),
+                            roundabout_entry(),  lane_drop(),
+                            platoon(),           lane_capacity(),
+                            network_diagram(),   minor_road(),
+                            rolling_stops(),     red_lights(),
+                            yielding_drivers(),  two_wheelers(),
+                            overtaking(),        zebra(),
+                            mid_block(),         congested_two_wheelers(),
+                            bus_stop(),          ring(),
+                            sidewalk()};
   for (Trial& trial : trials) {
     trial.criteria.push_back(
         {"colliding pairs", "", {0.0, 0.0}, kProject, false, "/colliding_pairs"});

@@ -147,6 +147,41 @@ TEST_F(SumoNetReader, NumbersLinksAsSumoDoes) {
   EXPECT_EQ(net.connection(net.lane(net.lane_by_name.at("in_0")).outgoing.at(0)).junction_link, -1);
 }
 
+// A main road W - C - E and a side road S with a stop sign; the state of the link from the east to
+// the south is netconvert's.
+constexpr const char* kStopNet = R"xml(<net version="1.9">
+  <edge id="west" from="W" to="C"><lane id="west_0" index="0" speed="13" length="90" shape="0,-2 90,-2"/></edge>
+  <edge id="east" from="E" to="C"><lane id="east_0" index="0" speed="13" length="90" shape="200,2 110,2"/></edge>
+  <edge id="south" from="S" to="C"><lane id="south_0" index="0" speed="13" length="90" shape="102,-100 102,-10"/></edge>
+  <edge id="to_east" from="C" to="E"><lane id="to_east_0" index="0" speed="13" length="90" shape="110,-2 200,-2"/></edge>
+  <edge id="to_west" from="C" to="W"><lane id="to_west_0" index="0" speed="13" length="90" shape="90,2 0,2"/></edge>
+  <edge id="to_south" from="C" to="S"><lane id="to_south_0" index="0" speed="13" length="90" shape="98,-10 98,-100"/></edge>
+  <junction id="W" type="dead_end" x="0" y="0" incLanes="to_west_0" intLanes="" shape="0,0 0,1"/>
+  <junction id="E" type="dead_end" x="200" y="0" incLanes="to_east_0" intLanes="" shape="200,0 200,1"/>
+  <junction id="S" type="dead_end" x="100" y="-100" incLanes="to_south_0" intLanes="" shape="100,-100 101,-100"/>
+  <junction id="C" type="priority_stop" x="100" y="0" incLanes="west_0 east_0 south_0" intLanes="" shape="90,-10 110,-10 110,5"/>
+  <connection from="west" to="to_east" fromLane="0" toLane="0" dir="s" state="M"/>
+  <connection from="west" to="to_south" fromLane="0" toLane="0" dir="r" state="M"/>
+  <connection from="east" to="to_west" fromLane="0" toLane="0" dir="s" state="M"/>
+  <connection from="east" to="to_south" fromLane="0" toLane="0" dir="l" state="s"/>
+  <connection from="south" to="to_east" fromLane="0" toLane="0" dir="r" state="s"/>
+  <connection from="south" to="to_west" fromLane="0" toLane="0" dir="l" state="s"/>
+</net>
+)xml";
+
+TEST_F(SumoNetReader, AStopSignStandsOnAnApproachNotOnWhoTurnsOffTheMainRoad) {
+  const RoadNetwork net = read_sumo_net(write("stop.net.xml", kStopNet));
+  const auto priorities = [&](const char* lane) {
+    std::vector<LinkPriority> found;
+    for (const ConnectionId id : net.lane(net.lane_by_name.at(lane)).outgoing)
+      found.push_back(net.connection(id).priority);
+    return found;
+  };
+  EXPECT_EQ(priorities("east_0"), (std::vector{LinkPriority::Major, LinkPriority::Minor}));
+  EXPECT_EQ(priorities("south_0"), (std::vector{LinkPriority::Stop, LinkPriority::Stop}));
+  EXPECT_EQ(priorities("west_0"), (std::vector{LinkPriority::Major, LinkPriority::Major}));
+}
+
 TEST_F(SumoNetReader, ReadsGzip) {
   const fs::path file = folder_ / "a.net.xml.gz";
   gzFile stream = gzopen(file.c_str(), "wb");
