@@ -2,7 +2,7 @@
 """How far off `futures` are, how often what then happens lies where they said, how long an answer takes.
 
     sumo-gamma drive SCENARIO -o DIR --seeds 1..40 --ego unix:ego.sock &
-    python3 tools/measure_futures.py unix:ego.sock [QUESTIONS] [SAMPLES]
+    python3 tools/measure_futures.py unix:ego.sock [QUESTIONS] [SAMPLES] [true]      true: by everybody's own way and mind
 
 The ego's accelerations are set beforehand, so that the plan that is asked about is the one that is
 driven. A region of 50 % (90 %) of an agent at a time is the disc about the samples' mean that holds
@@ -56,6 +56,7 @@ def what_was_said(futures, seen, state):
 def main():
     questions = int(sys.argv[2]) if len(sys.argv) > 2 else 1000
     samples = int(sys.argv[3]) if len(sys.argv) > 3 else 20
+    ways = "true" if sys.argv[4:] == ["true"] else "believed"
     sums = {(kind, state): [0] * 7 for kind in ("vehicles", "people") for state in STATES}
     asked, waited, stepped, steps = 0, 0.0, 0.0, 0
     with Ego(sys.argv[1]) as env:
@@ -65,7 +66,7 @@ def main():
             while not done:
                 if asked < questions:
                     begin = time.perf_counter()
-                    futures = env.futures([acceleration(number + k) for k in range(12)], samples)
+                    futures = env.futures([acceleration(number + k) for k in range(12)], samples, ways)
                     waited += time.perf_counter() - begin
                     asked += 1
                     for state in STATES:

@@ -145,6 +145,11 @@ FuturesRequest futures_request_of(const json& message) {
       throw ProtocolError{"\"samples\" must be a whole number from 1 to 200"};
     request.samples = static_cast<int>(count);
   }
+  if (const auto ways = message.find("ways"); ways != message.end()) {
+    if (*ways != "believed" && *ways != "true")
+      throw ProtocolError{"\"ways\" must be \"believed\" or \"true\""};
+    request.knows = *ways == "true";
+  }
   return request;
 }
 
@@ -169,7 +174,7 @@ json to_json(const EgoObservation& observation, const AgentTypeTable& types) {
   return message;
 }
 
-json to_json(const Futures& futures) {
+json to_json(const Futures& futures, bool knows) {
   json samples = json::array();
   const std::size_t count = futures.steps > 0 ? futures.gap.size() / futures.steps : 0;
   for (std::size_t sample = 0; sample < count; ++sample) {
@@ -190,7 +195,7 @@ json to_json(const Futures& futures) {
           {"step", futures.step},
           {"agents", futures.agents},
           {"samples", std::move(samples)},
-          {"from", "beliefs over ways, hidden draws"}};
+          {"from", knows ? "everybody's own way and mind" : "beliefs over ways, hidden draws"}};
 }
 
 }  // namespace sumogamma

@@ -34,6 +34,6 @@ EgoAction action_of(const nlohmann::json& action);
 FuturesRequest futures_request_of(const nlohmann::json& message);
 
 nlohmann::json to_json(const EgoObservation& observation, const AgentTypeTable& types);
-nlohmann::json to_json(const Futures& futures);
+nlohmann::json to_json(const Futures& futures, bool knows);
 
 }  // namespace sumogamma

@@ -153,7 +153,7 @@ std::optional<EgoAction> ExternalEgo::answer(const EgoView& view, const json& me
   if (type == "futures") {
     FuturesRequest request = futures_request_of(message);
     request.key = random_bits(view.seed, static_cast<std::uint64_t>(plan_), 0, Draw::Futures);
-    json reply = to_json(sample_futures(view, request, beliefs_, forward_));
+    json reply = to_json(sample_futures(view, request, beliefs_, forward_), request.knows);
     send(reply);
     return std::nullopt;
   }

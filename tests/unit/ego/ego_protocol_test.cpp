@@ -83,9 +83,12 @@ TEST(EgoProtocol, AnActionIsFiniteAndOfOneOfThreeKinds) {
 TEST(EgoProtocol, AQuestionHasBounds) {
   EXPECT_EQ(futures_request_of({{"plan", {1, -3}}, {"samples", 4}}).samples, 4);
   EXPECT_EQ(futures_request_of({{"plan", {1, -3}}}).plan.size(), 2u);
+  EXPECT_FALSE(futures_request_of({{"ways", "believed"}}).knows);
+  EXPECT_TRUE(futures_request_of({{"ways", "true"}}).knows);
   for (const json& wrong :
        {json({{"samples", 0}}), json({{"samples", 201}}), json({{"samples", 1.5}}),
-        json({{"plan", "brake"}}), json({{"plan", {nullptr}}})})
+        json({{"plan", "brake"}}), json({{"plan", {nullptr}}}), json({{"ways", "mine"}}),
+        json({{"ways", true}})})
     EXPECT_THROW(futures_request_of(wrong), ProtocolError) << wrong;
 }
 

@@ -17,9 +17,9 @@ class FuturesTest : public testing::LookingEgo {
       advance();
     }
   }
-  Futures ask(int samples) {
+  Futures ask(int samples, bool knows = false) {
     return with_view([&](const EgoView& seen) {
-      return sample_futures(seen, {{0.0}, samples, 1}, beliefs_, forward_);
+      return sample_futures(seen, {{0.0}, samples, 1, knows}, beliefs_, forward_);
     });
   }
   /// Ways of the only other agent until the end of each sample [m].
@@ -63,6 +63,20 @@ TEST_F(FuturesTest, TakeEachWayAsOftenAsItIsBelieved) {
   int stopped = 0;
   for (const double way : ways(futures, here_.scene.position[foe])) stopped += way < 15.0;
   EXPECT_NEAR(stopped, 40 * belief->weights.back(), 1.0);
+}
+
+TEST_F(FuturesTest, OfWhoKnowsFollowEverybodysOwnWay) {
+  const std::size_t foe = here_.add("car", {"WC", "CE"}, 176, 10, 0, -1, "WC_1");
+  watch(1);
+  const Path& way = *here_.road.path(here_.scene.path[foe]);
+  const Futures futures = ask(3, true);
+  const std::vector<double> covered = ways(futures, here_.scene.position[foe]);
+  ASSERT_EQ(covered.size(), 3u);
+  EXPECT_EQ(covered[0], covered[1]);
+  EXPECT_EQ(covered[0], covered[2]);
+  EXPECT_GT(covered[0], 25.0) << "it was believed to stop as likely as anything";
+  const Vec2 end = futures.poses[futures.steps * 2 - 1].position;
+  EXPECT_LT(way.line.project(end).distance, 1.0);
 }
 
 TEST_F(FuturesTest, ChangeNothingAndAreTheSameAgain) {
