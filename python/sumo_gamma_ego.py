@@ -49,7 +49,7 @@ class Ego:
     def futures(self, plan, samples=10, ways="believed"):
         """Joint samples of where everybody is over 4 s, given accelerations of the ego, one a
         period. -> {"step", "agents", "samples": [{"gap": [...], "poses": [...]}]}. ways="true":
-        by everybody's own way and mind, which no planner can see: what a forecast could be at best."""
+        by everybody's own way, which no planner can see: what a forecast could be at best."""
         return self._ask({"type": "futures", "plan": [float(a) for a in plan], "samples": samples, "ways": ways})
 
     def close(self):

@@ -2,7 +2,7 @@
 """How far off `futures` are, how often what then happens lies where they said, how long an answer takes.
 
     sumo-gamma drive SCENARIO -o DIR --seeds 1..40 --ego unix:ego.sock &
-    python3 tools/measure_futures.py unix:ego.sock [QUESTIONS] [SAMPLES] [true]      true: by everybody's own way and mind
+    python3 tools/measure_futures.py unix:ego.sock [QUESTIONS] [SAMPLES] [true]      true: by everybody's own way
 
 The ego's accelerations are set beforehand, so that the plan that is asked about is the one that is
 driven. A region of 50 % (90 %) of an agent at a time is the disc about the samples' mean that holds

@@ -161,6 +161,7 @@ SumoWorldOptions world_options_of(const RunPlan& plan) {
   options.dt = plan.clock.step;
   options.rerouter_edges = plan.inventory.rerouter_edges;
   options.sign_lanes = plan.inventory.sign_lanes;
+  options.depart_speeds = plan.inventory.depart_speeds;
   options.others_steer = plan.options.joins() || plan.options.clients > 1;
   for (const auto& [key, where] : plan.config.given)
     if (key.rfind("types.", 0) == 0) options.type_keys.insert(key);

@@ -191,11 +191,12 @@ json to_json(const Futures& futures, bool knows) {
     }
     samples.push_back({{"gap", std::move(gaps)}, {"poses", std::move(poses)}});
   }
-  return {{"type", "futures"},
-          {"step", futures.step},
-          {"agents", futures.agents},
-          {"samples", std::move(samples)},
-          {"from", knows ? "everybody's own way and mind" : "beliefs over ways, hidden draws"}};
+  return {
+      {"type", "futures"},
+      {"step", futures.step},
+      {"agents", futures.agents},
+      {"samples", std::move(samples)},
+      {"from", knows ? "everybody's own way, hidden draws" : "beliefs over ways, hidden draws"}};
 }
 
 }  // namespace sumogamma

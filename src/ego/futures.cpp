@@ -42,23 +42,18 @@ Futures sample_futures(const EgoView& view, const FuturesRequest& request,
   Futures futures;
   futures.steps = static_cast<std::size_t>(std::lround(kHorizon / ForwardModel::kStep));
   for (const std::size_t row : seen) futures.agents.push_back(scene.id[row].value);
-  const Fork known = request.knows ? fork_of(view.world, seen) : Fork{};
-  const PlanRoot root = request.knows ? PlanRoot{} : plan_root(view, beliefs, false, 0);
-  Fork fork = request.knows ? known : root.fork;
+  const PlanRoot root = plan_root(view, beliefs, request.knows, 0);
+  Fork fork = root.fork;
   std::vector<std::size_t> rows;  // of the fork, in the order of `agents`
   for (const std::uint32_t id : futures.agents) rows.push_back(find_row(fork.scene, AgentId{id}));
   DrivingState state;
   const auto samples = static_cast<std::uint32_t>(request.samples);
   const std::uint64_t key = random_bits(request.key, 0, 0, Draw::Futures);
   for (std::uint32_t sample = 0; sample < samples; ++sample) {
-    if (request.knows) {
-      fork = known;
-    } else {
-      draw_scenario(forward.model(), root, key, sample, samples, state);
-      fork.scene = state.scene;
-      fork.road = state.road;
-      fork.traffic.state = state.traffic;
-    }
+    draw_scenario(forward.model(), root, key, sample, samples, state);
+    fork.scene = state.scene;
+    fork.road = state.road;
+    fork.traffic.state = state.traffic;
     for (std::size_t step = 0; step < futures.steps; ++step) {
       const double time = static_cast<double>(step) * ForwardModel::kStep;
       EgoAction action;

@@ -13,7 +13,7 @@ struct FuturesRequest {
                              ///< [m/s^2]. Empty: it keeps its speed
   int samples = 10;
   std::uint64_t key = 0;  ///< of the draws
-  bool knows = false;     ///< everybody's own way and mind: what a forecast could be at best
+  bool knows = false;     ///< everybody's own way instead of what is believed
 };
 
 /// Where everybody might be: joint samples, so that within one sample all reacted to each other.
@@ -32,8 +32,7 @@ struct Futures {
 /// `samples` futures over 4 s of the ego and those seen (rows_seen), given the ego's plan along
 /// its way. Everybody takes one of the ways of its belief in each sample, by turns as often as it
 /// is believed; what is hidden in people (responsibility, attention, headway, whether they keep a
-/// rule) is drawn anew, from `key` alone. Who `knows` draws nothing: its samples are all the same.
-/// Changes nothing in the world.
+/// rule) is drawn anew, from `key` alone. Changes nothing in the world.
 Futures sample_futures(const EgoView& view, const FuturesRequest& request,
                        const WayBeliefs& beliefs, ForwardModel& forward);
 

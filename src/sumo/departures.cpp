@@ -3,9 +3,11 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <utility>
 
+#include "sumo/scenario_inventory.h"
 #include "sumo/sumo_agents.h"
 #include "sumo/sumo_world.h"
 
@@ -26,6 +28,15 @@ void SumoWorld::take_departed() {
 }
 
 namespace {
+
+/// Most with which it may start, by its id or its flow's [m/s].
+double depart_speed_of(const SumoWorldOptions& options, const SumoAgentDetails& details) {
+  for (const std::string& name : {details.id, flow_of(details.id)})
+    if (const auto found = options.depart_speeds.find(name);
+        found != options.depart_speeds.end() && !details.is_person)
+      return found->second;
+  return std::numeric_limits<double>::infinity();
+}
 
 /// Why nobody but SUMO can move an agent; empty: we can.
 std::string_view sumos_own(const AgentType& type, const SumoAgentDetails& details) {
@@ -71,6 +82,7 @@ void SumoWorld::take_newcomer(SumoAgentDetails details, bool moves_already) {
     }
   }
   if (driven && !pending.resumes) {
+    pending.depart_speed = depart_speed_of(options_, pending.details);
     if (!pending.details.is_person) backend_.take_over(pending.details.id, 0.0);
     pending_.push_back(std::move(pending));
     return;

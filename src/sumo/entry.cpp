@@ -103,7 +103,7 @@ double free_entry_speed(const Model& model, const Newcomer& one) {
 }
 
 Newcomer newcomer_at(const Model& model, const Path& path, const AgentState& agent,
-                     const Ground& ground) {
+                     const Ground& ground, double most) {
   const AgentType& type = type_of(model.types, agent.type);
   const bool on_foot = type.kinematics == Kinematics::Holonomic;
   const Vec2 half(agent.footprint.vertices[0].x(), agent.footprint.vertices[1].y());
@@ -113,7 +113,7 @@ Newcomer newcomer_at(const Model& model, const Path& path, const AgentState& age
   const OrientedBox wanted{agent.position, heading, half + Vec2(gap, on_foot ? 0.1 : 0.2)};
   Newcomer one{path,     agent, ground, type, on_foot, direction, half.x(),
                half.y(), gap,   ease,   0.0,  wanted,  wanted};
-  one.wish = free_entry_speed(model, one);
+  one.wish = std::min(free_entry_speed(model, one), most);
   // whoever drives on for so long, beside who comes from aside, has nowhere to go [s]
   constexpr double kAlone = 1.0;
   const double way = on_foot ? 0.0 : kAlone * one.wish;
@@ -180,9 +180,10 @@ Bearing bearing_of(const EntryView& view, const Newcomer& one, std::size_t row) 
 }  // namespace
 
 std::optional<double> entry_speed(const EntryView& view, const Path& path, const AgentState& agent,
-                                  const Ground& ground, std::optional<AgentId>& blocker) {
+                                  const Ground& ground, double most,
+                                  std::optional<AgentId>& blocker) {
   const Scene& scene = view.scene;
-  const Newcomer one = newcomer_at(view.model, path, agent, ground);
+  const Newcomer one = newcomer_at(view.model, path, agent, ground, most);
   if (blocker) {
     const std::size_t row = find_row(scene, *blocker);
     if (row < scene.size() && bearing_of(view, one, row).bars) return std::nullopt;

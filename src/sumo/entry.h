@@ -24,10 +24,11 @@ struct EntryView {
 /// Speed [m/s] with which `agent` may start now where it stands, at the start of `path`, or nothing
 /// where its place isn't free: it must not touch anybody, be able to stop behind whoever is ahead
 /// and before the first line where something may have to be waited for, and force nobody behind it
-/// to brake hard. `ground`: there. `blocker`: who is looked at first, and who was found to be in
-/// the way; mostly the same one still is.
+/// to brake hard. `ground`: there. `most`: no faster than this [m/s]. `blocker`: who is looked at
+/// first, and who was found to be in the way; mostly the same one still is.
 std::optional<double> entry_speed(const EntryView& view, const Path& path, const AgentState& agent,
-                                  const Ground& ground, std::optional<AgentId>& blocker);
+                                  const Ground& ground, double most,
+                                  std::optional<AgentId>& blocker);
 
 /// Where beside the start of its path somebody on foot may start [m, positive left]: at `liked` and
 /// then, nearest first, aside of it within [`most_right`, `most_left`] and on the same side of the

@@ -1,6 +1,7 @@
 #include "sumo/insertion.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "base/units.h"
@@ -46,6 +47,8 @@ AgentState newcomer(const Model& model, const PendingAgent& pending, const Path&
   return agent;
 }
 
+constexpr double kAny = std::numeric_limits<double>::infinity();  // [m/s]
+
 /// Puts somebody on foot where there is room beside the start of its path, no house and nobody;
 /// nothing where there is none.
 std::optional<double> place_on_foot(const EntryView& view, PendingAgent::Entry& entry,
@@ -66,7 +69,8 @@ std::optional<double> place_on_foot(const EntryView& view, PendingAgent::Entry& 
   if (places.empty()) places.push_back(0.0);
   for (const double offset : places) {
     put_at(offset);
-    if (const auto speed = entry_speed(view, path, agent, ground, entry.blocker)) return speed;
+    if (const auto speed = entry_speed(view, path, agent, ground, kAny, entry.blocker))
+      return speed;
   }
   return std::nullopt;
 }
@@ -77,10 +81,10 @@ std::optional<Entrant> find_room_on(const EntryView& view, const PendingAgent& p
   const PathStretch& stretch = entry.path->stretches.front();
   entrant.height = elevation_at(view.model.road.lane(stretch.lane), stretch.lane_from);
   const Ground ground{stretch.lane, stretch.lane_from, entrant.height};
-  const std::optional<double> speed =
-      pending.details.is_person
-          ? place_on_foot(view, entry, ground, entrant.state)
-          : entry_speed(view, *entry.path, entrant.state, ground, entry.blocker);
+  const std::optional<double> speed = pending.details.is_person
+                                          ? place_on_foot(view, entry, ground, entrant.state)
+                                          : entry_speed(view, *entry.path, entrant.state, ground,
+                                                        pending.depart_speed, entry.blocker);
   if (!speed) return std::nullopt;
   entrant.state.speed = *speed;
   return entrant;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +36,7 @@ struct PendingAgent {
     std::shared_ptr<const Path> path;
     std::optional<AgentId> blocker;  ///< who was last in the way there
   };
+  double depart_speed = std::numeric_limits<double>::infinity();  ///< starts no faster [m/s]
   Entry entry;                 ///< from the lane that SUMO chose; no path where there is none
   std::vector<Entry> besides;  ///< from the lanes beside it, once needed
   bool looked_besides = false;

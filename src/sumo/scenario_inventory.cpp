@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -22,6 +23,13 @@ namespace {
 
 constexpr std::string_view kUnknown = "no element of SUMO 1.15";
 
+/// A number of departSpeed [m/s], negative for its words.
+double speed_of(std::string_view value) {
+  double speed = -1.0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), speed);
+  return error == std::errc() && end == value.data() + value.size() ? speed : -1.0;
+}
+
 /// Values that ask for what happens anyhow.
 bool asks_for_nothing(std::string_view name, std::string_view value) {
   constexpr std::array<std::string_view, 9> kNothing = {
@@ -30,7 +38,7 @@ bool asks_for_nothing(std::string_view name, std::string_view value) {
   // 0 is not what these are by themselves
   if (name.starts_with("vType.lc") || name.starts_with("vType.jm")) return false;
   if (name == "vehicle.departSpeed")
-    return value == "max" || value == "desired" || value == "speedLimit";
+    return value == "max" || value == "desired" || value == "speedLimit" || speed_of(value) >= 0.0;
   if (name == "vehicle.insertionChecks") return value == "all";
   if (name == "pedestrian.model") return value == "striping";
   if (name == "edgeData.type") return value == "performance" || value == "traffic";
@@ -217,6 +225,9 @@ void Inventory::begin(Reading& reading, std::string_view element, const char** a
     return;
   }
   if (plain_) return;
+  if (usual_name(element) == "vehicle" || element == "flowState")
+    if (const double speed = speed_of(attribute(attributes, "departSpeed")); speed >= 0.0)
+      result.depart_speeds[id] = speed;
   if (element == "rerouter") append_names(attribute(attributes, "edges"), result.rerouter_edges);
   if (element == "variableSpeedSign")
     append_names(attribute(attributes, "lanes"), result.sign_lanes);
@@ -330,11 +341,14 @@ std::string describe(const NotFollowed& item) {
 }
 
 bool has_id(const ScenarioInventory& inventory, const std::string& id) {
-  if (inventory.ids.contains(id)) return true;
+  return inventory.ids.contains(id) || inventory.flows.contains(flow_of(id));
+}
+
+std::string flow_of(const std::string& id) {
   const std::size_t point = id.rfind('.');
-  return point != std::string::npos && point + 1 < id.size() &&
-         id.find_first_not_of("0123456789", point + 1) == std::string::npos &&
-         inventory.flows.contains(id.substr(0, point));
+  const bool numbered = point != std::string::npos && point + 1 < id.size() &&
+                        id.find_first_not_of("0123456789", point + 1) == std::string::npos;
+  return numbered ? id.substr(0, point) : "";
 }
 
 }  // namespace sumogamma

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "sumo/scenario_input.h"
@@ -25,6 +26,8 @@ struct ScenarioInventory {
   std::set<std::string> types;            ///< ids of vTypes
   std::set<std::string> ids;              ///< of vehicles, trips, people, containers
   std::set<std::string> flows;  ///< ids of flows, whose vehicles are called ID.0, ID.1, ...
+  /// Numbers given as departSpeed, by id of vehicle, trip or flow [m/s].
+  std::unordered_map<std::string, double> depart_speeds;
   std::vector<std::string> rerouter_edges;  ///< on which rerouters act
   std::vector<std::string> sign_lanes;      ///< of variable speed signs
   std::vector<AskedOutput> outputs;         ///< that sumo-gamma writes, in the order of the files
@@ -43,6 +46,9 @@ ScenarioInventory take_inventory(const ScenarioInput& input, bool plain, bool wi
 /// "rerouter r1 in x.add.xml: not followed (who GAMMA drives keeps its route)"; of several "37
 /// e1Detector in det.add.xml: ...".
 std::string describe(const NotFollowed& item);
+
+/// The flow that an agent of this id would be of; empty where its id has no number.
+std::string flow_of(const std::string& id);
 
 /// Does an agent of this id come out of the demand?
 bool has_id(const ScenarioInventory& inventory, const std::string& id);

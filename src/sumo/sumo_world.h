@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "geometry/spatial_grid.h"
@@ -37,7 +38,9 @@ struct SumoWorldOptions {
   double dt = 0.05;                         ///< [s]
   std::vector<std::string> rerouter_edges;  ///< on which SUMO's rerouters act
   std::vector<std::string> sign_lanes;      ///< whose speed limit SUMO changes as it runs
-  bool others_steer = false;                ///< another client may change any lane's
+  /// Most with which a newcomer starts, by its id or its flow's [m/s].
+  std::unordered_map<std::string, double> depart_speeds;
+  bool others_steer = false;        ///< another client may change any lane's
   std::set<std::string> type_keys;  ///< of scenario.toml that win over vTypes: "types.car.headway"
   std::size_t watched = 32;         ///< ghosts whose pose is read back to measure the coupling
 };

@@ -323,17 +323,39 @@ Trial gap_acceptance() {
 }
 
 Trial lane_capacity() {
-  return {"V10",
-          "What does a lane carry?",
-          "A single file on rings of 1 km with 10 to 80 cars, limit 50 km/h: the largest flow.",
-          "ring_road",
-          {{"largest flow",
-            "vehicles/h",
-            {1800, 2200},
-            "usual capacity of a lane without junctions",
-            true,
-            "/capacity"}},
-          {}};
+  return {
+      "V10",
+      "What does a lane carry?",
+      "A single file on rings of 1 km with 10 to 110 cars, limit 50 km/h: the largest flow, and "
+      "the line of flow over density beyond it.",
+      "ring_road",
+      {{"largest flow",
+        "vehicles/h",
+        {1800, 2200},
+        "usual capacity of a lane without junctions",
+        true,
+        "/capacity"},
+       {"waves beyond it", "km/h", {-20, -15}, "Treiterer; NGSIM", true, "/wave_speed"},
+       {"density at which nobody moves",
+        "cars/km",
+        {120, 150},
+        "usual jam density",
+        true,
+        "/jam_density"}},
+      {}};
+}
+
+Trial phantom_jam() {
+  constexpr const char* kSugiyama = "Sugiyama et al. 2008: 22 cars on 230 m, 30 km/h";
+  return {
+      "V9",
+      "Do jams come of nothing on a dense ring, and not on one with room?",
+      "22 and 15 cars on rings of 230 m, limit 30 km/h; the slowest that anybody is from 200 to "
+      "300 s.",
+      "ring_road",
+      {{"slowest of 22", "m/s", {0.0, 2.0}, kSugiyama, true, "/slowest_of_22"},
+       {"slowest of 15", "m/s", {4.0, kAny}, kSugiyama, true, "/slowest_of_15"}},
+      {}};
 }
 
 Trial network_diagram() {
@@ -408,27 +430,17 @@ Trial congested_two_wheelers() {
 }  // namespace
 
 std::vector<Trial> driving_trials() {
-  std::vector<Trial> trials{queue_at_a_signal(),
-                            queue_that_starts(),
-                            following(),
-                            gap_acceptance(),
-                            stop_signs(),
-                            roundabout_entry(),
-                            lane_drop(),
-                            platoon(),
-                            lane_capacity(),
-                            network_diagram(),
-                            minor_road(),
-                            rolling_stops(),
-                            red_lights(),
-                            yielding_drivers(),
-                            two_wheelers(),
-                            overtaking(),
-                            zebra(),
-                            mid_block(),
-                            congested_two_wheelers(),
-                            bus_stop(),
-                            ring(),
+  std::vector<Trial> trials{queue_at_a_signal(), queue_that_starts(),
+                            following(),         gap_acceptance(),
+                            stop_signs(),        roundabout_entry(),
+                            lane_drop(),         platoon(),
+                            phantom_jam(),       lane_capacity(),
+                            network_diagram(),   minor_road(),
+                            rolling_stops(),     red_lights(),
+                            yielding_drivers(),  two_wheelers(),
+                            overtaking(),        zebra(),
+                            mid_block(),         congested_two_wheelers(),
+                            bus_stop(),          ring(),
                             sidewalk()};
   for (Trial& trial : trials) {
     trial.criteria.push_back(

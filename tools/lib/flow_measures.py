@@ -86,10 +86,11 @@ def following(ring, middle, times, length=1000.0):
 
 
 def ring_road(tracks, begin=120.0, end=300.0):
-    """Flow over density of rings of 1 km, after Edie: the largest flow and the density there; time gaps of drivers who follow
-    on the rings of 20 and 30 cars."""
+    """Flow over density of rings of 1 km, after Edie: the largest flow, the density there, the speed of waves beyond it and the
+    density at which nobody moves; time gaps of drivers who follow on the rings of 20 and 30 cars; on those of 230 m the
+    slowest that anybody is in the last 100 s."""
     rings, gaps = [], []
-    for cars in (10, 20, 30, 40, 50, 60, 80):
+    for cars in (10, 20, 30, 40, 50, 60, 80, 110):
         ring = [t for t in tracks.values() if t.name.startswith(f"cars_{cars}.")]
         times = [begin + k for k in range(int(end - begin))]
         seen = [s for track in ring for time in times if (s := track.at(time))]
@@ -98,8 +99,12 @@ def ring_road(tracks, begin=120.0, end=300.0):
             (east, y), (west, _) = junction_place("ring_road", f"cars_{cars}_east"), junction_place("ring_road", f"cars_{cars}_west")
             gaps += following(ring, ((east + west) / 2, y), times)
     top = max(rings, key=lambda r: r["flow"])
-    return {"rings": rings, "capacity": top["flow"], "density_at_capacity": top["density"],
-            "followers": len(gaps), "time_gap": mean(gaps), "time_gap_variation": deviation(gaps) / mean(gaps) if len(gaps) > 1 else None}
+    beyond = [(r["density"], r["flow"]) for r in rings if r["density"] >= top["density"]]
+    wave = slope(beyond) if len(beyond) > 1 else None  # [km/h]
+    slowest = {f"slowest_of_{cars}": min((s.speed for t in tracks.values() if t.name.startswith(f"short_{cars}.") for s in t.samples
+                                          if s.time >= end - 100.0), default=None) for cars in (15, 22)}
+    return {"rings": rings, **slowest, "capacity": top["flow"], "density_at_capacity": top["density"], "wave_speed": wave,
+            "jam_density": beyond[-1][0] - beyond[-1][1] / wave if wave else None, "followers": len(gaps), "time_gap": mean(gaps), "time_gap_variation": deviation(gaps) / mean(gaps) if len(gaps) > 1 else None}
 
 
 ROAD, STRIPES = 3.2, 2.0  # half widths of the carriageway and of the crossings of `zebras` [m]

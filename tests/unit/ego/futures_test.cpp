@@ -72,9 +72,7 @@ TEST_F(FuturesTest, OfWhoKnowsFollowEverybodysOwnWay) {
   const Futures futures = ask(3, true);
   const std::vector<double> covered = ways(futures, here_.scene.position[foe]);
   ASSERT_EQ(covered.size(), 3u);
-  EXPECT_EQ(covered[0], covered[1]);
-  EXPECT_EQ(covered[0], covered[2]);
-  EXPECT_GT(covered[0], 25.0) << "it was believed to stop as likely as anything";
+  for (const double one : covered) EXPECT_GT(one, 25.0) << "stops as likely, as far as is believed";
   const Vec2 end = futures.poses[futures.steps * 2 - 1].position;
   EXPECT_LT(way.line.project(end).distance, 1.0);
 }

@@ -97,7 +97,7 @@ class EntryTest : public ::testing::Test {
     agent.preferred_speed = preferred;
     SpatialGrid grid;
     grid.rebuild(here_.scene.position);
-    return entry_speed({here_.model, here_.road, here_.scene, grid}, path, agent, Ground{},
+    return entry_speed({here_.model, here_.road, here_.scene, grid}, path, agent, Ground{}, most_,
                        blocker_);
   }
   /// Puts a row so far from where newcomers start.
@@ -108,10 +108,22 @@ class EntryTest : public ::testing::Test {
   }
   testing::RoadScene here_{testing::small_net()};
   std::size_t first_ = here_.add("car", {"in", "out"}, 120, 10);
+  double most_ = std::numeric_limits<double>::infinity();  // [m/s]
   std::optional<AgentId> blocker_;
 };
 
 TEST_F(EntryTest, AFreePlaceIsTaken) { EXPECT_TRUE(speed_of_newcomer()); }
+
+TEST_F(EntryTest, NobodyStartsFasterThanItsDepartureAllows) {
+  EXPECT_GT(*speed_of_newcomer(), 5.0);
+  most_ = 5.0;
+  EXPECT_EQ(*speed_of_newcomer(), 5.0);
+  // standing is no reason to brake for whoever stands behind
+  most_ = 0.0;
+  const std::size_t behind = here_.add("car", {"in", "out"}, 0, 0);
+  put(behind, Vec2(-9, 0), 0, 0);
+  EXPECT_EQ(*speed_of_newcomer(), 0.0);
+}
 
 TEST_F(EntryTest, WhoIsInTheWayIsLookedAtFirst) {
   const std::size_t other = here_.add("car", {"in", "out"}, 0, 0);

@@ -66,6 +66,19 @@ TEST_F(ScenarioInventoryTest, PlainSumoFollowsItsFiles) {
   EXPECT_THAT(lines(true), ::testing::ElementsAre(HasSubstr("option random")));
 }
 
+TEST_F(ScenarioInventoryTest, GathersSpeedsAtDeparture) {
+  EXPECT_EQ(inventory().depart_speeds, (std::unordered_map<std::string, double>{{"v", 5.0}}));
+  EXPECT_THAT(lines(), Not(Contains(HasSubstr("departSpeed"))));
+  folder_.write("more.rou.xml",
+                "<routes><flow id=\"f\" departSpeed=\"0\"/><vehicle id=\"w\" "
+                "departSpeed=\"last\"/></routes>");
+  EXPECT_EQ(inventory().depart_speeds.at("f"), 0.0);
+  EXPECT_EQ(inventory().depart_speeds.count("w"), 0u);
+  EXPECT_THAT(lines(), Contains(HasSubstr("vehicle departSpeed w in more.rou.xml: not followed")));
+  EXPECT_EQ(flow_of("f.12"), "f");
+  EXPECT_EQ(flow_of("f.x"), "");
+}
+
 TEST_F(ScenarioInventoryTest, GathersNames) {
   EXPECT_THAT(inventory().ids, IsEmpty());
   const ScenarioInventory all = inventory(false, true);
