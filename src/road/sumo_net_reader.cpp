@@ -399,8 +399,10 @@ class NetBuilder {
       return direction == TurnDirection::Straight || direction == TurnDirection::PartlyLeft ||
              direction == TurnDirection::PartlyRight;
     };
+    // links of sidewalks onto walking areas have no right of way, and netconvert's letter for it
     for (const Connection& link : net_.connections)
-      if (net_.lane(link.from).kind == LaneKind::Normal && link.signal == kNoSignal &&
+      if (net_.lane(link.from).kind == LaneKind::Normal &&
+          net_.lane(link.to).kind == LaneKind::Normal && link.signal == kNoSignal &&
           link.priority == LinkPriority::Major && goes_on(link.direction))
         is_main[index_of(net_.lane(link.from).edge)] = true;
     for (Connection& link : net_.connections)

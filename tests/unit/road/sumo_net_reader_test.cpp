@@ -152,7 +152,13 @@ TEST_F(SumoNetReader, NumbersLinksAsSumoDoes) {
 constexpr const char* kStopNet = R"xml(<net version="1.9">
   <edge id="west" from="W" to="C"><lane id="west_0" index="0" speed="13" length="90" shape="0,-2 90,-2"/></edge>
   <edge id="east" from="E" to="C"><lane id="east_0" index="0" speed="13" length="90" shape="200,2 110,2"/></edge>
-  <edge id="south" from="S" to="C"><lane id="south_0" index="0" speed="13" length="90" shape="102,-100 102,-10"/></edge>
+  <edge id=":C_w0" function="walkingarea">
+    <lane id=":C_w0_0" index="0" allow="pedestrian" speed="1" length="2" width="2" shape="103,-10 105,-10 105,-8 103,-8"/>
+  </edge>
+  <edge id="south" from="S" to="C">
+    <lane id="south_0" index="0" allow="pedestrian" speed="1" length="90" shape="104,-100 104,-10"/>
+    <lane id="south_1" index="1" speed="13" length="90" shape="102,-100 102,-10"/>
+  </edge>
   <edge id="to_east" from="C" to="E"><lane id="to_east_0" index="0" speed="13" length="90" shape="110,-2 200,-2"/></edge>
   <edge id="to_west" from="C" to="W"><lane id="to_west_0" index="0" speed="13" length="90" shape="90,2 0,2"/></edge>
   <edge id="to_south" from="C" to="S"><lane id="to_south_0" index="0" speed="13" length="90" shape="98,-10 98,-100"/></edge>
@@ -164,8 +170,9 @@ constexpr const char* kStopNet = R"xml(<net version="1.9">
   <connection from="west" to="to_south" fromLane="0" toLane="0" dir="r" state="M"/>
   <connection from="east" to="to_west" fromLane="0" toLane="0" dir="s" state="M"/>
   <connection from="east" to="to_south" fromLane="0" toLane="0" dir="l" state="s"/>
-  <connection from="south" to="to_east" fromLane="0" toLane="0" dir="r" state="s"/>
-  <connection from="south" to="to_west" fromLane="0" toLane="0" dir="l" state="s"/>
+  <connection from="south" to="to_east" fromLane="1" toLane="0" dir="r" state="s"/>
+  <connection from="south" to="to_west" fromLane="1" toLane="0" dir="l" state="s"/>
+  <connection from="south" to=":C_w0" fromLane="0" toLane="0" dir="s" state="M"/>
 </net>
 )xml";
 
@@ -178,7 +185,7 @@ TEST_F(SumoNetReader, AStopSignStandsOnAnApproachNotOnWhoTurnsOffTheMainRoad) {
     return found;
   };
   EXPECT_EQ(priorities("east_0"), (std::vector{LinkPriority::Major, LinkPriority::Minor}));
-  EXPECT_EQ(priorities("south_0"), (std::vector{LinkPriority::Stop, LinkPriority::Stop}));
+  EXPECT_EQ(priorities("south_1"), (std::vector{LinkPriority::Stop, LinkPriority::Stop}));
   EXPECT_EQ(priorities("west_0"), (std::vector{LinkPriority::Major, LinkPriority::Major}));
 }
 
