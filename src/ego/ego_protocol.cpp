@@ -124,7 +124,7 @@ EgoAction action_of(const json& action) {
   }
   const auto acceleration = action.find("acceleration");
   if (acceleration == action.end())
-    throw ProtocolError{"\"action\" has neither an \"acceleration\" nor a \"trajectory\""};
+    throw ProtocolError{R"("action" has neither an "acceleration" nor a "trajectory")"};
   result.acceleration = finite(*acceleration, "\"acceleration\"");
   if (const auto steering = action.find("steering"); steering != action.end())
     result.steering = finite(*steering, "\"steering\"");
@@ -147,7 +147,7 @@ FuturesRequest futures_request_of(const json& message) {
   }
   if (const auto ways = message.find("ways"); ways != message.end()) {
     if (*ways != "believed" && *ways != "true")
-      throw ProtocolError{"\"ways\" must be \"believed\" or \"true\""};
+      throw ProtocolError{R"("ways" must be "believed" or "true")"};
     request.knows = *ways == "true";
   }
   return request;

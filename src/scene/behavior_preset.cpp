@@ -74,6 +74,7 @@ std::string_view name_of(BehaviorPreset preset) {
 
 std::vector<std::string> preset_names() {
   std::vector<std::string> names;
+  names.reserve(std::size(kBehaviorPresets));
   for (const BehaviorPreset preset : kBehaviorPresets) names.emplace_back(name_of(preset));
   return names;
 }
