@@ -99,7 +99,7 @@ std::unique_ptr<const RecordingMap> read_recording_map(const MapArguments& argum
   read->map.offset = offset_of(arguments, file, read->network);
   const std::set<std::string> recorded = osm::replayed_signals(file);
   for (const Signal& signal : read->network.signals)
-    read->map.recorded.push_back(recorded.count(signal.name) > 0);
+    read->map.recorded.push_back(recorded.contains(signal.name));
   return read;
 }
 

@@ -3,7 +3,7 @@
 usage: tidy.py BUILD_FOLDER changed|all
 
 BUILD_FOLDER: has compile_commands.json; gets tests.xml. changed: the sources that differ, or whose headers do, from where the branch
-left the main one, or from eight commits ago on the main one itself, those of the last commits first; in a clone that shows no other
+left the main one, or from five commits ago on the main one itself, those of the last commits first; in a clone that shows no other
 commit all of them, in an order that each commit draws anew. After TIDY_SECONDS (240; all: no end) no further file is begun, and how
 many were left out is said, and counted as one test that was skipped. Ends with 1 where anything was found.
 """
@@ -17,7 +17,7 @@ import sys
 import time
 import xml.etree.ElementTree as ElementTree
 
-COMMITS = 8  # looked back on the main branch
+COMMITS = 5  # looked back on the main branch
 
 
 def git(*arguments):
