@@ -10,11 +10,10 @@ import json
 import math
 import os
 import sys
-import xml.etree.ElementTree as ElementTree
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
 from flow_measures import arterial, gap_acceptance, grid, ring_road, zebras  # noqa: E402
-from tracks import (SCENARIOS, SIZES, decelerations, hardest, lane_points, mean, people, read_tracks, share,  # noqa: E402
+from tracks import (SIZES, decelerations, hardest, lane_points, mean, net_of, people, read_tracks, share,  # noqa: E402
                     vehicles)
 
 # ---- one function a scenario: tracks -> figures ---------------------------------------------------------------------
@@ -118,7 +117,7 @@ def two_way_stop(tracks):
 
 def crossing_ways(scenario):
     """Pairs of (from edge, to edge) of the junction `centre` whose ways meet, from its request matrix."""
-    net = ElementTree.parse(os.path.join(SCENARIOS, scenario, scenario + ".net.xml"))
+    net = net_of(scenario)
     junction = next(j for j in net.iter("junction") if j.get("id") == "centre")
     place = {lane: i for i, lane in enumerate(junction.get("intLanes").split())}
     way = {place[c.get("via")]: (c.get("from"), c.get("to")) for c in net.iter("connection") if c.get("via") in place}

@@ -1,7 +1,6 @@
 #include "sumo/insertion.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "base/units.h"
@@ -47,8 +46,6 @@ AgentState newcomer(const Model& model, const PendingAgent& pending, const Path&
   return agent;
 }
 
-constexpr double kAny = std::numeric_limits<double>::infinity();  // [m/s]
-
 /// Puts somebody on foot where there is room beside the start of its path, no house and nobody;
 /// nothing where there is none.
 std::optional<double> place_on_foot(const EntryView& view, PendingAgent::Entry& entry,
@@ -69,8 +66,7 @@ std::optional<double> place_on_foot(const EntryView& view, PendingAgent::Entry& 
   if (places.empty()) places.push_back(0.0);
   for (const double offset : places) {
     put_at(offset);
-    if (const auto speed = entry_speed(view, path, agent, ground, kAny, entry.blocker))
-      return speed;
+    if (const auto speed = entry_speed(view, path, agent, ground, 0.0, entry.blocker)) return speed;
   }
   return std::nullopt;
 }

@@ -1,7 +1,7 @@
 """What streams are measured by: gap acceptance, following, the macroscopic fundamental diagram, yielding to people."""
 import bisect
 import math
-from collections import defaultdict
+from collections import defaultdict, namedtuple
 
 from tracks import deviation, junction_place, mean, median, people, share, vehicles
 
@@ -38,13 +38,11 @@ def siegloch(gaps):
 
 def passings(tracks, place, move):
     """Times [s] at which vehicles of the main road pass the middle of a junction of `gap_acceptance`, and at which those of
-    its queue leave their line."""
+    its queue leave their line. tracks: of those who drive there."""
     x, y = junction_place("gap_acceptance", place)
     main, queue = [], []
-    for track in vehicles(tracks):
-        name, arm = track.name.split(".")[0].rsplit("_", 1)
-        if name != place:
-            continue
+    for track in tracks:
+        arm = arm_of(track)[1]
         if arm == "queue":
             queue.append(track.passes((lambda s: s.x < x + 4.0) if move == "major" else (lambda s: s.y > y - 4.0)))
         else:
@@ -52,14 +50,22 @@ def passings(tracks, place, move):
     return tuple(sorted(t for t in times if t is not None) for times in (main, queue))
 
 
+def arm_of(track):
+    """(junction, arm) that a vehicle of `gap_acceptance` comes from: "right_200", "west"."""
+    return tuple(track.name.split(".")[0].rsplit("_", 1))
+
+
 def gap_acceptance(tracks, begin=60.0, end=480.0):
     """By movement and conflicting flow: vehicles an hour that leave a queue without end, over HCM's capacity at the flow
     that there was; critical headway and follow-up time, and the capacity that they ask for."""
-    figures = {}
+    figures, here = {}, defaultdict(list)
+    for track in vehicles(tracks):
+        here[arm_of(track)[0]].append(track)
     for move, usual in CRITICAL_HEADWAY.items():
         flows, gaps = {}, []
         for asked in (200, 600, 1000):
-            main, queue = ([t for t in times if begin <= t < end] for times in passings(tracks, f"{move}_{asked}", move))
+            place = f"{move}_{asked}"
+            main, queue = ([t for t in times if begin <= t < end] for times in passings(here[place], place, move))
             conflicting, entered = (3600 * len(times) / (end - begin) for times in (main, queue))
             gaps += [(b - a, bisect.bisect(queue, b) - bisect.bisect(queue, a)) for a, b in zip(main, main[1:])]
             flows[str(asked)] = {"conflicting": conflicting, "entered": entered,
@@ -96,18 +102,22 @@ def ring_road(tracks, begin=120.0, end=300.0):
         seen = [s for track in ring for time in times if (s := track.at(time))]
         rings.append({"density": len(seen) / len(times), "flow": 3.6 * sum(s.speed for s in seen) / len(times)})
         if cars in (20, 30):
-            (east, y), (west, _) = junction_place("ring_road", f"cars_{cars}_east"), junction_place("ring_road", f"cars_{cars}_west")
+            (east, y), (west, _) = (junction_place("ring_road", f"cars_{cars}_{side}") for side in ("east", "west"))
             gaps += following(ring, ((east + west) / 2, y), times)
     top = max(rings, key=lambda r: r["flow"])
     beyond = [(r["density"], r["flow"]) for r in rings if r["density"] >= top["density"]]
     wave = slope(beyond) if len(beyond) > 1 else None  # [km/h]
-    slowest = {f"slowest_of_{cars}": min((s.speed for t in tracks.values() if t.name.startswith(f"short_{cars}.") for s in t.samples
-                                          if s.time >= end - 100.0), default=None) for cars in (15, 22)}
+    slowest = {f"slowest_of_{cars}": min((s.speed for t in tracks.values() if t.name.startswith(f"short_{cars}.")
+                                          for s in t.samples if s.time >= end - 100.0), default=None) for cars in (15, 22)}
     return {"rings": rings, **slowest, "capacity": top["flow"], "density_at_capacity": top["density"], "wave_speed": wave,
-            "jam_density": beyond[-1][0] - beyond[-1][1] / wave if wave else None, "followers": len(gaps), "time_gap": mean(gaps), "time_gap_variation": deviation(gaps) / mean(gaps) if len(gaps) > 1 else None}
+            "jam_density": beyond[-1][0] - beyond[-1][1] / wave if wave else None, "followers": len(gaps),
+            "time_gap": mean(gaps), "time_gap_variation": deviation(gaps) / mean(gaps) if len(gaps) > 1 else None}
 
 
 ROAD, STRIPES = 3.2, 2.0  # half widths of the carriageway and of the crossings of `zebras` [m]
+
+# a car at a crossing: when it was far before it, on the stripes from, to [s]; its lane, 0 or 1; the car and its way, 1 or -1
+Passing = namedtuple("Passing", "far on off lane car way")
 
 
 def time_over(track, inside):
@@ -136,36 +146,39 @@ class Crossing:
         return min((road[0] for kerb, road, _ in self.walkers if time < kerb < until), default=None)
 
 
+def passing_of(car, place, far):
+    """How a car passes the crossing at x = `place`; None where it doesn't come to it."""
+    way = 1 if car[-1].x > car[0].x else -1
+    before = car.passes(lambda s: (s.x - place) * way > -far)
+    on = car.passes(lambda s: (s.x - place) * way > -STRIPES)
+    if on is None:
+        return None
+    off = car.passes(lambda s: (s.x - place) * way - car.length > STRIPES)
+    return Passing(before, on, off if off is not None else car[-1].time, int(car.at(on).y > 0), car, way)
+
+
 def zebras(tracks, far=55.0, near=30.0):
     """Drivers with nobody ahead of them to whose way somebody comes on foot while they are between `far` and `near` [m] before a
     crossing: too near for people to be across before them, far enough to halt; and the share that lets these go first. People
     and cars that cross each other's way within 5 s of each other."""
-    cars = vehicles(tracks)
     met, let, least, apart, first = 0, 0, [], [], []
-    for place in (0.0, 200.0, 400.0, 600.0, 800.0):
-        crossing = Crossing(place, people(tracks))
-        over = []  # (since when far before it, on the stripes from, to, lane, car, way)
-        for car in cars:
-            way = 1 if car[-1].x > car[0].x else -1
-            before = car.passes(lambda s: (s.x - place) * way > -far)
-            on = car.passes(lambda s: (s.x - place) * way > -STRIPES)
-            if on is not None:
-                off = car.passes(lambda s: (s.x - place) * way - car.length > STRIPES)
-                over.append((before, on, off if off is not None else car[-1].time, int(car.at(on).y > 0), car, way))
-        for before, on, off, lane, car, way in over:
-            ahead = any(other[3] == lane and other[0] <= before < other[1] and other[4] is not car for other in over)
-            speed = car.at(before).speed
-            if not ahead and speed > 8.0:
-                step = crossing.met_by(before, car.passes(lambda s: (s.x - place) * way > -near))
+    for number in range(5):
+        place = 200.0 * number
+        crossing = Crossing(place, [w for w in people(tracks) if w.name.split(".")[0].endswith(f"_{number}")])
+        over = [passing for car in vehicles(tracks) if (passing := passing_of(car, place, far))]
+        for one in over:
+            ahead = any(other.lane == one.lane and other.far <= one.far < other.on and other is not one for other in over)
+            if not ahead and one.car.at(one.far).speed > 8.0:
+                step = crossing.met_by(one.far, one.car.passes(lambda s: (s.x - place) * one.way > -near))
                 if step is not None:
-                    met, let = met + 1, let + (step < on)
-            nearest = min(((on - t[1], True) if t[1] < on else (t[0] - off, False)
-                           for _, _, lanes in crossing.walkers if (t := lanes[lane])), default=(math.inf, False))
-            if nearest[0] < 5.0:
-                apart.append(nearest[0])
-                first.append(nearest[1])
-                if nearest[1]:
-                    least.append(min(s.speed for s in car.samples if before <= s.time <= on))
+                    met, let = met + 1, let + (step < one.on)
+            between, walker_first = min(((one.on - t[1], True) if t[1] < one.on else (t[0] - one.off, False)
+                                         for _, _, lanes in crossing.walkers if (t := lanes[one.lane])), default=(math.inf, False))
+            if between < 5.0:
+                apart.append(between)
+                first.append(walker_first)
+                if walker_first:
+                    least.append(min(s.speed for s in one.car.samples if one.far <= s.time <= one.on))
     return {"met": met, "let_go": let, "let_go_share": let / met if met else None, "encroachments": len(apart),
             "person_first": share(first), "least_speed_behind_people": median(least),
             "encroachment_below_1_s": share(e < 1.0 for e in apart), "encroachment_below_2_s": share(e < 2.0 for e in apart)}
@@ -209,7 +222,7 @@ def grid(tracks, interval=60.0, end=900.0):
         if 0 < k < len(filling):
             (a, pa), (b, pb) = filling[k - 1], filling[k]
             lost.append((pa + (pb - pa) * (n - a) / (b - a) if b > a else pa) - p)
-    return {"points": [list(p) for p in points], "most_production": most, "accumulation_there": max(points, key=lambda p: p[1])[0],
-            "most_accumulation": points[fullest][0], "production_when_fullest": points[fullest][1] / most,
+    return {"points": [list(p) for p in points], "most_production": most,
+            "accumulation_there": max(points, key=lambda p: p[1])[0], "most_accumulation": points[fullest][0], "production_when_fullest": points[fullest][1] / most,
             "scatter": math.sqrt(mean(s * s for s in scatter)) / most if scatter else None,
             "hysteresis": mean(lost) / most if lost else None}

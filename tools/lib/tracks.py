@@ -1,4 +1,5 @@
 """Tracks of a run's trajectories, and what every measure of them needs."""
+import functools
 import gzip
 import math
 import os
@@ -67,10 +68,15 @@ def read_tracks(path):
     return tracks
 
 
+@functools.lru_cache
+def net_of(scenario):
+    """The scenario's net as XML."""
+    return ElementTree.parse(os.path.join(SCENARIOS, scenario, scenario + ".net.xml"))
+
+
 def lane_points(scenario, lane):
     """Points of a lane's shape in the scenario's net."""
-    net = ElementTree.parse(os.path.join(SCENARIOS, scenario, scenario + ".net.xml"))
-    shape = next(e.get("shape") for e in net.iter("lane") if e.get("id") == lane)
+    shape = next(e.get("shape") for e in net_of(scenario).iter("lane") if e.get("id") == lane)
     return [tuple(float(c) for c in point.split(",")[:2]) for point in shape.split()]
 
 
@@ -114,6 +120,5 @@ def deviation(values):
 
 def junction_place(scenario, junction):
     """Where a junction of the scenario's net lies [m]."""
-    net = ElementTree.parse(os.path.join(SCENARIOS, scenario, scenario + ".net.xml"))
-    found = next(e for e in net.iter("junction") if e.get("id") == junction)
+    found = next(e for e in net_of(scenario).iter("junction") if e.get("id") == junction)
     return float(found.get("x")), float(found.get("y"))
