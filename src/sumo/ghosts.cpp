@@ -116,16 +116,18 @@ bool meets_ghosts(const Scene& scene, const SpatialGrid& grid, std::size_t row) 
 
 double speed_behind_ghosts(const Scene& scene, std::size_t row, bool on_foot, const Path* path,
                            std::span<const std::uint32_t> ghosts) {
-  constexpr double kStands = 1.0, kSameWay = 0.7;                   // [m/s], cosine
-  constexpr double kStep = 0.5, kAside = 0.1, kBefore = 0.5;        // [m]
-  constexpr double kBraking = 3.0, kReaction = 0.3, kOnFoot = 1.0;  // [m/s^2], [s], [m]
-  constexpr double kPasses = 0.8;                                   // [s]
+  constexpr double kStands = 1.0, kSameWay = 0.7;                             // [m/s], cosine
+  constexpr double kStep = 0.5, kAside = 0.1, kBefore = 0.5, kDeeper = 0.05;  // [m]
+  constexpr double kBraking = 3.0, kReaction = 0.3, kOnFoot = 1.0;            // [m/s^2], [s], [m]
+  constexpr double kPasses = 0.8;                                             // [s]
   const double speed = scene.speed[row];
   const double reach =
       on_foot ? kOnFoot : speed * speed / (2.0 * kBraking) + kReaction * speed + 2.0 * kBefore;
   const Vec2 heading = direction_of(scene.heading[row]);
-  OrientedBox now = box_of(scene, row);
+  const OrientedBox own = box_of(scene, row);
+  OrientedBox now = own;
   now.half.y() += kAside;
+  const OrientedBox next = body_after(scene, row, path, now.half, kStep);
   struct Ahead {
     OrientedBox box;
     double speed;  // along the own way [m/s]
@@ -141,7 +143,9 @@ double speed_behind_ghosts(const Scene& scene, std::size_t row, bool on_foot, co
       continue;
     box.center += 0.5 * way * box.forward;
     box.half.x() += 0.5 * way;
-    if (separation(now, box) > 0.0)
+    // who is close beside it may not get closer; who is in it gets out whichever way it goes
+    const double apart = separation(now, box);
+    if (apart > 0.0 || (separation(own, box) > 0.0 && separation(next, box) < apart - kDeeper))
       ahead.push_back({box, std::max(scene.velocity[other].dot(heading), 0.0)});
   }
   double most = std::numeric_limits<double>::infinity();

@@ -44,6 +44,7 @@ bool SumoWorld::changes_hands() const {
 /// rules count that depend on place or time.
 bool SumoWorld::is_wanted(const KnownAgent& known, const Vec2& position, bool ours) const {
   if (known.sumos_own) return false;
+  if (known.blocked) return true;
   if (!known.wish.empty()) return known.wish == "take";
   for (std::size_t i = 0; i < options_.control.rules.size(); ++i) {
     const ControlRule& rule = options_.control.rules[i];

@@ -155,6 +155,8 @@ void SumoWorld::hold_drivers(const Scene& scene) {
 void SumoWorld::hold_speed(const Scene& scene, std::size_t row, bool aside,
                            std::span<const std::uint32_t> near) {
   constexpr double kPatience = 30.0;  // [s]
+  // SUMO's people walk around nobody whom SUMO doesn't see
+  constexpr double kStands = 5.0;  // [s]
   // for 0 SUMO finds a person no way over the next junction
   constexpr double kSlowest = 0.01;  // [m/s]
   KnownAgent& known = known_[scene.id[row].value];
@@ -168,6 +170,7 @@ void SumoWorld::hold_speed(const Scene& scene, std::size_t row, bool aside,
   // where both have waited for long, SUMO's driver goes as if there were nobody
   if (!near.empty() && scene.held[row].standing < kPatience && (straight_on || path != nullptr))
     most = std::min(most, speed_behind_ghosts(scene, row, known.is_person, path, near));
+  known.blocked = known.is_person && most < kForever && scene.held[row].standing > kStands;
   if (most < kForever)
     backend_.set_speed(known.sumo_id, known.is_person,
                        known.is_person ? std::max(most, kSlowest) : most);

@@ -183,6 +183,24 @@ TEST_P(PartialControl, PeopleStay) {
   EXPECT_EQ(results["agents"]["kept_on_foot"], 3);
 }
 
+// SUMO's people see no ghost and walk around none
+TEST_P(PartialControl, WhoIsHeldOnFootWalksAroundAsOurs) {
+  testing::PlainNet net;
+  net.nodes = "<node id='A' x='0' y='0'/><node id='B' x='300' y='0'/>";
+  net.edges = "<edge id='wc' from='A' to='B' numLanes='1' speed='13.9' width='2.8'/>";
+  testing::write_plain_net(net, folder_.file("net.net.xml"));
+  const json results = run(
+      "<vType id='lorry' vClass='truck'/>"
+      "<vehicle id='y' type='lorry' depart='0'><route edges='wc'/>"
+      "<stop lane='wc_0' endPos='150' duration='55'/></vehicle>"
+      "<vehicle id='x' type='lorry' depart='3'><route edges='wc'/></vehicle>"
+      "<person id='p' type='ped' depart='20' departPos='110'><walk edges='wc' arrivalPos='200'/>"
+      "</person>",
+      {"--control", "x"});
+  EXPECT_EQ(results["agents"]["taken_over"], 1);
+  EXPECT_EQ(results["agents"]["kept_on_foot"], 0) << "no rule gave anybody up";
+}
+
 TEST_P(PartialControl, RulesThatCantBeMeantAreRefused) {
   expect_refused({"--control", "karr"}, "'car'");
   expect_refused({"--control", "q*"}, "q*");

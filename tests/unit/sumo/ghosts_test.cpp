@@ -68,6 +68,17 @@ TEST_F(Ghosts, NobodyIsFasterThanWhoIsAheadAllows) {
   EXPECT_TRUE(std::isinf(speed_behind(ghost))) << "beside its way";
 }
 
+TEST_F(Ghosts, WhoIsCloseBesideOneGetsNoCloser) {
+  add({0, 0}, 0, 1);
+  const std::size_t ghost = add({3, 1.85}, 0, 0);
+  EXPECT_TRUE(std::isinf(speed_behind(ghost))) << "along it";
+  scene_.heading[0] = 0.3;
+  scene_.position[0].y() = -0.6;
+  EXPECT_EQ(speed_behind(ghost), 0.0) << "into it";
+  scene_.position[0].y() = 0.6;
+  EXPECT_TRUE(std::isinf(speed_behind(ghost))) << "out of it";
+}
+
 TEST_F(Ghosts, OvertakingTakesALongStretchFreeOfGhosts) {
   add({0, 0}, 0, 10);
   add({120, 3}, kPi, 10);
