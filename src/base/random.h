@@ -25,6 +25,7 @@ enum class Draw : std::uint32_t {
   StudyDesign,
   Bootstrap,
   RollingStop,
+  Creeping,
 };
 
 /// 64 well-mixed bits: a pure function of its arguments (splitmix64 finaliser, applied a word at a

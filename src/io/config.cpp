@@ -81,6 +81,7 @@ constexpr std::array kComplianceFields{
     ComplianceField{"yielding_rate", &Compliance::yielding_rate, true},
     ComplianceField{"jaywalking_rate", &Compliance::jaywalking_rate, true},
     ComplianceField{"rolling_stops", &Compliance::rolling_stops, true},
+    ComplianceField{"creeping", &Compliance::creeping, true},
     ComplianceField{"speed_factor", &Compliance::speed_factor, false},
     ComplianceField{"speed_factor_deviation", &Compliance::speed_factor_deviation, false},
     ComplianceField{"free_speed", &Compliance::free_speed, false},

@@ -78,7 +78,8 @@ bool keeps_rules(const ReplayStep& step, std::size_t row) {
   if (step.scene.manners[row].key == 0 || !step.types) return true;
   const Compliance& compliance = type_of(*step.types, step.scene.type[row]).compliance;
   return compliance.red_light_running == 0.0 && compliance.jaywalking_rate == 0.0 &&
-         compliance.yielding_rate == 1.0 && compliance.rolling_stops == 0.0;
+         compliance.yielding_rate == 1.0 && compliance.rolling_stops == 0.0 &&
+         compliance.creeping == 0.0;
 }
 
 }  // namespace

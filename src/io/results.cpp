@@ -156,6 +156,7 @@ Json behavior_json(const RunResults& results) {
                           {"yielding_rate", own.yielding_rate},
                           {"jaywalking_rate", own.jaywalking_rate},
                           {"rolling_stops", own.rolling_stops},
+                          {"creeping", own.creeping},
                           {"critical_gap", type.critical_gap},
                           {"headway", type.headway},
                           {"headway_deviation", own.headway_deviation},

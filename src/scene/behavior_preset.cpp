@@ -17,6 +17,7 @@ struct Observed {
       critical_gap;
 };
 constexpr double kRolling = 0.17;
+constexpr double kCreeping = 0.042;  // 1 of 24 cars at red, Karlsruhe's junction k733
 constexpr Observed kObserved[] = {
     {"pedestrian", 0.0, 1.0, 0.15, 0.0, 0.0, 1.9},        // gap: DUT shared space, 5th percentile
     {"bicycle", 0.391, 0.5, 0.0, kRolling, 0.2, 1.0},     // red: SinD
@@ -102,6 +103,7 @@ void apply_preset(BehaviorPreset preset, AgentTypeTable& types) {
       type.compliance.yielding_rate = row.yielding_rate;
       type.compliance.jaywalking_rate = row.jaywalking_rate;
       type.compliance.rolling_stops = row.rolling_stops;
+      if (type.kinematics != Kinematics::Holonomic) type.compliance.creeping = kCreeping;
       type.compliance.headway_deviation = row.headway_deviation;
       type.critical_gap = row.critical_gap;
     }

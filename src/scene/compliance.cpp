@@ -61,4 +61,9 @@ bool rolls_at_stop_sign(const Compliance& compliance, const Manners& manners, st
          random_uniform(manners.key, place, 0, Draw::RollingStop) < compliance.rolling_stops;
 }
 
+bool creeps_at_red(const Compliance& compliance, const Manners& manners, std::uint64_t place) {
+  return manners.key != 0 &&
+         random_uniform(manners.key, place, 0, Draw::Creeping) < compliance.creeping;
+}
+
 }  // namespace sumogamma

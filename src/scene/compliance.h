@@ -15,6 +15,8 @@ struct Compliance {
                                  ///< the way is free; and that cross roads between junctions
   double rolling_stops = 0;      ///< share of drivers that roll over the line of a stop sign where
                                  ///< the way is free, instead of halting there
+  double creeping = 0;      ///< share of drivers that, first at a red light, roll on over its line
+                            ///< and wait there
   double speed_factor = 0;  ///< mean of the desired speed over the limit (on foot and on bicycles:
                             ///< over the usual speed); 0: what SUMO drew from its vType
   double speed_factor_deviation = 0;
@@ -55,6 +57,7 @@ double draw_mid_block(const Compliance& compliance, std::uint64_t seed, std::uin
 bool runs_red_light(const Compliance& compliance, const Manners& manners, std::uint64_t place);
 bool jaywalks(const Compliance& compliance, const Manners& manners, std::uint64_t place);
 bool yields_to_people(const Compliance& compliance, const Manners& manners, std::uint64_t place);
+bool creeps_at_red(const Compliance& compliance, const Manners& manners, std::uint64_t place);
 bool rolls_at_stop_sign(const Compliance& compliance, const Manners& manners, std::uint64_t place);
 
 }  // namespace sumogamma

@@ -34,6 +34,12 @@ bool lets_people_go(const Model& model, const Scene& scene, std::size_t row,
          yields_to_people(type.compliance, scene.manners[row], place_of(model, crossing));
 }
 
+bool creeps(const TrafficView& view, std::size_t row, ConnectionId link) {
+  const AgentType& type = type_of(view.model.types, view.scene.type[row]);
+  return type.kinematics != Kinematics::Holonomic &&
+         creeps_at_red(type.compliance, view.scene.manners[row], place_of(view.model, link));
+}
+
 bool rolls_over(const TrafficView& view, std::size_t row, ConnectionId link) {
   const Connection& connection = view.model.road.connection(link);
   if (!halts_first(connection.priority) || view.road.signal(connection) != Light::None)

@@ -14,6 +14,10 @@ bool goes_at_red(const TrafficView& view, std::size_t row, ConnectionId link);
 /// and a crossing. True for everybody on foot.
 bool lets_people_go(const Model& model, const Scene& scene, std::size_t row, ConnectionId crossing);
 
+/// Does this agent, first at a red light, roll on over its line? Drawn once for an agent and an
+/// approach.
+bool creeps(const TrafficView& view, std::size_t row, ConnectionId link);
+
 /// Does this agent take a stop sign's line for one to give way at, at which it needn't halt? Drawn
 /// once for an agent and an approach. False where the link has no stop sign, or a signal.
 bool rolls_over(const TrafficView& view, std::size_t row, ConnectionId link);

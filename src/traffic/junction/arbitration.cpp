@@ -11,6 +11,7 @@
 #include "traffic/junction/waiting_place.h"
 #include "traffic/longitudinal/car_following.h"
 #include "traffic/patience.h"
+#include "traffic/rule_breaking.h"
 
 namespace sumogamma {
 
@@ -34,6 +35,17 @@ LinkDuty duty_of(const TrafficView& view, const Traveller& traveller, const Path
   const double drawn = is_amber(signal) ? drawn_line(view, traveller, link) : halt;
   return {halt - view.parameters.stop_margin, signal_duty(view, traveller, link, halt, drawn),
           is_wide(view.scene, traveller.row)};
+}
+
+/// How far somebody has rolled on by now from where it halted at red [m]: in the end as far over
+/// the line as it halted before it; nowhere where others turn by close.
+double crept(const TrafficView& view, const Traveller& traveller, const PathLink& link) {
+  const std::size_t row = traveller.row;
+  if (view.traffic.halted_for[row] != link.connection || link.halt < link.stop_line ||
+      !creeps(view, row, link.connection))
+    return 0.0;
+  const double since = view.scene.time - view.traffic.halted_at[row];
+  return std::min(view.parameters.halting_speed * since, 2.0 * view.parameters.stop_margin);
 }
 
 /// Who has to halt first, at a stop sign or before it goes at red, and hasn't.
@@ -106,7 +118,8 @@ LinkDecision decide_link(const TrafficView& view, const Traveller& traveller,
                          const PathLink& link) {
   const Model& model = view.model;
   const LinkDuty duty = duty_of(view, traveller, link);
-  if (duty.signal == SignalDuty::Stop) return {true, duty.stop_at, LimitReason::Signal, -1};
+  if (duty.signal == SignalDuty::Stop)
+    return {true, duty.stop_at + crept(view, traveller, link), LimitReason::Signal, -1};
   const bool at_red = duty.signal == SignalDuty::GoAtRed;
   LinkDecision decision;
   if (has_to_halt_first(view, traveller, link, at_red))

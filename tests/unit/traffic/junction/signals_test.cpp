@@ -306,6 +306,24 @@ TEST_F(RedLightRunning, WhoDoesNotGoesWhereTheWayIsFree) {
   EXPECT_GT(here_.context(own_).allowed_speed, 0.1);
 }
 
+TEST_F(RedLightRunning, WhoCreepsWaitsOverTheLine) {
+  const PathLink& link = here_.path(own_).links.front();
+  ASSERT_EQ(link.halt, link.stop_line);
+  here_.update();  // halts
+  here_.scene.time += 60.0;
+  const auto waits_at = [&](double over_line) {
+    here_.move(own_, link.stop_line - 1.1 + over_line);
+    here_.update();
+    EXPECT_EQ(here_.context(own_).reason, LimitReason::Signal);
+    return here_.context(own_).allowed_speed < 0.1;
+  };
+  EXPECT_TRUE(waits_at(-0.6));
+  for (AgentType& type : here_.model.types) type.compliance.creeping = 1.0;
+  EXPECT_FALSE(waits_at(-0.6));
+  EXPECT_FALSE(waits_at(0.1));
+  EXPECT_TRUE(waits_at(0.6)) << "it goes no further";
+}
+
 TEST_F(RedLightRunning, ItHaltsFirst) {
   set_rate(1.0);
   here_.move(own_, here_.path(own_).links.front().halt - 15);
