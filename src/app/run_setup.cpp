@@ -66,7 +66,8 @@ SumoArguments arguments_of(const RunPlan& plan) {
   wish.gui = plan.options.gui;
   wish.plain = !plan.control.any();
   wish.own = {"--seed", std::to_string(plan.clock.seed % 2147483647u)};
-  if (wish.plain && plan.vehicles > 0)
+  // SUMO counts those whom we keep waiting as well
+  if (!plan.control.takes_newcomers() && plan.vehicles > 0)
     wish.own.insert(wish.own.end(), {"--max-num-vehicles", std::to_string(plan.vehicles)});
   wish.user = plan.sumo_words;
   return wish;
@@ -156,7 +157,7 @@ std::unique_ptr<SumoBackend> start_backend(const RunPlan& plan, const RoadNetwor
 SumoWorldOptions world_options_of(const RunPlan& plan) {
   SumoWorldOptions options;
   options.control = plan.control;
-  options.max_vehicles = plan.control.any() ? plan.vehicles : 0;
+  options.max_vehicles = plan.control.takes_newcomers() ? plan.vehicles : 0;
   options.seed = plan.clock.seed;
   options.dt = plan.clock.step;
   options.rerouter_edges = plan.inventory.rerouter_edges;

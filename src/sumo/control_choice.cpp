@@ -33,6 +33,11 @@ bool ControlChoice::all() const {
   });
 }
 
+bool ControlChoice::takes_newcomers() const {
+  return std::any_of(rules.begin(), rules.end(),
+                     [](const ControlRule& rule) { return !rule.changes(); });
+}
+
 bool ControlChoice::changes() const {
   return std::any_of(rules.begin(), rules.end(),
                      [](const ControlRule& rule) { return rule.changes(); });

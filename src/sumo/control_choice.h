@@ -37,6 +37,8 @@ struct ControlChoice {
   /// Everybody, everywhere, all the time?
   bool all() const;
   bool changes() const;
+  /// Is anybody ours from its departure on?
+  bool takes_newcomers() const;
   /// What rules call types and ids, patterns included.
   std::set<std::string> names() const;
 };

@@ -161,6 +161,15 @@ TEST_P(PartialControl, ACircleFollowsAnAgent) {
   EXPECT_LT(results["agents"]["controlled_peak"], 8);
 }
 
+TEST_P(PartialControl, NoMoreAreAliveThanAskedForWhoeverDrives) {
+  for (const std::vector<std::string>& who :
+       {std::vector<std::string>{"--control", "all"}, {"--region=-50,-50,950,350"}}) {
+    std::vector<std::string> options = {"--agents", "5"};
+    options.insert(options.end(), who.begin(), who.end());
+    EXPECT_LE(run(platoon(10), options)["agents"]["controlled_peak"], 6) << who.back();
+  }
+}
+
 TEST_P(PartialControl, ATimeOrAShare) {
   const json timed = run(platoon(8), {"--take", "from = 20, to = 30"});
   EXPECT_GT(timed["agents"]["taken_over"], 0);
