@@ -138,7 +138,7 @@ bool DrivingProblem::crashes(const Scene& scene) const {
 }
 
 /// The ego rolls along its path; nobody is asked.
-void DrivingProblem::move_ego_alone(double acceleration, State& state) {
+void DrivingProblem::move_ego_alone(double acceleration, State& state) const {
   Scene& scene = state.scene;
   const std::size_t row = root_.ego;
   const double speed =

@@ -90,7 +90,7 @@ class DrivingProblem {
   double time_to_contact(const State& state) const;
   double way_to_red(const State& state) const;
   std::uint64_t observation(const Scene& scene) const;
-  void move_ego_alone(double acceleration, State& state);
+  void move_ego_alone(double acceleration, State& state) const;
 
   const EgoView& view_;
   const PlanRoot& root_;

@@ -294,7 +294,7 @@ void ReplayEncoder::add_plan(const PlanTrace& plan) {
     put_count(scenario.size());
     for (const PlanTrace::Part& part : scenario) {
       put_count(part.id.value);
-      put_count(static_cast<std::uint64_t>(part.way + 1));
+      put_count(static_cast<std::uint64_t>(part.way) + 1);
       put_line(part.line);
     }
   }
