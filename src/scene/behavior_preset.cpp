@@ -10,24 +10,24 @@ namespace {
 /// SinD 8_2_1, of those who go straight on or turn left (who turns right is exempt there): cars 2
 /// of 181, motorcycles 59 of 127, bicycles 34 of 87, tricycles 6 of 22; walking speed and time
 /// between people and vehicles in the DUT recordings; stop signs at an all-way stop of
-/// INTERACTION's (MA: 0.83 of cars halt). The rest is assumed.
+/// INTERACTION's (MA: 0.83 of cars halt); creeping at Karlsruhe's junction k733 (1 of 24 cars at
+/// red). The rest is assumed.
 struct Observed {
   const char* type;
-  double red_light_running, yielding_rate, jaywalking_rate, rolling_stops, headway_deviation,
-      critical_gap;
+  double red_light_running, yielding_rate, jaywalking_rate, rolling_stops, creeping,
+      headway_deviation, critical_gap;
 };
-constexpr double kRolling = 0.17;
-constexpr double kCreeping = 0.042;  // 1 of 24 cars at red, Karlsruhe's junction k733
+constexpr double kRolling = 0.17, kCreeping = 0.042;
 constexpr Observed kObserved[] = {
-    {"pedestrian", 0.0, 1.0, 0.15, 0.0, 0.0, 1.9},        // gap: DUT shared space, 5th percentile
-    {"bicycle", 0.391, 0.5, 0.0, kRolling, 0.2, 1.0},     // red: SinD
-    {"motorcycle", 0.465, 0.5, 0.0, kRolling, 0.2, 1.0},  // red: SinD
-    {"car", 0.011, 0.7, 0.0, kRolling, 0.2, 1.0},         // red: SinD
-    {"van", 0.011, 0.7, 0.0, kRolling, 0.2, 1.0},         // as cars
-    {"bus", 0.011, 0.7, 0.0, kRolling, 0.2, 1.0},         // as cars
-    {"truck", 0.011, 0.7, 0.0, kRolling, 0.2, 1.0},       // as cars
-    {"electric_tricycle", 0.273, 0.5, 0.0, kRolling, 0.2, 1.0},  // red: SinD's tricycles
-    {"gyro_scooter", 0.391, 0.5, 0.0, kRolling, 0.2, 1.0},       // as bicycles
+    {"pedestrian", 0.0, 1.0, 0.15, 0.0, 0.0, 0.0, 1.9},  // gap: DUT shared space, 5th percentile
+    {"bicycle", 0.391, 0.5, 0.0, kRolling, kCreeping, 0.2, 1.0},            // red: SinD
+    {"motorcycle", 0.465, 0.5, 0.0, kRolling, kCreeping, 0.2, 1.0},         // red: SinD
+    {"car", 0.011, 0.7, 0.0, kRolling, kCreeping, 0.2, 1.0},                // red: SinD
+    {"van", 0.011, 0.7, 0.0, kRolling, kCreeping, 0.2, 1.0},                // as cars
+    {"bus", 0.011, 0.7, 0.0, kRolling, kCreeping, 0.2, 1.0},                // as cars
+    {"truck", 0.011, 0.7, 0.0, kRolling, kCreeping, 0.2, 1.0},              // as cars
+    {"electric_tricycle", 0.273, 0.5, 0.0, kRolling, kCreeping, 0.2, 1.0},  // red: SinD's tricycles
+    {"gyro_scooter", 0.391, 0.5, 0.0, kRolling, kCreeping, 0.2, 1.0},       // as bicycles
 };
 
 /// Drivers of cars at four places of INTERACTION's (GL, MA, EP1, FT): the mean over places of what
@@ -103,7 +103,7 @@ void apply_preset(BehaviorPreset preset, AgentTypeTable& types) {
       type.compliance.yielding_rate = row.yielding_rate;
       type.compliance.jaywalking_rate = row.jaywalking_rate;
       type.compliance.rolling_stops = row.rolling_stops;
-      if (type.kinematics != Kinematics::Holonomic) type.compliance.creeping = kCreeping;
+      type.compliance.creeping = row.creeping;
       type.compliance.headway_deviation = row.headway_deviation;
       type.critical_gap = row.critical_gap;
     }

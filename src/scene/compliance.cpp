@@ -15,6 +15,12 @@ double draw_normal(double mean, double deviation, double least, std::uint64_t se
   return std::max(mean + deviation * draw, least);
 }
 
+/// For the share `rate` of all (agent, place) pairs; nobody whose manners weren't drawn breaks a
+/// rule.
+bool breaks(const Manners& manners, std::uint64_t place, Draw purpose, double rate) {
+  return manners.key != 0 && random_uniform(manners.key, place, 0, purpose) < rate;
+}
+
 }  // namespace
 
 Manners draw_manners(const Compliance& compliance, std::uint64_t seed, std::uint32_t id) {
@@ -42,13 +48,11 @@ double draw_mid_block(const Compliance& compliance, std::uint64_t seed, std::uin
 }
 
 bool runs_red_light(const Compliance& compliance, const Manners& manners, std::uint64_t place) {
-  return manners.key != 0 &&
-         random_uniform(manners.key, place, 0, Draw::Compliance) < compliance.red_light_running;
+  return breaks(manners, place, Draw::Compliance, compliance.red_light_running);
 }
 
 bool jaywalks(const Compliance& compliance, const Manners& manners, std::uint64_t place) {
-  return manners.key != 0 &&
-         random_uniform(manners.key, place, 0, Draw::Jaywalking) < compliance.jaywalking_rate;
+  return breaks(manners, place, Draw::Jaywalking, compliance.jaywalking_rate);
 }
 
 bool yields_to_people(const Compliance& compliance, const Manners& manners, std::uint64_t place) {
@@ -57,13 +61,11 @@ bool yields_to_people(const Compliance& compliance, const Manners& manners, std:
 }
 
 bool rolls_at_stop_sign(const Compliance& compliance, const Manners& manners, std::uint64_t place) {
-  return manners.key != 0 &&
-         random_uniform(manners.key, place, 0, Draw::RollingStop) < compliance.rolling_stops;
+  return breaks(manners, place, Draw::RollingStop, compliance.rolling_stops);
 }
 
 bool creeps_at_red(const Compliance& compliance, const Manners& manners, std::uint64_t place) {
-  return manners.key != 0 &&
-         random_uniform(manners.key, place, 0, Draw::Creeping) < compliance.creeping;
+  return breaks(manners, place, Draw::Creeping, compliance.creeping);
 }
 
 }  // namespace sumogamma

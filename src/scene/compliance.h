@@ -57,7 +57,7 @@ double draw_mid_block(const Compliance& compliance, std::uint64_t seed, std::uin
 bool runs_red_light(const Compliance& compliance, const Manners& manners, std::uint64_t place);
 bool jaywalks(const Compliance& compliance, const Manners& manners, std::uint64_t place);
 bool yields_to_people(const Compliance& compliance, const Manners& manners, std::uint64_t place);
-bool creeps_at_red(const Compliance& compliance, const Manners& manners, std::uint64_t place);
 bool rolls_at_stop_sign(const Compliance& compliance, const Manners& manners, std::uint64_t place);
+bool creeps_at_red(const Compliance& compliance, const Manners& manners, std::uint64_t place);
 
 }  // namespace sumogamma

@@ -100,8 +100,7 @@ struct KnownAgent {
   bool sumos_own = false;   ///< nobody but SUMO can move it
   bool leaves = false;      ///< ours, and wanted by no rule any more
   bool was_kept = false;    ///< counted in LifeCycle::kept_on_foot
-  bool blocked =
-      false;  ///< SUMO's, on foot, and a ghost stands in its way: walks around it as ours
+  bool blocked = false;     ///< SUMO's, on foot before a ghost: it gets around that as ours
   double liked_offset = 0;  ///< beside its path, before it made for its lane's middle [m]
   HandBackWatch hand_back;
   DriverHold hold;

@@ -223,6 +223,7 @@ def grid(tracks, interval=60.0, end=900.0):
             (a, pa), (b, pb) = filling[k - 1], filling[k]
             lost.append((pa + (pb - pa) * (n - a) / (b - a) if b > a else pa) - p)
     return {"points": [list(p) for p in points], "most_production": most,
-            "accumulation_there": max(points, key=lambda p: p[1])[0], "most_accumulation": points[fullest][0], "production_when_fullest": points[fullest][1] / most,
+            "accumulation_there": max(points, key=lambda p: p[1])[0],
+            "most_accumulation": points[fullest][0], "production_when_fullest": points[fullest][1] / most,
             "scatter": math.sqrt(mean(s * s for s in scatter)) / most if scatter else None,
             "hysteresis": mean(lost) / most if lost else None}

@@ -27,11 +27,14 @@ TEST(Compliance, RatesAreTheSharesAskedFor) {
   for (const double rate : {0.007, 0.26, 0.345, 0.9}) {
     Compliance compliance;
     compliance.red_light_running = compliance.jaywalking_rate = compliance.yielding_rate = rate;
+    compliance.rolling_stops = compliance.creeping = rate;
     for (const std::uint64_t seed : {1u, 2u})
       for (const std::uint64_t place : {0u, 17u}) {
         EXPECT_NEAR(share(compliance, seed, place, runs_red_light), rate, tolerance(rate));
         EXPECT_NEAR(share(compliance, seed, place, jaywalks), rate, tolerance(rate));
         EXPECT_NEAR(share(compliance, seed, place, yields_to_people), rate, tolerance(rate));
+        EXPECT_NEAR(share(compliance, seed, place, rolls_at_stop_sign), rate, tolerance(rate));
+        EXPECT_NEAR(share(compliance, seed, place, creeps_at_red), rate, tolerance(rate));
       }
   }
 }
@@ -41,6 +44,7 @@ TEST(Compliance, CompliantKeepsEveryRuleAndOneBreaksAll) {
   EXPECT_EQ(share(compliant, 1, 3, runs_red_light), 0.0);
   EXPECT_EQ(share(compliant, 1, 3, jaywalks), 0.0);
   EXPECT_EQ(share(compliant, 1, 3, yields_to_people), 1.0);
+  EXPECT_EQ(share(compliant, 1, 3, creeps_at_red), 0.0);
   Compliance lawless;
   lawless.red_light_running = lawless.jaywalking_rate = 1.0;
   lawless.yielding_rate = 0.0;
